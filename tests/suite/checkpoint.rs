@@ -10,7 +10,7 @@ use mdr_tui::scenario::preset;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::Simulation;
 
-use crate::common::{apart, begin, holds, largest, load, run_setup};
+use crate::common::{apart, begin, change, holds, largest, load, ran, run_setup};
 use crate::test_dir::has;
 
 fn session(preset: &str, sets: &[&str]) -> Session {
@@ -50,17 +50,12 @@ fn follow(mut straight: Session, steps: usize, every: usize, what: &str) -> Sess
         if step % every == 0 {
             assert!(seen(&straight) == seen(&broken), "{what}: step {step}");
             broken = through_a_file(&broken);
-            assert!(
-                seen(&straight) == seen(&broken),
-                "{what}: put away at {step}"
-            );
+            let is_same = seen(&straight) == seen(&broken);
+            assert!(is_same, "{what}: put away at {step}");
         }
-        let (one, other) = (straight.step(), broken.step());
-        assert_eq!(
-            one.map_err(|error| error.to_string()),
-            other.map_err(|error| error.to_string()),
-            "{what}: step {step}"
-        );
+        let [one, other] = [&mut straight, &mut broken]
+            .map(|session| session.step().map_err(|error| error.to_string()));
+        assert_eq!(one, other, "{what}: step {step}");
     }
     assert!(seen(&straight) == seen(&broken), "{what}");
     straight
@@ -77,12 +72,9 @@ fn every_kind_of_run_goes_on_as_if_nothing_had_been() {
     };
     // Stiff steps are split.
     fig3(&["wear.coefficient=4e-8", "numerics.points=60"], [90, 7]);
+    let mild = ["wear.coefficient=1e-12", "numerics.points=40"];
     let jumped = fig3(
-        &[
-            "numerics.integrator=cycle-jump",
-            "numerics.points=40",
-            "wear.coefficient=1e-12",
-        ],
+        &["numerics.integrator=cycle-jump", mild[0], mild[1]],
         [140, 3],
     );
     assert!(jumped.simulation().state().stats.jumps > 3);
@@ -109,13 +101,9 @@ fn every_method_scheme_and_grid_goes_on_as_if_nothing_had_been() {
     for method in ["product", "a", "a+b", "b", "benad"] {
         for scheme in ["euler", "trapezoid"] {
             for grid in ["graded", "uniform"] {
-                let sets = [
-                    "numerics.points=30".to_owned(),
-                    format!("numerics.method={method}"),
-                    format!("numerics.scheme={scheme}"),
-                    format!("numerics.grid={grid}"),
-                ];
-                let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+                let words = [("method", method), ("scheme", scheme), ("grid", grid)];
+                let sets = words.map(|(key, word)| format!("numerics.{key}={word}"));
+                let sets = ["numerics.points=30", &sets[0], &sets[1], &sets[2]];
                 follow(session("li2019-fig3", &sets), 110, 9, &sets.join(" "));
             }
         }
@@ -138,7 +126,7 @@ fn a_run_with_changes_goes_on_as_if_nothing_had_been() {
         ("numerics.grid", "graded"),
     ] {
         session = follow(session, 37, 5, key);
-        session.change(key, value).expect("a change");
+        change(&mut session, key, value);
         let again = through_a_file(&session);
         assert_eq!(again.changes(), session.changes());
         assert_eq!(again.loaded(), session.loaded());
@@ -151,21 +139,24 @@ fn a_run_with_changes_goes_on_as_if_nothing_had_been() {
 fn changes_that_are_still_to_come_come() {
     let mut first = session("li2019-fig3", &["numerics.points=30"]);
     first.advance_to(0.5).expect("half a cycle");
-    first.change("numerics.method", "a").expect("a change");
+    change(&mut first, "numerics.method", "a");
     first.advance_to(1.25).expect("a cycle");
-    first.change("wear.law", "power").expect("a change");
-    let scenario = first.as_run(Vec::new());
-    let planned = Session::start(scenario).expect("a contact");
+    change(&mut first, "wear.law", "power");
+    let planned = begin(first.as_run(Vec::new()));
     let end = follow(planned, 180, 10, "planned changes");
     assert_eq!(end.changes(), first.changes());
+}
+
+/// The checkpoint of a run on few cells, a part of a cycle on.
+fn small() -> Vec<u8> {
+    let session = ran(load("li2019-fig3", &["numerics.points=8"]), 0.31);
+    encode(&session, None::<&()>)
 }
 
 /// Takes one value off every list of the saved state in turn: none of them may be believed.
 #[test]
 fn a_state_of_another_length_is_refused() {
-    let mut session = session("li2019-fig3", &["numerics.points=8"]);
-    session.advance_to(0.31).expect("a part of a cycle");
-    let whole = encode(&session, None::<&()>);
+    let whole = small();
     let contents = {
         let mut ends = whole.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
         let start = ends.nth(2).expect("three lines").0 + 1;
@@ -223,9 +214,7 @@ fn refusal(bytes: &[u8]) -> String {
 
 #[test]
 fn a_torn_file_is_told_from_a_whole_one() {
-    let mut session = session("li2019-fig3", &["numerics.points=8"]);
-    session.advance_to(0.31).expect("a part of a cycle");
-    let whole = encode(&session, None::<&()>);
+    let whole = small();
     for length in 0..whole.len() {
         let error = refusal(&whole[..length]);
         let early = length < "mdr-tui checkpoint ".len();
@@ -244,15 +233,11 @@ fn a_torn_file_is_told_from_a_whole_one() {
 #[test]
 fn what_is_no_checkpoint_of_this_version_is_refused() {
     let whole = encode(&session("hertz", &["numerics.points=8"]), None::<&()>);
-    let body = whole
-        .splitn(2, |&byte| byte == b'\n')
-        .nth(1)
-        .expect("a body");
+    let body = whole.splitn(2, |&byte| byte == b'\n').nth(1);
+    let body = body.expect("a body");
     let later = [b"mdr-tui checkpoint 9\n", body].concat();
-    assert_eq!(
-        refusal(&later),
-        "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 4"
-    );
+    let due = "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 4";
+    assert_eq!(refusal(&later), due);
     let rude = [b"mdr-tui checkpoint \x1b[31m1\n", body].concat();
     assert!(refusal(&rude).contains("is a checkpoint of version"));
     for bytes in [&b""[..], b"title = \"x\"\n", &[0; 4096], b"\xff\xfe"] {
@@ -291,20 +276,10 @@ fn saved_breaks_that_lie_outside_of_the_grid_are_refused() {
             let breaks = entry(entry(contact, breaks), "kinks").as_array_mut();
             *entry(&mut breaks.expect("a list")[0], "at") = Value::Float(at);
             let refusal = restored(bent).expect_err("a refusal").to_string();
-            assert_eq!(
-                refusal,
-                format!("the saved {what} do not lie in the grid"),
-                "{at}"
-            );
+            let due = format!("the saved {what} do not lie in the grid");
+            assert_eq!(refusal, due, "{at}");
         }
     }
-}
-
-/// Fails unless two lists are alike but for 1e-12 of the largest value.
-fn assert_alike(method: &str, one: &[f64], other: &[f64]) {
-    let deepest = largest(one.iter().copied());
-    assert!(deepest > 0.0);
-    holds(method, apart(one, other), 1e-12 * deepest);
 }
 
 /// What the steps have added up is the image of the wear as a whole.
@@ -314,6 +289,9 @@ fn the_image_that_steps_add_up_is_that_of_the_wear() {
         let simulation = fig3(method, 20.0);
         let restored = Simulation::resume(simulation.setup().clone(), simulation.state().clone());
         let restored = restored.expect("a run");
-        assert_alike(method, &simulation.state().image, &restored.state().image);
+        let [one, other] = [&simulation, &restored].map(|run| &*run.state().image);
+        let deepest = largest(one.iter().copied());
+        assert!(deepest > 0.0);
+        holds(method, apart(one, other), 1e-12 * deepest);
     }
 }

@@ -105,10 +105,8 @@ fn the_trapezoid_has_the_regular_steps_and_a_few_at_turning_points() {
     assert!(moments.is_sorted_by(|a, b| a < b));
     let step = 0.01;
     let is_regular = |moment: f64| (moment / step - (moment / step).round()).abs() < 1e-9;
-    let added = moments
-        .iter()
-        .filter(|&&moment| !is_regular(moment))
-        .count();
+    let added = moments.iter().filter(|&&moment| !is_regular(moment));
+    let added = added.count();
     assert!((3..=30).contains(&added), "{added} steps added in 3 cycles");
     // No step is longer than a regular one and a tenth, and no whole cycle is left out.
     for pair in moments.windows(2) {
@@ -137,18 +135,13 @@ fn json_has_the_names_and_the_values_of_the_files() {
     for name in &history.columns {
         let value = &summary[name.as_str()];
         if name == "regime" {
-            assert_eq!(
-                value.as_str().unwrap_or_default(),
-                history.rows[history.rows.len() - 1][27]
-            );
+            let last = &history.rows[history.rows.len() - 1][27];
+            assert_eq!(value.as_str().unwrap_or_default(), last);
             continue;
         }
         let last = history.column(name).pop().expect("a row");
-        assert_eq!(
-            value.as_f64().map_or(f64::NAN, f64::abs).to_bits(),
-            last.abs().to_bits(),
-            "{name}"
-        );
+        let value = value.as_f64().map_or(f64::NAN, f64::abs);
+        assert_eq!(value.to_bits(), last.abs().to_bits(), "{name}");
     }
     assert_eq!(summary["checks"], "ok");
     assert_eq!(summary["method"], history.header("method"));
@@ -162,14 +155,10 @@ fn presets_are_listed_and_printed_as_they_stand() {
     for (line, preset) in list.lines().zip(preset::ALL) {
         assert!(line.starts_with(preset.name) && line.ends_with(&preset.title()));
         assert!(line.chars().count() <= 80, "{line}");
-        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("presets")
-            .join(format!("{}.toml", preset.name));
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("presets");
+        let file = fs::read_to_string(folder.join(format!("{}.toml", preset.name)));
         let printed = dir.done(&format!("presets {}", preset.name));
-        assert_eq!(
-            printed,
-            fs::read_to_string(file).expect("the preset's file")
-        );
+        assert_eq!(printed, file.expect("the preset's file"));
     }
     // A preset starts a scenario of one's own.
     dir.write("mine.toml", dir.done("presets cone").as_bytes());

@@ -14,12 +14,10 @@ fn explicit_stepping_is_of_first_order() {
     let changes: Vec<f64> = changes.collect();
     // Measured 1.0e-4, 5.1e-5, 2.5e-5, 1.3e-5 of d: 0.0195/steps to 0.0202/steps.
     for (change, steps) in changes.iter().zip([100.0, 200.0, 400.0, 800.0]) {
-        let case = format!("change from {steps} steps");
-        holds(&case, *change, 0.025 / steps);
+        holds(format!("change from {steps} steps"), *change, 0.025 / steps);
     }
     for pair in changes.windows(2) {
         let observed = (pair[0] / pair[1]).log2();
-        let case = format!("order {observed:.3}");
-        holds(&case, (observed - 1.0).abs(), 0.12);
+        holds(format!("order {observed:.3}"), (observed - 1.0).abs(), 0.12);
     }
 }

@@ -1,7 +1,7 @@
 //! The figures of a cycle against closed forms: Mindlin's force, the ratios at the border of gross
 //! slip, and the running conditions of the presets.
 
-use crate::common::near;
+use crate::common::{change, energy, near, ran};
 use mdr_tui::reading::{CycleFigures, Regime};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
@@ -9,9 +9,7 @@ use mdr_tui::scenario::session::Session;
 /// The session of a preset with `sets` after so many cycles.
 fn after(preset: &str, sets: &[String], cycles: f64) -> Session {
     let scenario = Scenario::load(preset, sets).expect("a scenario");
-    let mut session = Session::start(scenario).expect("a contact");
-    session.advance_to(cycles).expect("cycles");
-    session
+    ran(scenario, cycles)
 }
 
 fn figures(preset: &str, sets: &[String], cycles: f64) -> CycleFigures {
@@ -85,9 +83,7 @@ fn there_are_none_before_the_first_period_ends_and_within_that_of_a_change() {
     session.advance_to(2.5).expect("cycles");
     let before = session.cycle_figures().expect("figures");
     // A period that was begun under other parameters tells of neither.
-    session
-        .change("friction.coefficient", "0.2")
-        .expect("a change");
+    change(&mut session, "friction.coefficient", "0.2");
     session.advance_to(3.0).expect("cycles");
     assert_eq!(session.cycle_figures(), None);
     session.advance_to(4.0).expect("cycles");
@@ -103,21 +99,15 @@ fn after_a_jump_they_are_those_of_the_cycle_that_follows() {
     let mut session = after("mild-million", &[], 20_000.0);
     assert!(session.simulation().state().stats.jumps > 0);
     let jumped = session.cycle_figures().expect("figures");
-    session
-        .change("numerics.integrator", "\"direct\"")
-        .expect("a change");
+    change(&mut session, "numerics.integrator", "\"direct\"");
     session.advance_to(20_001.0).expect("a cycle");
     let stepped = session.cycle_figures().expect("figures");
-    for (a, b) in [
-        (jumped.energy, stepped.energy),
-        (jumped.force_amplitude, stepped.force_amplitude),
-        (
-            jumped.displacement_amplitude,
-            stepped.displacement_amplitude,
-        ),
-        (jumped.normal_force, stepped.normal_force),
-    ] {
-        assert!((a / b - 1.0).abs() < 1e-4, "{jumped:?} {stepped:?}");
+    let told = |of: &CycleFigures| {
+        let amplitudes = [of.force_amplitude, of.displacement_amplitude];
+        [amplitudes, [of.energy, of.normal_force]].concat()
+    };
+    for (jumped, stepped) in told(&jumped).into_iter().zip(told(&stepped)) {
+        near("a figure", jumped, stepped, 1e-4);
     }
     assert_eq!(jumped.regime, stepped.regime);
 }
@@ -125,11 +115,9 @@ fn after_a_jump_they_are_those_of_the_cycle_that_follows() {
 #[test]
 fn energy_per_cycle_adds_up_to_the_work_of_friction() {
     let session = after("li2019-fig3", &[], 3.0);
-    let work = session.simulation().moment().dissipated_energy;
     let figures = session.cycle_figures().expect("figures");
-    let before = after("li2019-fig3", &[], 2.0);
-    let before = before.simulation().moment().dissipated_energy;
-    near("energy", figures.energy, work - before, 1e-12);
+    let work = energy(&session) - energy(&after("li2019-fig3", &[], 2.0));
+    near("energy", figures.energy, work, 1e-12);
     let per_energy = session.simulation().moment().wear_per_energy();
     close(per_energy.map(|k| k / 1.3e-10), 1.0, 5e-3);
 }

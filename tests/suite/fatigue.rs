@@ -178,10 +178,8 @@ fn by_trial(stresses: &[[f64; 4]], poisson: f64) -> [f64; 3] {
             *at += (goal - *at) / f64::from(k);
         }
     }
-    let hydrostatic = stresses
-        .iter()
-        .map(|[xx, yy, zz, _]| (xx + yy + zz) / 3.0)
-        .fold(f64::NEG_INFINITY, f64::max);
+    let means = stresses.iter().map(|[xx, yy, zz, _]| (xx + yy + zz) / 3.0);
+    let hydrostatic = means.fold(f64::NEG_INFINITY, f64::max);
     [most.sqrt(), radius, hydrostatic]
 }
 
@@ -230,10 +228,8 @@ fn a_cycle_of_partial_slip_is_that_of_its_closed_tractions() {
             }
         }
         let [right, left] = cycle.mirrored(x.abs(), z);
-        agree(
-            if x < 0.0 { left } else { right },
-            by_trial(&stresses, POISSON),
-        );
+        let seen = if x < 0.0 { left } else { right };
+        agree(seen, by_trial(&stresses, POISSON));
     }
     // Cracks begin at the edge, on the surface.
     let largest = cycle.largest(|at| at.swt);

@@ -48,10 +48,7 @@ fn an_svg_is_lines_and_words_in_millimetres() {
     insta::assert_snapshot!("figure", drawn);
     let colors = text.split('#').skip(1).map(|rest| &rest[..6]);
     for color in colors {
-        assert!(
-            color[..2] == color[2..4] && color[..2] == color[4..],
-            "{color}"
-        );
+        assert_eq!(color, color[..2].repeat(3));
     }
 }
 
@@ -90,18 +87,11 @@ fn the_guide_lays_the_figures_beside_the_papers() {
     let guide = dir.done("guide figures");
     let page: String = include_str!("../../src/guide/figures.md").into();
     has(&guide, "point by point");
-    let row = |start: &str| -> String {
-        let mut rows = page
-            .lines()
-            .filter(|line| line.starts_with(&format!("| {start}")));
-        rows.next()
-            .unwrap_or_else(|| panic!("no row {start}"))
-            .to_owned()
-    };
     let says = |start: &str, texts: &[String]| {
-        let row = row(start);
+        let start = format!("| {start}");
+        let row = page.lines().find(|line| line.starts_with(&start));
         for text in texts {
-            has(&row, text.as_str());
+            has(row.expect(&start), text);
         }
     };
 
@@ -145,10 +135,8 @@ fn the_guide_lays_the_figures_beside_the_papers() {
         .find(|&i| limit[i] > unworn[i] + 1e-12)
         .expect("wear");
     let [inside, outside] = [worn - 1, worn].map(|i| 1e6 * radii[i]);
-    assert!(
-        inside - 1e-6 <= 1e6 * stick && 1e6 * stick < outside,
-        "{inside} {stick} {outside}"
-    );
+    let is_between = inside - 1e-6 <= 1e6 * stick && 1e6 * stick < outside;
+    assert!(is_between, "{inside} {stick} {outside}");
     says(
         "stick in the centre",
         &[
@@ -262,20 +250,14 @@ fn a_sweep_is_a_map_with_its_borders() {
     dir.done("sweep map.toml --out map.csv --quiet");
     dir.done("figure map.csv -o map.svg -o map.pdf --quiet");
     let (table, drawn) = (dir.table("map.csv"), dir.table("map-drawn.csv"));
-    let colors = drawn
-        .rows
-        .iter()
-        .filter(|row| row[0] == "a" && row[1] == "map");
+    let drawn_rows = drawn.rows.iter();
+    let colors = drawn_rows.filter(|row| row[0] == "a" && row[1] == "map");
     let numbers = |row: &Vec<String>, columns: [usize; 3]| {
         columns.map(|k| row[k].parse::<f64>().expect("a number"))
     };
     let colors: Vec<[f64; 3]> = colors.map(|row| numbers(row, [3, 2, 4])).collect();
-    let rows: Vec<[f64; 3]> = table
-        .rows
-        .iter()
-        .map(|row| numbers(row, [0, 1, 2]))
-        .collect();
-    assert_eq!(colors, rows);
+    let rows = table.rows.iter().map(|row| numbers(row, [0, 1, 2]));
+    assert_eq!(colors, rows.collect::<Vec<_>>());
     // The depth is held: the border is a line through the origin.
     let (amplitudes, depths) = curve(&drawn, "a", "gross slip, closed form, unworn");
     assert!(depths.len() > 4);
@@ -335,10 +317,8 @@ fn a_run_leaves_the_loop_of_its_last_cycle() {
     dir.done("run gross-slip --cycles 3.24 --history every-step --out x --quiet");
     let (last, history) = (dir.table("x/loop.csv"), dir.table("x/history.csv"));
     let cycles = history.column("cycle");
-    let first = cycles
-        .iter()
-        .position(|&cycle| cycle >= 2.24 - 1e-9)
-        .expect("a row");
+    let first = cycles.iter().position(|&cycle| cycle >= 2.24 - 1e-9);
+    let first = first.expect("a row");
     for name in ["cycle", "u_x_m", "F_x_N"] {
         assert_eq!(last.column(name), history.column(name)[first..], "{name}");
     }
@@ -447,28 +427,14 @@ fn pixels_have_the_size_that_was_asked_for_and_pages_their_font() {
     assert_eq!((about.width, about.height), (1000, 400));
     let dims = reader.info().pixel_dims.expect("a resolution");
     assert_eq!(dims.xppu, 10_000);
-    let texts: Vec<String> = reader
-        .info()
-        .utf8_text
-        .iter()
-        .map(|text| text.get_text().expect("a text"))
-        .collect();
-    assert!(
-        texts.iter().any(|text| text.contains("method: ")),
-        "{texts:?}"
-    );
+    let texts = reader.info().utf8_text.iter();
+    let texts: Vec<String> = texts.map(|text| text.get_text().expect("a text")).collect();
+    has(&texts.join("\n"), "method: ");
     // The map has the colours of its scale, words are black, paper is white.
-    let count = |wanted: [u8; 3]| {
-        pixels
-            .chunks(4)
-            .filter(|pixel| pixel[..3] == wanted)
-            .count()
-    };
-    assert!(count([255; 3]) > 100_000 && count([0; 3]) > 500);
-    let colored = pixels
-        .chunks(4)
-        .filter(|p| p[1].abs_diff(p[0]) > 60)
-        .count();
+    let count = |is: &dyn Fn(&[u8]) -> bool| pixels.chunks(4).filter(|pixel| is(pixel)).count();
+    assert!(count(&|pixel| pixel[..3] == [255; 3]) > 100_000);
+    assert!(count(&|pixel| pixel[..3] == [0; 3]) > 500);
+    let colored = count(&|pixel| pixel[1].abs_diff(pixel[0]) > 60);
     assert!(colored > 20_000, "{colored}");
     // The loop closes, and every step is in it.
     let (shifts, _) = curve(&dir.table("f.csv"), "b", "");

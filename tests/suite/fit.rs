@@ -5,11 +5,10 @@ use std::fmt::Write;
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
-use mdr_tui::scenario::session::Session;
 use mdr_tui::studies::fit::{Fit, Fitted};
 use mdr_tui::studies::measured::Measured;
 
-use crate::common::load;
+use crate::common::{load, ran};
 use crate::random::Random;
 use crate::test_dir::{TestDir, has};
 
@@ -42,8 +41,7 @@ impl Noise {
 /// The scar and the loop of the true values, as tables without noise.
 fn exact() -> [(&'static str, Vec<(f64, f64)>); 2] {
     let [(_, k), (_, mu)] = TRUE;
-    let mut session = Session::start(scenario(k, mu)).expect("a contact");
-    session.advance_to(1.0).expect("a cycle");
+    let mut session = ran(scenario(k, mu), 1.0);
     let mut fretting_loop = Vec::new();
     while session.simulation().cycle() < 2.0 {
         session.step_until(2.0).expect("a step");
@@ -101,18 +99,14 @@ fn the_errors_of_k_and_mu_are_honest_both_ways() {
             let error = value.stderr.expect("an error");
             within[i] += i32::from((value.value - expected).abs() < 2.0 * error);
             // 2 % of noise and some 50 points: errors near 1 %, neither 0 nor useless.
-            assert!(
-                (1e-4..0.05).contains(&(error / expected)),
-                "{key}: {error:e}"
-            );
+            let share = error / expected;
+            assert!((1e-4..0.05).contains(&share), "{key}: {share:e}");
         }
         assert!(fitted.remarks.is_empty(), "{:?}", fitted.remarks);
     }
     eprintln!("within two standard errors: {within:?} of 100");
-    assert!(
-        within.iter().all(|count| (90..=99).contains(count)),
-        "{within:?}"
-    );
+    let is_honest = within.iter().all(|count| (90..=99).contains(count));
+    assert!(is_honest, "{within:?}");
 }
 
 /// One value in five is far off: least squares follow, the robust loss does not.
@@ -154,14 +148,8 @@ fn what_data_do_not_determine_is_said() {
     let fit = Fit::new(with_power, scar(), &free, None, false).expect("a fit");
     let fitted = fit.run(&mut || ()).expect("a minimum");
     assert_eq!(fitted.values[1].stderr, None);
-    assert!(
-        fitted
-            .remarks
-            .iter()
-            .any(|r| r == "the data do not determine wear.stress_exponent"),
-        "{:?}",
-        fitted.remarks
-    );
+    let remark = "the data do not determine wear.stress_exponent".to_owned();
+    assert!(fitted.remarks.contains(&remark), "{:?}", fitted.remarks);
     let none = Fit::new(scenario(3e-9, 0.1), scar(), &[], None, false).expect_err("refused");
     has(&none.to_string(), "needs a key to fit");
 }
@@ -185,13 +173,8 @@ fn the_command_prints_json_and_writes_the_fitted_scenario() {
             "{told}"
         );
         let path = dir.path("fitted.toml").display().to_string();
-        let fitted = Scenario::load(&path, &[]).expect("the fitted scenario");
-        let written: f64 = fitted
-            .value(key)
-            .expect("a value")
-            .parse()
-            .expect("a number");
-        assert_eq!(written, value);
+        let written = load(&path, &[]).value(key).expect("a value");
+        assert_eq!(written.parse(), Ok(value));
     }
     dir.line(&line).ends(2, "already exists");
     let text = dir.done(&format!(

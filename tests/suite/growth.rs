@@ -1,6 +1,6 @@
 //! Contacts that outgrow the domain that they began on, and what jumps make of them.
 
-use crate::common::{holds, load, ran};
+use crate::common::{change, holds, load, ran};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::checkpoint;
 use std::f64::consts::PI;
@@ -33,15 +33,15 @@ fn a_ball_wears_by_its_work_through_jumps() {
         let fine = ball(&["numerics.points=200", "numerics.tolerance=1e-3"]);
         let at = format!("{force} N, {amplitude} m");
         let [volume, due] = [&coarse, &fine].map(|run| run.simulation().wear_volume());
-        holds(&format!("{at}: volume"), (volume / due - 1.0).abs(), 1e-4);
+        holds(format!("{at}: volume"), (volume / due - 1.0).abs(), 1e-4);
         let moment = fine.simulation().moment();
         let by_work = 3e-14 * moment.dissipated_energy;
-        holds(&format!("{at}: k E_d"), (due / by_work - 1.0).abs(), 1e-4);
+        holds(format!("{at}: k E_d"), (due / by_work - 1.0).abs(), 1e-4);
         let modulus = 2.1e11 / (2.0 * (1.0 - 0.09));
         let start = (0.75 * force * 0.0127 / modulus).cbrt();
         let radius = (start.powi(4) + 4.0 * due * 0.0127 / PI).powf(0.25);
         let off = (moment.contact_radius / radius - 1.0).abs();
-        holds(&format!("{at}: radius"), off, 0.012);
+        holds(format!("{at}: radius"), off, 0.012);
         assert!(fine.simulation().setup().grid.radius() > 1.5 * start);
     }
 }
@@ -87,9 +87,7 @@ fn a_grown_run_is_taken_up_and_repeated() {
     let kept = checkpoint::from_bytes::<()>(&bytes, "it").expect("a checkpoint");
     let mut resumed = kept.session;
     for session in [&mut whole, &mut resumed] {
-        session
-            .change("friction.coefficient", "0.5")
-            .expect("a change");
+        change(session, "friction.coefficient", "0.5");
         for _ in 0..60 {
             session.step().expect("a step");
         }

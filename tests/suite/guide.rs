@@ -12,7 +12,7 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::schema::{Kind, Parameter, parameters};
 use mdr_tui::tui::manual;
 
-use crate::test_dir::{TestDir, has};
+use crate::test_dir::{Said, TestDir, has};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -113,31 +113,19 @@ fn the_function_for_python_runs() {
         Ok(said) if said.status.success() => {}
         Ok(_) => dir.write("pandas.py", include_bytes!("../fixtures/python/pandas.py")),
     }
-    let page = TOPICS
-        .iter()
-        .find(|topic| topic.name == "python")
-        .expect("a topic")
-        .text;
+    let page = TOPICS.iter().find(|topic| topic.name == "python");
+    let page = page.expect("a topic").text;
     let script = blocks(page, "python run").concat() + include_str!("../fixtures/python/try.py");
     dir.write("function.py", script.as_bytes());
     let said = python(&dir, &["function.py"]).expect("python3");
-    let (out, err) = (
-        String::from_utf8_lossy(&said.stdout),
-        String::from_utf8_lossy(&said.stderr),
-    );
-    assert!(said.status.success() && err.is_empty(), "{err}");
-    assert!(
-        out.contains("friction.coefficient") && out.lines().count() == 1,
-        "{out}"
-    );
+    let Said { code, out, err } = said.into();
+    assert_eq!((code, err.as_str()), (0, ""));
+    has(&out, "friction.coefficient");
+    assert_eq!(out.lines().count(), 1, "{out}");
     for block in blocks(page, "python") {
         dir.write("lines.py", block.as_bytes());
         let said = python(&dir, &["-m", "py_compile", "lines.py"]).expect("python3");
-        assert!(
-            said.status.success(),
-            "{}",
-            String::from_utf8_lossy(&said.stderr)
-        );
+        Said::from(said).ends(0, "");
     }
 }
 
@@ -152,12 +140,8 @@ fn topics_are_listed_shown_and_found() {
         assert!(root().join(file).exists());
     }
     let said = dir.line("guide fils");
-    assert_eq!(said.code, 2);
-    assert!(
-        said.err.ends_with("no such topic; did you mean files?\n"),
-        "{}",
-        said.err
-    );
+    said.ends(2, "no such topic; did you mean files?\n");
+    assert!(said.err.ends_with("files?\n"), "{}", said.err);
 }
 
 /// What stands in a file between two marks, which must be `wanted`.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Scene, holds, ours, run_setup};
+use crate::common::{Scene, apart, holds, ours, run_setup};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::oracle::half_space::{
     DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
@@ -23,11 +23,10 @@ fn load_of(simulation: &Simulation) -> SpringLoad {
 
 /// The Hertz contact of a run with the default numerics on 100 cells.
 fn hertz(poisson: f64) -> SpringLoad {
-    let scene = Scene {
-        tangential: None,
-        ..Scene::default().poisson(poisson)
-    };
-    load_of(&run_setup(ours(scene), 0.25))
+    load_of(&run_setup(
+        ours(Scene::default().poisson(poisson).still()),
+        0.25,
+    ))
 }
 
 /// The same contact, slipping as a whole towards +x: u_x is at its largest.
@@ -61,11 +60,8 @@ fn the_largest_von_mises_stress_is_below_the_surface() {
     let points = depths.map(|z| (z, load.stress(0.0, z).von_mises() / P0));
     let largest = points.max_by(|a, b| a.1.total_cmp(&b.1));
     let (depth, largest) = largest.expect("points");
-    holds(
-        "largest von Mises stress",
-        (largest - LARGEST_VON_MISES).abs(),
-        1e-3,
-    );
+    let off = (largest - LARGEST_VON_MISES).abs();
+    holds("largest von Mises stress", off, 1e-3);
     holds("its depth", (depth - DEPTH_OF_LARGEST).abs(), 2e-3);
     let found = load.largest(Stress::von_mises);
     holds("found", (found.value / P0 - largest).abs(), 1e-5);
@@ -104,11 +100,8 @@ fn a_sliding_contact_tears_at_its_trailing_edge() {
         let load = sliding(poisson);
         for x in [-0.95, -0.5, -0.1, 0.3, 0.8] {
             let error = of_traction(&load, x) - sliding_inside(x, poisson);
-            holds(
-                "σ_xx inside",
-                error.abs(),
-                1e-3 * sliding_at_trailing_edge(poisson),
-            );
+            let bound = 1e-3 * sliding_at_trailing_edge(poisson);
+            holds("σ_xx inside", error.abs(), bound);
         }
         let edge = of_traction(&load, -load.contact_radius());
         let exact = sliding_at_trailing_edge(poisson);
@@ -123,33 +116,23 @@ fn a_sliding_contact_tears_at_its_trailing_edge() {
 fn every_component_is_that_of_the_point_forces() {
     let load = sliding(0.3);
     let hertz = |r: f64| P0 * (1.0 - r * r).sqrt();
-    for at in [
-        [0.3, 0.4],
-        [-0.7, 0.25],
-        [1.1, 0.5],
-        [0.0, 1.0],
-        [-1.4, 1.5],
+    for (x, z) in [
+        (0.3, 0.4),
+        (-0.7, 0.25),
+        (1.1, 0.5),
+        (0.0, 1.0),
+        (-1.4, 1.5),
     ] {
-        let exact = by_point_forces(at, 0.3, hertz, |r| 0.1 * hertz(r), 60);
-        let Stress { xx, yy, zz, xz } = load.stress(at[0], at[1]);
-        for (name, seen, exact) in [
-            ("xx", xx, exact[0]),
-            ("yy", yy, exact[1]),
-            ("zz", zz, exact[2]),
-            ("xz", xz, exact[3]),
-        ] {
-            holds(name, (seen - exact).abs() / P0, 1e-3);
-        }
+        let exact = by_point_forces([x, z], 0.3, hertz, |r| 0.1 * hertz(r), 60);
+        let Stress { xx, yy, zz, xz } = load.stress(x, z);
+        let off = apart(&[xx, yy, zz, xz], &exact);
+        holds(format!("stress at {x}, {z}"), off / P0, 1e-3);
     }
 }
 
 #[test]
 fn partial_slip_and_worn_contacts_carry_their_own_tractions_into_the_half_space() {
-    let scene = Scene {
-        law: crate::common::archard(0.3),
-        ..Scene::default()
-    };
-    let simulation = run_setup(ours(scene), 10.25);
+    let simulation = run_setup(ours(Scene::default().wear(0.3)), 10.25);
     let seen = simulation.observe(Curves::all());
     let load = seen.spring_load(0.3);
     let a = seen.moment.contact_radius;
@@ -158,28 +141,17 @@ fn partial_slip_and_worn_contacts_carry_their_own_tractions_into_the_half_space(
         if (0.05..0.95).contains(&(r / a)) {
             let below = load.stress(r, 0.0);
             let peak = seen.pressure[0];
-            holds(
-                "−σ_zz = p",
-                (below.zz + seen.pressure[j]).abs() / peak,
-                2e-2,
-            );
-            holds(
-                "−σ_xz = τ",
-                (below.xz + seen.shear[j]).abs() / (0.1 * peak),
-                2e-2,
-            );
+            let [p, tau] = [below.zz + seen.pressure[j], below.xz + seen.shear[j]];
+            holds("−σ_zz = p", p.abs() / peak, 2e-2);
+            holds("−σ_xz = τ", tau.abs() / (0.1 * peak), 2e-2);
         }
     }
 }
 
 #[test]
 fn a_flat_punch_ends_with_a_jump() {
-    let scene = Scene {
-        indenter: Indenter::flat_punch(1.0).expect("a punch"),
-        tangential: None,
-        domain: 1.0,
-        ..Scene::default()
-    };
+    let punch = Indenter::flat_punch(1.0).expect("a punch");
+    let scene = Scene::default().indenter(punch).still().domain(1.0);
     let load = load_of(&run_setup(scene.into(), 0.25));
     for z in [0.2, 0.5, 1.0, 2.0] {
         // Sneddon: on the axis σ_z = −(E*d/πa)(1 + 3z²)/(1 + z²)².

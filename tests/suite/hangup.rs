@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::net::TcpListener;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ use mdr_tui::scenario::session::Session;
 use tempfile::TempDir;
 use vt100::{MouseProtocolEncoding, MouseProtocolMode, Screen};
 
-use crate::pty::{Terminal, at_home, cycle, home, kept, program, read};
+use crate::pty::{Terminal, at_home, cycle, home, kept, patiently, program, read};
 use crate::terminal::assert_given_back;
 use crate::test_dir::has;
 
@@ -56,10 +56,8 @@ fn a_hangup_keeps_the_session() {
         let status = terminal.wait_for_end();
         // What waits for it in the terminal's session is ended by the hangup.
         let ended = (status.exit_code(), status.signal());
-        assert!(
-            start.contains("setsid") || ended == (0, None),
-            "{start}: {ended:?}"
-        );
+        let is_well = start.contains("setsid") || ended == (0, None);
+        assert!(is_well, "{start}: {ended:?}");
         eprintln!("{start}: ended {:.0?} after the hangup", hung_up.elapsed());
         let session = read(&kept(&home).expect("a checkpoint"));
         assert!(session.simulation().cycle() >= seen - 0.005, "{start}");
@@ -161,16 +159,13 @@ fn where_nothing_can_be_kept_the_run_goes_on_and_says_so() {
     fs::write(&file, "in the way").expect("a file");
     let bin = env!("CARGO_BIN_EXE_mdr-tui");
     // A path that is a file; a system that takes no files; a limit of no bytes, like a full disk.
-    for (state_home, start) in [
-        (file.as_path(), format!("exec '{bin}'")),
-        (Path::new("/proc"), format!("exec '{bin}'")),
-        (
-            base.path(),
-            format!("trap '' XFSZ; ulimit -f 0; exec '{bin}'"),
-        ),
+    for (state_home, limit) in [
+        (file.as_path(), ""),
+        (Path::new("/proc"), ""),
+        (base.path(), "trap '' XFSZ; ulimit -f 0; "),
     ] {
         let mut command = program(&[]);
-        let start = format!("{start} --checkpoint-every 0.3");
+        let start = format!("{limit}exec '{bin}' --checkpoint-every 0.3");
         *command.get_argv_mut() = ["sh", "-c", &start].map(Into::into).to_vec();
         command.env("XDG_STATE_HOME", state_home);
         let mut terminal = Terminal::start(command, 200, 24);
@@ -281,8 +276,7 @@ fn a_connection_that_is_cut_keeps_the_session() {
         home.path().display(),
         env!("CARGO_BIN_EXE_mdr-tui")
     );
-    let terminal = server.run(&line);
-    let mut terminal = terminal;
+    let mut terminal = server.run(&line);
     terminal.wait_until("explorer under way", is_under_way);
     terminal.press("m");
     terminal.wait_for("numerics.method = a at cycle");
@@ -291,14 +285,8 @@ fn a_connection_that_is_cut_keeps_the_session() {
     // The client dies without a word.
     terminal.signal("KILL");
     terminal.wait_for_end();
-    let start = Instant::now();
-    let path = loop {
-        match kept(&home).filter(|path| fs::metadata(path).is_ok_and(|about| about.len() > 0)) {
-            Some(path) => break path,
-            None => assert!(start.elapsed() < crate::pty::TIMEOUT, "no checkpoint"),
-        }
-        thread::sleep(Duration::from_millis(10));
-    };
+    let is_whole = |path: &PathBuf| fs::metadata(path).is_ok_and(|about| about.len() > 0);
+    let path = patiently("no checkpoint", || kept(&home).filter(is_whole));
     let session = read(&path);
     assert!(session.simulation().cycle() >= seen - 0.005);
     assert_eq!(session.changes().len(), 1);

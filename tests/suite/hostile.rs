@@ -4,12 +4,11 @@
 #[path = "../fuzz/src/lib.rs"]
 pub mod fuzzed;
 
-use std::fs;
-
 use mdr_tui::scenario::preset;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
+use crate::common::text_of;
 use crate::test_dir::{TestDir, bits, end, has, names};
 
 /// A preset with some of its characters replaced, doubled or left out.
@@ -108,21 +107,12 @@ fn a_rude_title_reaches_no_terminal() {
         .collect();
     // TOML knows no escape of the null character that it would take.
     let escaped = escaped.replace("\\U00000000", "");
-    let text = preset::find("li2019-fig3").expect("a preset").text;
-    let lines = text
-        .lines()
-        .filter(|line| !line.starts_with("title") && !line.starts_with("desc"));
-    let text = format!(
-        "title = \"{escaped}\"\ndescription = \"{escaped}\"\n{}",
-        lines.collect::<Vec<_>>().join("\n")
-    );
+    let is_other = |line: &&str| !line.starts_with("title") && !line.starts_with("desc");
+    let lines: Vec<&str> = text_of("li2019-fig3").lines().filter(is_other).collect();
+    let lines = lines.join("\n");
+    let text = format!("title = \"{escaped}\"\ndescription = \"{escaped}\"\n{lines}");
     dir.write("rude.toml", text.as_bytes());
-    let child = dir.command(&["run", "rude.toml", "--cycles", "1", "--out", "x"]);
-    let mut child = child;
-    child
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped());
-    let said = end(child.spawn().expect("the program starts"));
+    let said = end(dir.start("run rude.toml --cycles 1 --out x", &[]));
     assert_eq!(said.code, 0, "{}", said.err);
     assert_harmless(&said.out, "summary");
     for name in names(&dir.path("x")) {
@@ -148,13 +138,9 @@ fn rude_paths_and_arguments_reach_no_terminal() {
     let rude = RUDE.replace(['\0', '\n'], "");
     let rude = rude.as_str();
     let path = format!("{rude}.toml");
-    fs::write(dir.path(&path), "title = 1\n").expect("a file");
-    fs::write(
-        dir.path(&format!("{rude}.checkpoint")),
-        "mdr-tui checkpoint 1\n",
-    )
-    .expect("a file");
+    dir.write(&path, b"title = 1\n");
     let checkpoint = format!("{rude}.checkpoint");
+    dir.write(&checkpoint, b"mdr-tui checkpoint 1\n");
     let set = format!("numerics.points={rude}");
     let key = format!("{rude}=1");
     for arguments in [

@@ -142,16 +142,11 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
         terminal.press(&click(column, 5));
         at = radius(&terminal, at);
         seen.push(at);
-        let line = terminal.look(|screen| {
+        let has_line = terminal.look(|screen| {
             let cell = screen.cell(5, column - 1).expect("a cell");
-            cell.contents().to_owned()
+            !cell.contents().trim().is_empty()
         });
-        assert_ne!(
-            line.trim(),
-            "",
-            "no cursor at {column}:\n{}",
-            terminal.text()
-        );
+        assert!(has_line, "no cursor at {column}:\n{}", terminal.text());
     }
     assert!(seen[0] < seen[1] && seen[1] < seen[2], "{seen:?}");
     assert!(seen[3] < seen[4] && seen[4] < seen[5], "{seen:?}");

@@ -2,7 +2,7 @@
 //!
 //! The constants are about 1.5 times what was measured at N = 50 … 800.
 
-use crate::common::{Scene, archard, cattaneo, fig3_motion, holds, largest, limit, run, swing};
+use crate::common::{Scene, cattaneo, fig3_motion, force, holds, largest, limit, near, run, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
@@ -12,7 +12,6 @@ use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::oracle::power_law::PowerLaw;
 use mdr_tui::reading::Curves;
 use mdr_tui::simulation::Simulation;
-use mdr_tui::simulation::drive::{Control, Oscillation};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use std::ops::Range;
 
@@ -36,73 +35,55 @@ fn width(simulation: &Simulation) -> f64 {
     simulation.setup().grid.nodes()[1]
 }
 
-fn force(mean: f64, amplitude: f64) -> Control {
-    Control::Force(Oscillation::new(mean, amplitude, 1.0, 0.0).expect("a force"))
-}
-
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 
-/// `bounds` of h: of g, of a, F and d, of p in 0.2 … 0.8 and of p in all but the axis.
+/// `bounds`, a factor and a power of h each: of g, of a, F and d, of p in 0.2 … 0.8 and of p in all but the axis.
 fn check_normal(
     methods: &[AbelMethod],
-    indenter: &Indenter,
+    indenter: Indenter,
     exact: PowerLaw,
-    bounds: fn(f64) -> [f64; 4],
+    bounds: [(f64, f64); 4],
 ) {
     let cases = methods
         .iter()
         .flat_map(|&method| [(method, 50), (method, 200)]);
     for (method, cells) in cases {
-        let scene = Scene {
-            method,
-            indenter: indenter.clone(),
-            cells,
-            tangential: None,
-            ..Scene::default()
-        };
+        let scene = Scene::by(method).indenter(indenter.clone());
+        let scene = scene.cells(cells).still();
         let simulation = run(scene.clone(), 0.0);
         let h = width(&simulation);
-        let [profile, scalars, pressure, edge] = bounds(h);
+        let [profile, scalars, pressure, edge] =
+            bounds.map(|(factor, power)| factor * h.powf(power));
         let seen = simulation.observe(Curves::all());
         let what = |name| format!("{} by {method}, N={cells}, {name}", indenter.name());
         let g = |x| exact.mdr_profile(x);
         let p = |r| exact.pressure(1.0, 1.0, r);
         let load = exact.force(1.0, 1.0);
         let error = worst(&seen.radii, &seen.profile_1d, EVERYWHERE, g);
-        holds(&what("g"), error, profile);
+        holds(what("g"), error, profile);
         let error = (seen.moment.contact_radius - 1.0).abs();
-        holds(&what("a"), error, scalars);
+        holds(what("a"), error, scalars);
         let error = (seen.moment.normal_force / load - 1.0).abs();
-        holds(&what("F"), error, scalars);
-        let held = Scene {
-            normal: force(load, 0.0),
-            ..scene
-        };
+        holds(what("F"), error, scalars);
+        let held = scene.normal(force(load, 0.0));
         let error = (run(held, 0.0).moment().depth - 1.0).abs();
-        holds(&what("d of F"), error, scalars);
+        holds(what("d of F"), error, scalars);
         let error = worst(&seen.radii, &seen.pressure, 0.2..0.8, p);
-        holds(&what("p inside"), error, pressure);
+        holds(what("p inside"), error, pressure);
         let error = worst(&seen.radii, &seen.pressure, 0.5 * h..1.5, p);
-        holds(&what("p"), error, edge);
+        holds(what("p"), error, edge);
     }
 }
 
 #[test]
 fn hertz() {
     let shape = Indenter::paraboloid(1.0).expect("a shape");
+    let bounds = [(1.2, 1.5), (0.5, 1.5), (0.5, 1.5), (0.3, 0.5)];
     check_normal(
         &AbelMethod::PUBLISHED,
-        &shape,
+        shape,
         PowerLaw::paraboloid(1.0),
-        |h| {
-            let [half, three_halves] = [h.sqrt(), h.powf(1.5)];
-            [
-                1.2 * three_halves,
-                0.5 * three_halves,
-                0.5 * three_halves,
-                0.3 * half,
-            ]
-        },
+        bounds,
     );
 }
 
@@ -110,33 +91,22 @@ fn hertz() {
 #[test]
 fn cone() {
     let shape = Indenter::cone(FRAC_2_PI.atan()).expect("a shape");
-    check_normal(
-        &[A, APlusB, Benad],
-        &shape,
-        PowerLaw::cone(FRAC_2_PI),
-        |h| [1e-13, 1e-13, 0.04 * h.powf(1.5), 0.17 * h.sqrt()],
-    );
-    check_normal(&[B], &shape, PowerLaw::cone(FRAC_2_PI), |h| {
-        [0.75 * h, 1.0 * h, 0.25 * h, 0.27 * h.sqrt()]
-    });
+    let exact = [(1e-13, 0.0), (1e-13, 0.0), (0.04, 1.5), (0.17, 0.5)];
+    let of_b = [(0.75, 1.0), (1.0, 1.0), (0.25, 1.0), (0.27, 0.5)];
+    for (methods, bounds) in [(&[A, APlusB, Benad][..], exact), (&[B], of_b)] {
+        check_normal(methods, shape.clone(), PowerLaw::cone(FRAC_2_PI), bounds);
+    }
 }
 
 #[test]
 fn quartic() {
     let shape = Indenter::power(0.375, 4.0).expect("a shape");
+    let bounds = [(11.0, 1.5), (0.7, 1.5), (1.2, 1.5), (0.6, 0.5)];
     check_normal(
         &AbelMethod::PUBLISHED,
-        &shape,
+        shape,
         PowerLaw::quartic(0.375),
-        |h| {
-            let [half, three_halves] = [h.sqrt(), h.powf(1.5)];
-            [
-                11.0 * three_halves,
-                0.7 * three_halves,
-                1.2 * three_halves,
-                0.6 * half,
-            ]
-        },
+        bounds,
     );
 }
 
@@ -146,27 +116,22 @@ fn cattaneo_and_mindlin_on_first_loading() {
         for cells in [50, 200, 800] {
             for share in [0.01, 0.3, 0.7, 0.95] {
                 let exact = cattaneo(amplitude(share));
-                let scene = Scene {
-                    method,
-                    cells,
-                    tangential: Some(swing(0.0, exact.amplitude, 1.0, FRAC_PI_2)),
-                    ..Scene::default()
-                };
-                let simulation = run(scene, 0.0);
+                let motion = swing(0.0, exact.amplitude, 1.0, FRAC_PI_2);
+                let simulation = run(Scene::by(method).cells(cells).moved(motion), 0.0);
                 let h = width(&simulation);
                 let seen = simulation.observe(Curves::all());
                 let moment = seen.moment;
                 let what = |name| format!("U={share}U_s by {method}, N={cells}, {name}");
                 let c = moment.stick_radius.expect("springs");
                 let error = (c - exact.stick_radius()).abs();
-                holds(&what("c"), error, 1.6 * h.powf(1.5));
+                holds(what("c"), error, 1.6 * h.powf(1.5));
                 let friction = exact.mu * exact.normal_force();
                 let load = exact.first_loading_force(exact.amplitude);
                 let error = (moment.tangential_force - load).abs() / friction;
-                holds(&what("F_x"), error, 0.6 * h.powf(1.5));
+                holds(what("F_x"), error, 0.6 * h.powf(1.5));
                 let tau = |r| exact.shear_stress(r);
                 let error = worst(&seen.radii, &seen.shear, EVERYWHERE, tau);
-                holds(&what("tau"), error, 0.04 * h.sqrt());
+                holds(what("tau"), error, 0.04 * h.sqrt());
                 let slip: Vec<f64> = seen.surface.iter().map(|u| exact.amplitude - u).collect();
                 let error = worst(&seen.radii, &slip, 0.0..1.0, |r| exact.slip(r));
                 let bound = match method {
@@ -174,7 +139,7 @@ fn cattaneo_and_mindlin_on_first_loading() {
                     APlusB | B => 0.1 * h.powf(1.5),
                     Benad => 0.07 * h,
                 };
-                holds(&what("slip"), error, bound);
+                holds(what("slip"), error, bound);
             }
         }
     }
@@ -197,13 +162,8 @@ fn the_loop_and_its_energy() {
             let exact = cattaneo(amplitude(share));
             let friction = exact.mu * exact.normal_force();
             let energy = [8, 40].map(|steps| {
-                let scene = Scene {
-                    method,
-                    cells,
-                    steps,
-                    tangential: Some(swing(0.0, exact.amplitude, 1.0, 0.0)),
-                    ..Scene::default()
-                };
+                let scene = Scene::by(method).cells(cells).steps(steps);
+                let scene = scene.shaken(exact.amplitude);
                 // From the turning point +U on.
                 let mut simulation = run(scene, 1.25);
                 let before = simulation.state().ledger.dissipated_energy;
@@ -263,9 +223,9 @@ fn the_wear_of_a_settled_cycle() {
                 Benad => 13.0 * h,
             };
             let error = worst(radii, &worn, 0.0..1.0 - 2.0 * h, wear);
-            holds(&what("inside"), error, bound);
+            holds(what("inside"), error, bound);
             let error = worst(radii, &worn, EVERYWHERE, wear);
-            holds(&what("with the edge"), error, bound.max(2.2 * h.sqrt()));
+            holds(what("with the edge"), error, bound.max(2.2 * h.sqrt()));
         }
     }
 }
@@ -289,8 +249,7 @@ fn volume_is_k_times_energy() {
             residual
         });
         // Better than first order.
-        let case = format!("fall by {method}");
-        holds(&case, residual[1] / residual[0], 0.25);
+        holds(format!("fall by {method}"), residual[1] / residual[0], 0.25);
     }
 }
 
@@ -308,22 +267,18 @@ fn the_limiting_profile() {
             let what = |name| format!("limit by {method}, N={cells}, {name}");
             let permanent = seen.moment.permanent_stick_radius.expect("springs");
             // Near the limit d − g falls to nothing within c's cell: it can only be placed in it.
-            holds(&what("c"), (permanent - c).abs(), h);
+            holds(what("c"), (permanent - c).abs(), h);
             let error = worst(&seen.radii, &seen.profile, EVERYWHERE, |r| exact.profile(r));
-            holds(&what("f"), error, 0.8 * h);
-            let stuck = worst(&seen.radii, &seen.profile_1d, 0.0..c - h, |x| {
-                exact.mdr_profile(x)
-            });
-            holds(
-                &what("g in the permanent stick zone"),
-                stuck,
-                0.4 * h.powf(1.5),
-            );
+            holds(what("f"), error, 0.8 * h);
+            let g = |x| exact.mdr_profile(x);
+            let stuck = worst(&seen.radii, &seen.profile_1d, 0.0..c - h, g);
+            let case = what("g in the permanent stick zone");
+            holds(&case, stuck, 0.4 * h.powf(1.5));
             let ring = c + 2.0 * h..b - 2.0 * h;
             let ring = worst(&seen.radii, &seen.profile_1d, ring, |_| 1.0);
-            holds(&what("g in the ring"), ring, 1e-7);
+            holds(what("g in the ring"), ring, 1e-7);
             let error = (seen.moment.normal_force / exact.force() - 1.0).abs();
-            holds(&what("F"), error, 0.4 * h);
+            holds(what("F"), error, 0.4 * h);
         }
     }
 }
@@ -336,27 +291,17 @@ fn the_limiting_depth_under_held_forces() {
     let exact = LimitingProfile::under_force(1.0, 1.0, load, c);
     for method in [A, APlusB] {
         for cells in [50, 100] {
-            let scene = Scene {
-                method,
-                cells,
-                normal: force(load, 0.0),
-                tangential: Some(force(0.0, partial.first_loading_force(0.05))),
-                law: archard(3.0),
-                ..Scene::default()
-            };
-            let simulation = run(scene, 300.0);
+            let swing = force(0.0, partial.first_loading_force(0.05));
+            let scene = Scene::by(method).cells(cells).wear(3.0);
+            let simulation = run(scene.normal(force(load, 0.0)).moved(swing), 300.0);
             let h = width(&simulation);
             let moment = simulation.moment();
             let what = |name| format!("held forces by {method}, N={cells}, {name}");
-            holds(
-                &what("F_z"),
-                (moment.normal_force / load - 1.0).abs(),
-                1e-12,
-            );
-            holds(&what("d"), (moment.depth - exact.depth).abs(), 0.4 * h);
+            near(what("F_z"), moment.normal_force, load, 1e-12);
+            holds(what("d"), (moment.depth - exact.depth).abs(), 0.4 * h);
             let permanent = moment.permanent_stick_radius.expect("springs");
             // Near the limit d − g falls to nothing within c's cell: it can only be placed in it.
-            holds(&what("c"), (permanent - c).abs(), h);
+            holds(what("c"), (permanent - c).abs(), h);
         }
     }
 }
@@ -365,33 +310,22 @@ fn the_limiting_depth_under_held_forces() {
 #[test]
 fn gross_slip_unloads_the_contact() {
     for method in AbelMethod::PUBLISHED {
-        let scene = Scene {
-            method,
-            law: archard(1.0),
-            tangential: Some(swing(0.0, amplitude(1.5), 1.0, 0.0)),
-            ..Scene::default()
-        };
+        let scene = Scene::by(method).wear(1.0).shaken(amplitude(1.5));
         let mut simulation = run(scene, 0.0);
         let (unworn, mut before) = (simulation.moment().normal_force, f64::INFINITY);
         for cycle in 1..=200 {
             simulation.advance_to(f64::from(cycle)).expect("a cycle");
             let load = simulation.moment().normal_force;
-            assert!(
-                load < before,
-                "{method}: {load} after {before}, cycle {cycle}"
-            );
+            assert!(load < before, "{method}: {load} after {before}, {cycle}");
             before = load;
         }
-        holds(&format!("load left by {method}"), before / unworn, 0.01);
+        holds(format!("load left by {method}"), before / unworn, 0.01);
         let seen = simulation.observe(Curves::PROFILE);
-        let worn = seen
-            .profile
-            .iter()
-            .zip(&*seen.wear)
-            .filter(|(_, w)| **w > 0.0);
+        let nodes = seen.profile.iter().zip(&*seen.wear);
+        let worn = nodes.filter(|(_, w)| **w > 0.0);
         let touched = largest(worn.map(|(f, _)| *f));
-        holds(&format!("highest worn point by {method}"), touched, 1.0);
-        holds(&format!("tip left by {method}"), 1.0 - seen.wear[0], 0.01);
+        holds(format!("highest worn point by {method}"), touched, 1.0);
+        holds(format!("tip left by {method}"), 1.0 - seen.wear[0], 0.01);
     }
 }
 
@@ -399,15 +333,9 @@ fn gross_slip_unloads_the_contact() {
 #[test]
 fn separation_leaves_no_traction_and_no_memory() {
     for method in AbelMethod::PUBLISHED {
-        let scene = Scene {
-            method,
-            normal: swing(0.3, 0.7, 1.0, 0.0),
-            tangential: Some(swing(0.0, 0.1, 1.0, 0.8)),
-            law: archard(0.5),
-            steps: 100,
-            ..Scene::default()
-        };
-        let mut simulation = run(scene, 0.0);
+        let scene = Scene::by(method).wear(0.5).steps(100);
+        let scene = scene.normal(swing(0.3, 0.7, 1.0, 0.0));
+        let mut simulation = run(scene.moved(swing(0.0, 0.1, 1.0, 0.8)), 0.0);
         let reach = 0.1 / stiffness_ratio(0.3);
         let (mut open_steps, mut touching) = (0, 0);
         let mut before = simulation.observe(Curves::all());
@@ -417,18 +345,12 @@ fn separation_leaves_no_traction_and_no_memory() {
             let moved = now.moment.shift - before.moment.shift;
             if now.moment.depth <= 0.0 && now.moment.normal_force == 0.0 {
                 open_steps += 1;
-                assert_eq!(
-                    (now.moment.contact_radius, now.moment.tangential_force),
-                    (0.0, 0.0)
-                );
-                let curves = [
-                    &now.pressure,
-                    &now.shear,
-                    &now.spring,
-                    &now.surface,
-                    &now.tangential_load,
-                ];
-                assert!(curves.into_iter().flatten().all(|&value| value == 0.0));
+                let [radius, force] = [now.moment.contact_radius, now.moment.tangential_force];
+                assert_eq!([radius, force], [0.0; 2]);
+                for curve in [&now.pressure, &now.shear, &now.spring, &now.surface] {
+                    assert!(curve.iter().all(|&value| value == 0.0));
+                }
+                assert!(now.tangential_load.iter().all(|&load| load == 0.0));
                 assert_eq!(now.wear, before.wear);
             }
             for (j, &load) in now.normal_load.iter().enumerate() {
@@ -462,22 +384,18 @@ fn melan() {
         ..fig3_motion()
     };
     let fig3 = fig3_motion();
-    holds(
-        "Fig. 3, the oracle's own",
-        (fig3.stick_radius(1.0) - 0.4164).abs(),
-        5e-5,
-    );
-    let mut cases = vec![
-        (1.0, fig3, 3.0),
-        (1.0, motion(0.1, [0.0, 0.0], 0.05, Frequencies::Equal), 3.0),
-        (
-            1.0,
-            motion(0.1, [0.0, FRAC_PI_2], 0.05, Frequencies::Equal),
-            3.0,
-        ),
-        (1.0, motion(0.2, [0.3, 2.0], 0.03, Frequencies::Equal), 3.0),
-        (1.0, motion(1.2, [0.0, 1.0], 0.05, Frequencies::Equal), 3.0),
-    ];
+    let own = (fig3.stick_radius(1.0) - 0.4164).abs();
+    holds("Fig. 3, the oracle's own", own, 5e-5);
+    let mut cases = vec![(1.0, fig3, 3.0)];
+    for (swing, phases, amplitude) in [
+        (0.1, [0.0, 0.0], 0.05),
+        (0.1, [0.0, FRAC_PI_2], 0.05),
+        (0.2, [0.3, 2.0], 0.03),
+        (1.2, [0.0, 1.0], 0.05),
+    ] {
+        let motion = motion(swing, phases, amplitude, Frequencies::Equal);
+        cases.push((1.0, motion, 3.0));
+    }
     let never = motion(0.1, [0.0, 0.3], 0.05, Frequencies::Incommensurate);
     cases.push((std::f64::consts::SQRT_2, never, 41.0));
     for (tangential, normal, cycles) in RATIOS {
@@ -487,28 +405,15 @@ fn melan() {
     }
     for (ratio, exact, cycles) in cases {
         for (method, cells) in [(A, 100), (A, 400), (B, 100)] {
-            let scene = Scene {
-                method,
-                cells,
-                steps: 200,
-                domain: (2.0 * exact.largest_depth()).sqrt(),
-                normal: swing(1.0, exact.normal_amplitude, ratio, exact.normal_phase),
-                tangential: Some(swing(
-                    0.0,
-                    exact.tangential_amplitude,
-                    1.0,
-                    exact.tangential_phase,
-                )),
-                ..Scene::default()
-            };
-            let simulation = run(scene, cycles);
+            let up = swing(1.0, exact.normal_amplitude, ratio, exact.normal_phase);
+            let (amplitude, phase) = (exact.tangential_amplitude, exact.tangential_phase);
+            let scene = Scene::by(method).cells(cells).steps(200).normal(up);
+            let scene = scene.domain((2.0 * exact.largest_depth()).sqrt());
+            let simulation = run(scene.moved(swing(0.0, amplitude, 1.0, phase)), cycles);
             let c = simulation.state().permanent_stick_radius();
             let what = format!("c by {method}, N={cells}, ratio {ratio}, {exact:?}");
-            holds(
-                &what,
-                (c - exact.stick_radius(1.0)).abs(),
-                width(&simulation),
-            );
+            let off = (c - exact.stick_radius(1.0)).abs();
+            holds(&what, off, width(&simulation));
         }
     }
 }

@@ -3,7 +3,7 @@
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{begin, load, near};
+use crate::common::{begin, largest, load, near, ran};
 use crate::test_dir::cases;
 
 const SMALL: [&str; 3] = [
@@ -13,22 +13,14 @@ const SMALL: [&str; 3] = [
 ];
 
 fn within(what: &str, found: f64, published: f64, share: f64) {
-    let error = found / published - 1.0;
-    eprintln!(
-        "{what}: {found:.4e}, published {published:.4e}, {:.2} %",
-        100.0 * error
-    );
-    assert!(
-        error.abs() < share,
-        "{what}: {found:e} instead of {published:e}"
-    );
+    let case = format!("{what}: {found:.4e}, published {published:.4e}");
+    near(case, found, published, share);
 }
 
 /// Kalker's CONTACT, case cattaneo.inp: its elements are 1/15 of the contact wide.
 #[test]
 fn cattaneo_as_kalkers_program_has_it() {
-    let mut session = begin(load("cattaneo-kalker", &[]));
-    session.advance_to(0.25).expect("a quarter of a cycle");
+    let session = ran(load("cattaneo-kalker", &[]), 0.25);
     let simulation = session.simulation();
     let moment = simulation.moment();
     within("F_x", moment.tangential_force, 3.218, 3e-3);
@@ -93,12 +85,9 @@ fn the_figures_of_the_guide_are_those_of_the_presets() {
             ("| 10⁵ cycles", 1e5),
         ] {
             session.advance_to(cycles).expect("the cycles");
-            let deepest = (session.simulation().worn_depth().iter()).fold(0.0f64, |a, b| a.max(*b));
-            found.push((
-                format!("{preset}, {row}"),
-                last_cell(section, row),
-                1e3 * deepest,
-            ));
+            let deepest = largest(session.simulation().worn_depth().iter().copied());
+            let case = format!("{preset}, {row}");
+            found.push((case, last_cell(section, row), 1e3 * deepest));
         }
         if preset.ends_with("gross-slip") {
             let moment = session.simulation().moment();
@@ -108,8 +97,7 @@ fn the_figures_of_the_guide_are_those_of_the_presets() {
             found.push(("V".to_owned(), volume.to_owned(), moment.wear_volume));
         }
     }
-    let mut session = begin(load("cattaneo-kalker", &[]));
-    session.advance_to(0.25).expect("a quarter of a cycle");
+    let session = ran(load("cattaneo-kalker", &[]), 0.25);
     let simulation = session.simulation();
     let moment = simulation.moment();
     let stick = moment.stick_radius.expect("springs") / moment.contact_radius;
@@ -123,26 +111,15 @@ fn the_figures_of_the_guide_are_those_of_the_presets() {
         let cell = line.split('|').nth(3).expect("a column");
         found.push((row.to_owned(), cell.replace("c²/a² = ", ""), value));
     }
-    let stale = found
-        .iter()
-        .filter(|(_, stated, value)| !is_rounded(stated, *value));
-    let stale: Vec<String> = stale
-        .map(|(what, stated, value)| format!("{what}: {stated} is {value:.4e}"))
-        .collect();
-    assert!(stale.is_empty(), "{stale:#?}");
+    found.retain(|(_, stated, value)| !is_rounded(stated, *value));
+    assert!(found.is_empty(), "{found:#?}");
 }
 
 /// The last cell of the table row that begins with `row`.
 fn last_cell(section: &str, row: &str) -> String {
-    let line = section
-        .lines()
-        .find(|line| line.starts_with(row))
-        .expect(row);
-    line.trim_end_matches('|')
-        .rsplit('|')
-        .next()
-        .expect("a cell")
-        .to_owned()
+    let line = section.lines().find(|line| line.starts_with(row));
+    let cells = line.expect(row).trim_end_matches('|').rsplit('|');
+    cells.map(str::to_owned).next().expect("a cell")
 }
 
 /// Whether the number at the start of `stated` is `value`, to within one of its last digit.

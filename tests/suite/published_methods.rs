@@ -4,7 +4,7 @@
 use crate::common::{Scene, apart, holds, limit, load, rms, run, run_setup};
 use crate::test_dir::cases;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
-use mdr_tui::reading::Curves;
+use mdr_tui::reading::{Curves, Observation};
 use mdr_tui::simulation::{Breakdown, Cause, Simulation};
 
 /// The exact permanent stick radius of the default scene in a₀: c² = 1 − κU.
@@ -14,19 +14,13 @@ fn stick_radius() -> f64 {
 
 /// The default scene at K = 3.
 fn worn(method: AbelMethod, cycles: f64) -> Simulation {
-    let scene = Scene::by(method).wear(3.0);
-    run(scene, cycles)
+    run(Scene::by(method).wear(3.0), cycles)
 }
 
 /// Fig. 3: both directions swing by 0.1 d₀, π/4 apart, on the smallest domain that can touch.
 fn fig3(method: AbelMethod, wear_number: f64, cells: usize, steps: u32) -> Scene {
-    Scene {
-        method,
-        cells,
-        steps,
-        domain: 2.2f64.sqrt(),
-        ..Scene::fig3(wear_number)
-    }
+    let scene = Scene::fig3(wear_number).method(method);
+    scene.cells(cells).steps(steps).domain(2.2f64.sqrt())
 }
 
 fn largest_difference(a: &Simulation, b: &Simulation) -> f64 {
@@ -65,11 +59,8 @@ fn a_and_a_plus_b_almost_agree() {
     for (cycles, apart) in [(10.0, 6e-4), (50.0, 6e-3), (400.0, 1e-8)] {
         let a = worn(A, cycles);
         let what = |name| format!("{name} against a after {cycles} cycles");
-        holds(
-            &what("a+b"),
-            largest_difference(&a, &worn(APlusB, cycles)),
-            apart,
-        );
+        let off = largest_difference(&a, &worn(APlusB, cycles));
+        holds(what("a+b"), off, apart);
     }
     let b_apart = largest_difference(&worn(A, 400.0), &worn(B, 400.0));
     assert!(b_apart > 0.1, "b against a: {b_apart}");
@@ -96,10 +87,8 @@ fn the_error_of_b_overtakes_first_as_the_wear_coefficient_grows() {
             let case = format!("K={wear_number}, {name}");
             holds(&case, error, constant * h.powf(1.5));
         }
-        assert!(
-            benad > 3.0 * a.max(mixed).max(b),
-            "K={wear_number}: {benad}"
-        );
+        let others = a.max(mixed).max(b);
+        assert!(benad > 3.0 * others, "K={wear_number}: {benad}");
     }
     let [a, mixed, b, benad] = errors(10.0);
     holds("K=10, a", a, 0.25 * h);
@@ -123,15 +112,10 @@ fn is_sound(breakdown: &Breakdown, simulation: &Simulation) {
     assert_eq!(breakdown.cycle, simulation.cycle());
     let message = breakdown.to_string();
     let cycle = format!("stopped after {} cycles: ", breakdown.cycle);
-    assert!(
-        message.starts_with(&cycle) && message.len() > cycle.len() + 20,
-        "{message}"
-    );
-    let told = format!(
-        "{:?}{:?}",
-        simulation.state(),
-        simulation.observe(Curves::all())
-    );
+    let says_why = message.starts_with(&cycle) && message.len() > cycle.len() + 20;
+    assert!(says_why, "{message}");
+    let seen = simulation.observe(Curves::all());
+    let told = format!("{:?}{seen:?}", simulation.state());
     // Where a period has just ended there is no smallest radius of the next one yet.
     let told = told.replace("smallest_stick_radius: inf", "");
     assert!(!told.contains("NaN") && !told.contains("inf"), "{told}");
@@ -140,26 +124,19 @@ fn is_sound(breakdown: &Breakdown, simulation: &Simulation) {
 /// The Fig. 3 motion, 50 cycles of 100 steps.
 #[test]
 fn methods_break_down_in_the_order_benad_b_a() {
-    let ends = |wear_number, methods: &[AbelMethod]| -> Vec<bool> {
-        let outcome = |&method| {
+    let ends = |wear_number| {
+        [A, APlusB, B, Benad].map(|method| {
             let end = breakdown(fig3(method, wear_number, 100, 100), 50.0);
             end.inspect(|(cause, simulation)| is_sound(cause, simulation))
                 .is_some()
-        };
-        methods.iter().map(outcome).collect()
+        })
     };
-    assert_eq!(ends(10.0, &[A, APlusB, B, Benad]), [false; 4]);
-    assert_eq!(
-        ends(100.0, &[A, APlusB, B, Benad]),
-        [false, false, true, true]
-    );
+    assert_eq!(ends(10.0), [false; 4]);
+    assert_eq!(ends(100.0), [false, false, true, true]);
     // Far above 4h/π for μ k E* s: here everyone goes.
-    assert_eq!(ends(1000.0, &[A, APlusB, B, Benad]), [true; 4]);
+    assert_eq!(ends(1000.0), [true; 4]);
     let cycle = |method| breakdown(fig3(method, 30.0, 100, 100), 50.0).map(|(end, _)| end.cycle);
-    let (benad, b) = (
-        cycle(Benad).expect("a breakdown"),
-        cycle(B).expect("a breakdown"),
-    );
+    let [benad, b] = [Benad, B].map(|method| cycle(method).expect("a breakdown"));
     assert!(benad < b, "benad after {benad} cycles, b after {b}");
 }
 
@@ -176,30 +153,31 @@ fn benad_breaks_down_at_a_large_wear_coefficient_and_says_when() {
 
 /// Where the largest value stands, and the value.
 fn peak(radii: &[f64], values: &[f64]) -> (f64, f64) {
-    radii
-        .iter()
-        .zip(values)
-        .fold((0.0, 0.0), |best, (&r, &value)| {
-            if value.abs() > best.1 {
-                (r, value.abs())
-            } else {
-                best
-            }
-        })
+    let nodes = radii.iter().zip(values);
+    let sizes = nodes.map(|(&r, value)| (r, value.abs()));
+    let highest = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
+    highest.expect("nodes")
+}
+
+/// Fig. 3 at its end: the observation, h, and c, which is 0.4164 a₀ to a cell; p has its peak there.
+fn worn_fig3(method: AbelMethod, wear_number: f64) -> (Observation, f64, f64) {
+    let simulation = run(fig3(method, wear_number, 100, 40), 199.24);
+    let h = simulation.setup().grid.nodes()[1];
+    let seen = simulation.observe(Curves::all());
+    let c = seen.moment.permanent_stick_radius.expect("springs");
+    holds(format!("c by {method}"), (c - 0.4164).abs(), h);
+    let (at, _) = peak(&seen.radii, &seen.pressure);
+    let case = format!("peak of p by {method} at {at}");
+    holds(case, (at - 0.4164).abs(), h);
+    (seen, h, c)
 }
 
 /// 199.24 cycles at kE*d₀/a₀ = 0.3: the largest stresses stand within a cell of c = 0.4164 a₀.
 #[test]
 fn the_worn_contact_of_fig_3_carries_its_peak_at_the_stick_border() {
     for method in [A, APlusB] {
-        let simulation = run(fig3(method, 0.3, 100, 40), 199.24);
-        let h = simulation.setup().grid.nodes()[1];
-        let seen = simulation.observe(Curves::all());
-        let c = seen.moment.permanent_stick_radius.expect("springs");
-        holds(&format!("c by {method}"), (c - 0.4164).abs(), h);
-        let (at, pressure) = peak(&seen.radii, &seen.pressure);
-        let case = format!("peak of p by {method} at {at}");
-        holds(&case, (at - 0.4164).abs(), h);
+        let (seen, h, _) = worn_fig3(method, 0.3);
+        let (_, pressure) = peak(&seen.radii, &seen.pressure);
         // Measured 1.66 times (a) and 1.69 times (a+b) the pressure next to the axis.
         assert!(pressure > 1.5 * seen.pressure[1], "{method}: {pressure}");
         let (at, shear) = peak(&seen.radii, &seen.shear);
@@ -216,23 +194,17 @@ fn the_worn_contact_of_fig_3_carries_its_peak_at_the_stick_border() {
 #[test]
 fn a_strongly_worn_ring_is_flat_at_the_largest_depth() {
     for method in [A, APlusB] {
-        let simulation = run(fig3(method, 3.0, 100, 40), 199.24);
-        let h = simulation.setup().grid.nodes()[1];
-        let seen = simulation.observe(Curves::all());
-        let c = seen.moment.permanent_stick_radius.expect("springs");
-        holds(&format!("c by {method}"), (c - 0.4164).abs(), h);
+        let (seen, h, c) = worn_fig3(method, 3.0);
         let nodes = || seen.radii.iter().zip(&seen.profile_1d);
         let ring = nodes().filter(|(r, _)| (c + 2.0 * h..1.2).contains(*r));
         let lag = ring.map(|(_, g)| (1.1 - g).abs()).fold(0.0, f64::max);
         // Measured 0.029: what 200 cycles have left to wear.
-        holds(&format!("1.1 - g in the ring by {method}"), lag, 0.04);
+        holds(format!("1.1 - g in the ring by {method}"), lag, 0.04);
         let stuck = nodes().filter(|(r, _)| (0.0..0.4164 - 2.0 * h).contains(*r));
         let moved = stuck.map(|(r, g)| (g - r * r).abs()).fold(0.0, f64::max);
         let case = format!("g in the permanent stick zone by {method}");
         holds(&case, moved, 0.3 * h);
-        let (at, pressure) = peak(&seen.radii, &seen.pressure);
-        let case = format!("peak of p by {method} at {at}");
-        holds(&case, (at - 0.4164).abs(), h);
+        let (_, pressure) = peak(&seen.radii, &seen.pressure);
         assert!(pressure > 5.0 * seen.pressure[1], "{method}: {pressure}");
     }
 }

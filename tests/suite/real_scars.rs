@@ -4,7 +4,7 @@ use mdr_tui::reading::Moment;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
-use crate::common::{begin, near, try_load};
+use crate::common::{again, begin, near, refused, text_of, try_load};
 use crate::test_dir::{TestDir, has};
 
 const SMALL: [&str; 3] = [
@@ -21,26 +21,18 @@ fn started(name: &str, sets: &[&str]) -> Session {
     begin(small(name, sets).expect("a scenario"))
 }
 
-fn preset(name: &str) -> &'static str {
-    mdr_tui::scenario::preset::find(name)
-        .expect("a preset")
-        .text
-}
-
-/// The preset with `line` in its `[wear]` table.
-fn with_wear(name: &str, line: &str) -> String {
-    preset(name).replace("[wear]\n", &format!("[wear]\n{line}\n"))
+/// Where the preset stands with `line` in its `[wear]` table.
+fn with_wear(dir: &TestDir, name: &str, line: &str) -> String {
+    let text = text_of(name).replace("[wear]\n", &format!("[wear]\n{line}\n"));
+    dir.write("scar.toml", text.as_bytes());
+    dir.path("scar.toml").display().to_string()
 }
 
 /// The volume of a coarse table of a smooth scar is right to the second order of its points.
 #[test]
 fn a_table_of_a_smooth_scar_is_met_with_the_order_of_its_points() {
     let dir = TestDir::new();
-    dir.write(
-        "scar.toml",
-        with_wear("li2019-fig3", "initial = \"scar.csv\"").as_bytes(),
-    );
-    let path = dir.path("scar.toml").display().to_string();
+    let path = with_wear(&dir, "li2019-fig3", "initial = \"scar.csv\"");
     let (reach, deep) = (1.2e-4_f64, 1e-7);
     // δ = δ₀ (1 − r²/b²)²: V = π b² δ₀/3.
     let exact = std::f64::consts::PI * reach * reach * deep / 3.0;
@@ -54,10 +46,8 @@ fn a_table_of_a_smooth_scar_is_met_with_the_order_of_its_points() {
         dir.write("scar.csv", text.as_bytes());
         let sets = ["numerics.points=2000", "numerics.grid=uniform"];
         let scenario = small(&path, &sets).expect("a scenario");
-        let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
-        assert_eq!(again.setup(), scenario.setup());
-        let session = begin(scenario);
-        let moment = session.simulation().moment();
+        assert_eq!(again(&scenario).setup(), scenario.setup());
+        let moment = begin(scenario).simulation().moment();
         assert_eq!(moment.wear_volume, moment.initial_volume);
         (moment.wear_volume / exact - 1.0).abs()
     });
@@ -75,29 +65,20 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
     let dir = TestDir::new();
     let text = "r_m,depth_m\n0,2e-7\n5e-5,2e-7\n1e-4,1e-7\n1.2e-4,0\n";
     dir.write("scar.csv", text.as_bytes());
-    dir.write(
-        "scar.toml",
-        with_wear("gross-slip", "initial = \"scar.csv\"").as_bytes(),
-    );
-    let mut session = started(&dir.path("scar.toml").display().to_string(), &[]);
+    let path = with_wear(&dir, "gross-slip", "initial = \"scar.csv\"");
+    let mut session = started(&path, &[]);
     session.advance_to(3.0).expect("a run");
     let moment: Moment = session.simulation().moment();
     let grown = moment.wear_volume - moment.initial_volume;
     assert!(moment.initial_volume > grown && grown > 0.0, "{moment:?}");
-    let k = session
-        .simulation()
-        .setup()
-        .wear
-        .expect("a law")
-        .coefficient();
-    let expected = k * moment.dissipated_energy;
-    near("grown", grown, expected, 0.02);
+    let law = session.simulation().setup().wear;
+    let k = law.expect("a law").coefficient();
+    near("grown", grown, k * moment.dissipated_energy, 0.02);
     let per_energy = moment.wear_per_energy().expect("work");
     near("per_energy", per_energy, k, 0.02);
     assert!(moment.energy_residual.expect("a residual").abs() < 0.02);
-    let refused = session.change("wear.initial_depths", "[0, 0, 0, 0]");
-    let refused = refused.expect_err("refused").to_string();
-    has(&refused, "cannot change during a run");
+    let told = refused(&mut session, "wear.initial_depths", "[0, 0, 0, 0]");
+    has(&told, "cannot change during a run");
 }
 
 /// A held force presses the indenter on from the scar that it has left: V and d are those of a run at once.
@@ -105,8 +86,7 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
 fn a_held_force_sinks_in_from_its_scar() {
     let dir = TestDir::new();
     let force = |cycles: f64, line: &str| {
-        dir.write("force.toml", with_wear("gross-slip", line).as_bytes());
-        let path = dir.path("force.toml").display().to_string();
+        let path = with_wear(&dir, "gross-slip", line);
         let sets = [
             "motion.normal.control=force",
             "motion.normal.mean=30",
@@ -117,10 +97,8 @@ fn a_held_force_sinks_in_from_its_scar() {
         session
     };
     let first = force(10.0, "");
-    dir.write(
-        "state.csv",
-        mdr_tui::export::state::table(&first).as_bytes(),
-    );
+    let state = mdr_tui::export::state::table(&first);
+    dir.write("state.csv", state.as_bytes());
     let whole = force(20.0, "").simulation().moment();
     let second = force(10.0, "initial = \"state.csv\"").simulation().moment();
     near("V", second.wear_volume, whole.wear_volume, 0.01);
@@ -134,16 +112,14 @@ fn pressure_that_passes_the_hardness_is_said() {
     let (modulus, depth, radius) = (2.3077e11_f64, 1.1e-6_f64, 1e-2);
     let highest = std::f64::consts::FRAC_2_PI * modulus * (depth / radius).sqrt();
     let sets = |hardness: f64| format!("material.hardness={hardness:e}");
-    let warned = |session: &Session| -> Option<String> {
-        let lines = session.warnings();
-        lines.into_iter().find(|line| line.contains("hardness"))
+    let warned = |session: &Session| {
+        let mut lines = session.warnings().into_iter();
+        lines.find(|line| line.contains("hardness"))
     };
     // Known before the run from the deepest point, which the first moment has not reached.
     let mut soft = started("li2019-fig3", &[&sets(0.99 * highest)]);
-    has(
-        &warned(&soft).expect("a warning"),
-        "where the contact is deepest",
-    );
+    let told = warned(&soft).expect("a warning");
+    has(&told, "where the contact is deepest");
     assert_eq!(soft.log().passed_hardness(), None);
     soft.advance_to(1.0).expect("a cycle");
     let passed = soft.log().passed_hardness().expect("passed");
@@ -165,31 +141,27 @@ fn pressure_that_passes_the_hardness_is_said() {
 #[test]
 fn hardness_belongs_to_a_body_or_to_the_pair() {
     let bodies = |indenter: &str, half_space: &str| {
-        let from = "effective_modulus = 2.3077e11\npoisson = 0.3\n";
         let body = "youngs_modulus = 2.1e11\npoisson = 0.3\n";
-        let text = preset("gross-slip");
-        let start = text.find("[material]").expect("a material");
-        let end = text[start + 1..].find("\n[").expect("a table") + start + 1;
-        assert!(text[start..end].contains("effective_modulus"), "{from}");
+        let (before, rest) = text_of("gross-slip")
+            .split_once("[material]")
+            .expect("a material");
+        let (material, after) = rest.split_once("\n[").expect("a table");
+        has(material, "effective_modulus");
         format!(
-            "{}[material.indenter]\n{body}{indenter}\n[material.half_space]\n{body}{half_space}\n{}",
-            &text[..start],
-            &text[end..]
+            "{before}[material.indenter]\n{body}{indenter}\n[material.half_space]\n{body}{half_space}\n[{after}"
         )
     };
     let limit = |text: &str, sets: &[&str]| {
         let sets: Vec<String> = SMALL.iter().chain(sets).map(ToString::to_string).collect();
         Scenario::from_toml(text, "two.toml", &sets).map(|scenario| scenario.setup().hardness)
     };
-    let found = limit(&bodies("hardness = 7e9", "hardness = 2e9"), &[]).expect("a scenario");
-    assert_eq!(found, Some(2e9));
-    assert_eq!(
-        limit(&bodies("hardness = \"7 GPa\"", ""), &[]).expect("a scenario"),
-        Some(7e9)
-    );
-    assert_eq!(limit(preset("gross-slip"), &[]).expect("a scenario"), None);
-    let refused = limit(&bodies("", ""), &["material.hardness=2e9"])
-        .expect_err("refused")
-        .to_string();
-    has(&refused, "conflicts with two bodies");
+    for (text, due) in [
+        (&*bodies("hardness = 7e9", "hardness = 2e9"), Some(2e9)),
+        (&bodies("hardness = \"7 GPa\"", ""), Some(7e9)),
+        (text_of("gross-slip"), None),
+    ] {
+        assert_eq!(limit(text, &[]).expect("a scenario"), due);
+    }
+    let refusal = limit(&bodies("", ""), &["material.hardness=2e9"]).expect_err("refused");
+    has(&refusal.to_string(), "conflicts with two bodies");
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use mdr_tui::scenario::checkpoint;
 use mdr_tui::scenario::preset;
 
-use crate::common::{begin, load, ran, rehearsed};
+use crate::common::{begin, load, ran, rehearsed, text_of};
 use crate::test_dir::{TestDir, has, lacks};
 
 #[test]
@@ -79,36 +79,29 @@ fn restarts_and_the_past_stay_within_their_memory() {
 }
 
 /// A scenario whose end, and twice that, lie between two steps.
-fn cut_short(more: &str) -> String {
-    let text = preset::find("li2019-fig3").expect("a preset").text;
-    let (before, _) = text.split_once("[run]").expect("a table");
-    format!("{before}{more}\n[run]\ncycles = 1.00613\n")
+fn cut_short() -> String {
+    let (before, _) = text_of("li2019-fig3").split_once("[run]").expect("a table");
+    format!("{before}\n[run]\ncycles = 1.00613\n")
 }
 
 #[test]
 fn past_an_end_between_two_steps_a_replay_takes_the_same_steps() {
     let dir = TestDir::new();
-    dir.write("mine.toml", cut_short("").as_bytes());
+    dir.write("mine.toml", cut_short().as_bytes());
     dir.done("mine.toml --print 80x24 --keys ,,s");
     let state = dir.read("mine-cycle-2/state.csv");
-    has(
-        &dir.read("mine-cycle-2/scenario.toml"),
-        "shortened_at = [1.00613]",
-    );
+    let told = dir.read("mine-cycle-2/scenario.toml");
+    has(&told, "shortened_at = [1.00613]");
     dir.done("run mine-cycle-2/scenario.toml --out replayed --quiet");
     assert!(dir.read("replayed/state.csv") == state, "another run");
     // What is replayed is written down as it was.
-    let [first, again] =
-        ["mine-cycle-2", "replayed"].map(|out| dir.read(&format!("{out}/scenario.toml")));
-    assert_eq!(first, again);
+    assert_eq!(told, dir.read("replayed/scenario.toml"));
 
     // A run that is resumed and sent further.
     let path = dir.path("mine.toml").display().to_string();
     let session = ran(load(&path, &[]), 1.00613);
-    dir.write(
-        "kept.checkpoint",
-        &checkpoint::encode(&session, None::<&()>),
-    );
+    let kept = checkpoint::encode(&session, None::<&()>);
+    dir.write("kept.checkpoint", &kept);
     dir.done("run --resume kept.checkpoint --cycles 2 --out further --quiet");
     assert!(dir.read("further/state.csv") == state, "another run");
     dir.done("run further/scenario.toml --out again --quiet");
@@ -124,7 +117,7 @@ fn a_run_that_was_stopped_on_its_way_jumps_in_a_replay_as_it_did() {
     let sets = ["numerics.points=40", "numerics.steps_per_cycle=20"];
     let scenario = load("mild-million", &sets);
     // A goal that cuts a jump short, and a stop somewhere before it.
-    let (mut checked, mut shortened) = (0, 0);
+    let mut shortened = 0;
     for goal in [37.3, 211.7, 1003.1, 2500.9] {
         let mut session = begin(scenario.clone());
         while session.simulation().cycle() < goal {
@@ -146,10 +139,6 @@ fn a_run_that_was_stopped_on_its_way_jumps_in_a_replay_as_it_did() {
             );
             break;
         }
-        checked += 1;
     }
-    assert!(
-        checked == 4 && shortened > 0,
-        "no goal has cut a jump short"
-    );
+    assert!(shortened > 0, "no goal has cut a jump short");
 }

@@ -10,7 +10,7 @@ use serde::de::IgnoredAny;
 
 use crate::common::load;
 use crate::random::Random;
-use crate::test_dir::{TestDir, bits, end, kill, names, signal};
+use crate::test_dir::{TestDir, bits, end, has, kill, names, signal};
 
 /// A run with snapshots between steps, a row a step, and changes on the way.
 fn scenario() -> String {
@@ -137,15 +137,11 @@ fn assert_whole(dir: &TestDir, out: &str) {
             checkpoint::read::<IgnoredAny>(&path).expect("a whole checkpoint");
         } else if name == "provenance.toml" {
             let text = dir.read(&format!("{out}/{name}"));
-            assert!(
-                text.contains("\narithmetic = \"") && text.ends_with("\"\n"),
-                "{text}"
-            );
+            has(&text, "\narithmetic = \"");
+            assert!(text.ends_with("\"\n"), "{text}");
         } else if !name.starts_with(".mdr-tui-") {
-            assert!(
-                dir.read(&format!("{out}/{name}")) == dir.read(&format!("whole/{name}")),
-                "{out}: {name} is torn"
-            );
+            let [found, due] = [out, "whole"].map(|of| dir.read(&format!("{of}/{name}")));
+            assert!(found == due, "{out}: {name} is torn");
         }
     }
 }
@@ -175,13 +171,8 @@ fn a_defect_keeps_what_is_done_and_says_so_in_one_line() {
     let dir = TestDir::new();
     let said = dir.line_with("run hertz --cycles 1 --out x", &[("MDR_TUI_FAULT", "run")]);
     said.fails(1, "a fault in the run");
-    let kept = [
-        "history.csv",
-        "run.checkpoint",
-        "scenario.toml",
-        "state.csv",
-    ];
-    assert_eq!(names(&dir.path("x")), kept);
+    let kept = "history.csv run.checkpoint scenario.toml state.csv";
+    assert_eq!(names(&dir.path("x")).join(" "), kept);
     dir.done("run --resume x/run.checkpoint --quiet");
     dir.done("run hertz --cycles 1 --out whole --quiet");
     dir.alike("whole", "x");

@@ -1,39 +1,26 @@
 //! A rig that yields, and load blocks, against closed forms.
 
+use std::f64::consts::FRAC_2_PI;
+
 use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{CycleFigures, Log, Regime};
-use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::session::Session;
-use mdr_tui::simulation::drive::Drive;
 use mdr_tui::simulation::{Setup, Simulation};
 
-use crate::common::{Scene, load, near, ours, ran, swing, try_load};
+use crate::common::{
+    Scene, again, cattaneo, energy, load, near, ours, ran, text_of, try_load, volume,
+};
 use crate::test_dir::TestDir;
 
 /// E* = d = a₀ = 1, μ = 0.1, ν = 0.3: a contact moved by ±`amplitude` through a rig of this compliance.
 fn on_rig(indenter: Indenter, amplitude: f64, compliance: f64) -> Setup {
-    let setup = ours(Scene {
-        indenter,
-        cells: 200,
-        domain: 1.2,
-        tangential: Some(swing(0.0, amplitude, 1.0, 0.0)),
-        steps: 200,
-        ..Scene::default()
-    });
-    let [normal, tangential] = [
-        setup.drive.normal().clone(),
-        setup.drive.tangential().expect("a motion").clone(),
-    ];
-    let drive = Drive::new(normal, Some(tangential));
-    Setup {
-        drive: match compliance > 0.0 {
-            true => drive.with_rig(compliance.recip()).expect("a rig"),
-            false => drive,
-        },
-        ..setup
+    let scene = Scene::default().indenter(indenter).cells(200).steps(200);
+    let mut setup = ours(scene.domain(1.2).shaken(amplitude));
+    if compliance > 0.0 {
+        let drive = setup.drive.with_rig(compliance.recip());
+        setup.drive = drive.expect("a rig");
     }
+    setup
 }
 
 /// Two cycles, and the figures of the second.
@@ -57,11 +44,7 @@ fn close(what: &str, found: f64, expected: f64, bound: f64) {
 fn ratios_at_the_border_of_gross_slip_on_rigs() {
     // g(1) = d = 1: κₙA = 1.
     let shapes = [
-        (
-            "cone",
-            1.0,
-            Indenter::cone(std::f64::consts::FRAC_2_PI.atan()),
-        ),
+        ("cone", 1.0, Indenter::cone(FRAC_2_PI.atan())),
         ("sphere", 2.0, Indenter::paraboloid(1.0)),
         ("quartic", 4.0, Indenter::power(0.375, 4.0)),
     ];
@@ -87,11 +70,8 @@ fn ratios_at_the_border_of_gross_slip_on_rigs() {
                 let setup = on_rig(shape.clone(), share * border * (1.0 + rho), compliance);
                 after_two_cycles(setup).1.regime
             };
-            assert_eq!(
-                [0.99, 1.01].map(regime),
-                [Regime::Partial, Regime::Gross],
-                "{name} {rho}"
-            );
+            let both = [Regime::Partial, Regime::Gross];
+            assert_eq!([0.99, 1.01].map(regime), both, "{name} {rho}");
         }
     }
 }
@@ -99,25 +79,13 @@ fn ratios_at_the_border_of_gross_slip_on_rigs() {
 /// u + C F_x(u) = U by Cattaneo and Mindlin: the contact's loop, its energy, and the sensor's loop.
 #[test]
 fn a_compliant_rig_in_partial_slip_is_the_closed_form() {
-    let g_star = stiffness_ratio(0.3);
-    let contact = |amplitude| CattaneoMindlin {
-        e_star: 1.0,
-        g_star,
-        mu: 0.1,
-        radius: 1.0,
-        depth: 1.0,
-        amplitude,
-    };
-    let border = contact(0.0).gross_slip_displacement();
+    let border = cattaneo(0.0).gross_slip_displacement();
     for (share, compliance) in [(0.4, 0.3), (0.8, 1.0), (0.9, 3.0)] {
-        let reached = contact(share * border);
+        let reached = cattaneo(share * border);
         let force = reached.first_loading_force(share * border);
         let amplitude = share * border + compliance * force;
-        let setup = on_rig(
-            Indenter::paraboloid(1.0).expect("a shape"),
-            amplitude,
-            compliance,
-        );
+        let shape = Indenter::paraboloid(1.0).expect("a shape");
+        let setup = on_rig(shape, amplitude, compliance);
         let (simulation, figures) = after_two_cycles(setup);
         let what = |value: &str| format!("u = {share} of the border, C = {compliance}: {value}");
         let relative =
@@ -129,11 +97,8 @@ fn a_compliant_rig_in_partial_slip_is_the_closed_form() {
         let moment = simulation.moment();
         let sensed = moment.rig_displacement.expect("a rig");
         assert!((sensed - (moment.shift + compliance * moment.tangential_force)).abs() < 1e-15);
-        assert!(
-            sensed.abs() < 1e-12 && moment.shift.abs() > 1e-4,
-            "{sensed} {}",
-            moment.shift
-        );
+        let is_elsewhere = sensed.abs() < 1e-12 && moment.shift.abs() > 1e-4;
+        assert!(is_elsewhere, "{sensed} {}", moment.shift);
         let stick = moment.permanent_stick_radius.expect("springs");
         relative("c", stick, reached.stick_radius());
     }
@@ -152,8 +117,7 @@ fn steps_end_where_a_contact_on_a_rig_turns() {
             "numerics.grid=uniform",
             &format!("numerics.steps_per_cycle={steps}"),
         ];
-        let session = ran(load("li2019-fig3", &sets), 2.0);
-        session.simulation().moment().dissipated_energy
+        energy(&ran(load("li2019-fig3", &sets), 2.0))
     };
     let exact = energy(1600);
     let errors = [25, 50, 100, 200].map(|steps| (energy(steps) / exact - 1.0).abs());
@@ -229,49 +193,32 @@ fn friction_and_wear_run_in() {
         let small = ["numerics.points=40", "numerics.steps_per_cycle=40"];
         ran(load("gross-slip", &[&small[..], sets].concat()), 6.0)
     };
-    let worn = |session: &Session| {
-        let moment = session.simulation().moment();
-        (moment.wear_volume, moment.dissipated_energy)
-    };
     let steady = after(&[]);
     let fading = after(&["friction.settled=0.05", "friction.running_in_cycles=2"]);
     let friction = fading.simulation().setup().material.friction();
-    assert!(
-        (friction - (0.05 + 0.05 * f64::exp(-3.0))).abs() < 1e-12,
-        "{friction}"
-    );
+    close("μ", friction, 0.05 + 0.05 * f64::exp(-3.0), 1e-12);
     let moment = fading.simulation().moment();
     assert!(moment.tangential_force.abs() <= 1.01 * friction * moment.normal_force);
-    assert!(worn(&fading).1 < 0.8 * worn(&steady).1);
+    assert!(energy(&fading) < 0.8 * energy(&steady));
     // V = k(E_d − E_th), to a step's work.
-    let threshold = 0.4 * worn(&steady).1;
+    let threshold = 0.4 * energy(&steady);
     let late = after(&[&format!("wear.threshold_energy={threshold:e}")]);
-    let (volume, energy) = worn(&late);
-    let expected = 1.3e-10 * (energy - threshold);
-    near("volume", volume, expected, 0.03);
+    let expected = 1.3e-10 * (energy(&late) - threshold);
+    near("volume", volume(&late), expected, 0.03);
     let halved = after(&["wear.settled=6.5e-11", "wear.running_in_energy=1e-9"]);
-    let (volume, energy) = worn(&halved);
-    near("volume", volume, 6.5e-11 * energy, 0.05);
+    near("volume", volume(&halved), 6.5e-11 * energy(&halved), 0.05);
 }
 
 #[test]
 fn a_course_from_a_table_and_what_contradicts_it() {
     let dir = TestDir::new();
-    let preset = mdr_tui::scenario::preset::find("gross-slip")
-        .expect("a preset")
-        .text;
-    dir.write(
-        "mine.toml",
-        preset
-            .replace("coefficient = 0.1", "file = \"mu.csv\"")
-            .as_bytes(),
-    );
+    let mine = text_of("gross-slip").replace("coefficient = 0.1", "file = \"mu.csv\"");
+    dir.write("mine.toml", mine.as_bytes());
     dir.write("mu.csv", b"cycle,coefficient\n0,0.1\n2,0.3\n");
     let path = dir.path("mine.toml").display().to_string();
     let scenario = load(&path, &["numerics.points=40"]);
-    let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
-    assert_eq!(again.setup(), scenario.setup());
+    assert_eq!(again(&scenario).setup(), scenario.setup());
     let session = ran(scenario, 1.0);
     let friction = session.simulation().setup().material.friction();
-    assert!((friction - 0.2).abs() < 1e-12, "{friction}");
+    close("μ", friction, 0.2, 1e-12);
 }

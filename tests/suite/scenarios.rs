@@ -2,9 +2,8 @@
 //! back as itself.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use approx::assert_relative_eq;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Change, RunPlan, Scenario, preset};
@@ -12,35 +11,22 @@ use mdr_tui::simulation::drive::Control;
 use mdr_tui::simulation::{Scheme, Simulation, Spacing};
 use proptest::prelude::*;
 
-use crate::common::{load, near, ran, try_load};
-use crate::test_dir::has;
+use crate::common::{again, begin, change, load, near, ran, refused, try_load, volume};
+use crate::test_dir::{has, names};
 
 fn fixtures(kind: &str) -> Vec<(String, String)> {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/fixtures/scenarios")
-        .join(kind);
-    let mut paths: Vec<PathBuf> = fs::read_dir(directory)
-        .expect("a directory of fixtures")
-        .map(|entry| entry.expect("an entry").path())
-        .collect();
-    paths.sort();
-    let read = |path: &PathBuf| {
-        let name = path.file_name().expect("a name").to_string_lossy();
-        (name.into_owned(), fs::read_to_string(path).expect("a text"))
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/scenarios");
+    let directory = directory.join(kind);
+    let read = |name: String| {
+        let text = fs::read_to_string(directory.join(&name)).expect("a text");
+        (name, text)
     };
-    paths.iter().map(read).collect()
+    names(&directory).into_iter().map(read).collect()
 }
 
 /// The file has this line.
 fn assert_line(text: &str, line: &str) {
     has(text, &format!("\n{line}\n"));
-}
-
-/// Reads `scenario` back from its own text.
-fn again(scenario: &Scenario) -> Scenario {
-    let text = scenario.to_toml();
-    Scenario::from_toml(&text, scenario.origin(), &[])
-        .unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 #[test]
@@ -107,16 +93,11 @@ fn the_radius_of_a_punch_is_none_of_curvature() {
     has(&error, "indenter.radius is missing");
     // In either order, and a domain given for another shape does not stand in the way.
     let wide = load("li2019-fig3", &["numerics.domain_radius=3e-4"]);
-    for both in [
-        [
-            ("indenter.shape", "flat-punch"),
-            ("indenter.radius", "1e-4"),
-        ],
-        [
-            ("indenter.radius", "1e-4"),
-            ("indenter.shape", "flat-punch"),
-        ],
-    ] {
+    let [shape, size] = [
+        ("indenter.shape", "flat-punch"),
+        ("indenter.radius", "1e-4"),
+    ];
+    for both in [[shape, size], [size, shape]] {
         let punch = wide.with_all(&both).expect("a punch");
         assert_eq!(punch.setup().indenter.rim(), Some(1e-4));
         assert_eq!(punch.setup().grid.radius(), 1e-4);
@@ -128,11 +109,8 @@ fn the_radius_of_a_punch_is_none_of_curvature() {
     ];
     let cut = load("li2019-fig3", &[]).with_all(&cut).expect("a flat tip");
     assert_eq!(cut.value("indenter.radius"), Some("0.01".into()));
-    assert_relative_eq!(
-        cut.setup().grid.radius(),
-        (2.0 * 0.01 * 1.1e-6 + 4e-10f64).sqrt(),
-        max_relative = 1e-14
-    );
+    let edge = (2.0 * 0.01 * 1.1e-6 + 4e-10f64).sqrt();
+    near("domain", cut.setup().grid.radius(), edge, 1e-14);
     let whole = cut.with("indenter.shape", "paraboloid");
     assert_eq!(whole, Ok(load("li2019-fig3", &[])));
 }
@@ -192,28 +170,17 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
 #[test]
 fn a_run_that_changed_its_method_replays_to_the_same_bits() {
     for method in AbelMethod::ALL {
-        let mut session = Session::start(load("li2019-fig3", &[])).expect("a contact");
-        session.advance_to(0.25).expect("a quarter of a cycle");
-        session
-            .change("numerics.method", method.name())
-            .expect("a method");
+        let mut session = ran(load("li2019-fig3", &[]), 0.25);
+        change(&mut session, "numerics.method", method.name());
         session.advance_to(0.5).expect("another");
-        session.change("numerics.grid", "uniform").expect("a grid");
-        session.change("numerics.method", "b").expect("a method");
+        change(&mut session, "numerics.grid", "uniform");
+        change(&mut session, "numerics.method", "b");
         session.advance_to(0.75).expect("a third");
-        let run = again(&session.as_run(Vec::new()));
-        let mut replay = Session::start(run).expect("a contact");
-        replay.advance_to(0.75).expect("the whole run");
-        assert_eq!(
-            replay.scenario().setup(),
-            session.scenario().setup(),
-            "{method}"
-        );
-        assert_eq!(
-            replay.simulation().state(),
-            session.simulation().state(),
-            "{method}"
-        );
+        let replay = ran(again(&session.as_run(Vec::new())), 0.75);
+        let setups = [&replay, &session].map(|run| run.scenario().setup());
+        assert_eq!(setups[0], setups[1], "{method}");
+        let states = [&replay, &session].map(|run| run.simulation().state());
+        assert_eq!(states[0], states[1], "{method}");
     }
 }
 
@@ -223,22 +190,19 @@ fn a_key_changed_follows_the_same_rules() {
     let changed = scenario.with("numerics.method", "\"b\"").expect("a method");
     assert_eq!(changed.setup().method.name(), "b");
     let method = scenario.setup().method.name();
-    assert_eq!(
-        changed.with("numerics.method", method),
-        Ok(scenario.clone())
-    );
-    let error = scenario
-        .with("material.poisson", "0.7")
-        .expect_err("too large");
-    assert_eq!(
-        error.to_string(),
-        "material.poisson = 0.7: must be from 0 to 0.5"
-    );
-    let error = scenario.with("points", "7").expect_err("no such key");
-    assert_eq!(
-        error.to_string(),
-        "points = 7: unknown key points; did you mean numerics.points?"
-    );
+    let back = changed.with("numerics.method", method);
+    assert_eq!(back, Ok(scenario.clone()));
+    for (key, value, why) in [
+        ("material.poisson", "0.7", "must be from 0 to 0.5"),
+        (
+            "points",
+            "7",
+            "unknown key points; did you mean numerics.points?",
+        ),
+    ] {
+        let error = scenario.with(key, value).expect_err("a refusal");
+        assert_eq!(error.to_string(), format!("{key} = {value}: {why}"));
+    }
 }
 
 #[test]
@@ -252,12 +216,8 @@ fn the_law_can_be_switched_there_and_back() {
     // mu F/(pi a^2) of Hertz, with the error of 200 cells.
     let mean_pressure =
         4.0 / 3.0 * 2.3077e11 * 1e-3 * 0.01f64.sqrt() * 1e-6 / (std::f64::consts::PI * 1e-8);
-    assert_relative_eq!(
-        powers.reference_stress,
-        0.1 * mean_pressure,
-        max_relative = 1e-3
-    );
-    assert_relative_eq!(powers.reference_slip_rate, 1e-5, max_relative = 1e-12);
+    near("stress", powers.reference_stress, 0.1 * mean_pressure, 1e-3);
+    near("slip rate", powers.reference_slip_rate, 1e-5, 1e-12);
     assert_eq!(power.with("wear.law", "archard"), Ok(archard));
     let given = load("power-law", &["wear.reference_stress=1e8"]);
     let archard = given.with("wear.law", "archard").expect("a law");
@@ -302,40 +262,27 @@ fn an_accuracy_is_no_number_of_cells_and_steps() {
     let by_hand = asked.with("numerics.points", "50").expect("by hand");
     assert_eq!(again(&by_hand), by_hand);
     // Without numbers there is no run, and during one it cannot change.
-    let refused = Session::start(asked).expect_err("no points and steps");
-    assert!(
-        refused
-            .to_string()
-            .starts_with("numerics.accuracy = 1e-3: points and steps")
-    );
-    let mut session = Session::start(load("li2019-fig3", &[])).expect("a run");
-    let refused = session
-        .change("numerics.accuracy", "1e-3")
-        .expect_err("under way");
-    has(&refused.to_string(), "cannot change during a run");
+    let told = Session::start(asked).expect_err("no points and steps");
+    let told = told.to_string();
+    assert!(told.starts_with("numerics.accuracy = 1e-3: points and steps"));
+    let mut session = begin(load("li2019-fig3", &[]));
+    let told = refused(&mut session, "numerics.accuracy", "1e-3");
+    has(&told, "cannot change during a run");
 }
 
 #[test]
 fn the_domain_ends_where_nothing_can_touch() {
-    let scenario = load("li2019-fig3", &[]);
-    assert_relative_eq!(
-        scenario.setup().grid.radius(),
-        (2.0 * 0.01 * 1.1e-6f64).sqrt(),
-        max_relative = 1e-14
-    );
+    let ends = |preset: &str, sets: &[&str], depth: f64, share: f64| {
+        let radius = load(preset, sets).setup().grid.radius();
+        near(preset, radius, (2.0 * 0.01 * depth).sqrt(), share);
+    };
+    ends("li2019-fig3", &[], 1.1e-6, 1e-14);
     // Under a force that swings there is room to sink to three times the depth of Hertz.
-    let scenario = load(
-        "gross-slip",
-        &[
-            "motion.normal.amplitude=1e-9",
-            "motion.normal.angular_frequency=100",
-        ],
-    );
-    assert_relative_eq!(
-        scenario.setup().grid.radius(),
-        (2.0 * 0.01 * 3e-6f64).sqrt(),
-        max_relative = 1e-3
-    );
+    let swings = [
+        "motion.normal.amplitude=1e-9",
+        "motion.normal.angular_frequency=100",
+    ];
+    ends("gross-slip", &swings, 3e-6, 1e-3);
     // A force that is held sinks in until nothing slips: (2/3) c³/R + (U/λ) c = F_z/(2E*), d = c²/R + U/λ.
     let scenario = load("gross-slip", &[]);
     let setup = scenario.setup();
@@ -346,7 +293,7 @@ fn the_domain_ends_where_nothing_can_touch() {
     let force =
         2.0 * setup.material.normal_modulus() * (2.0 / 3.0 * c.powi(3) / 0.01 + yielding * c);
     let held = setup.drive.normal().oscillation().mean();
-    assert_relative_eq!(force, held, max_relative = 1e-6);
+    near("force", force, held, 1e-6);
 }
 
 #[test]
@@ -448,25 +395,19 @@ proptest! {
 
 #[test]
 fn a_frequency_is_given_in_either_unit() {
-    let load = |sets: &[&str]| try_load("li2019-fig3", sets);
-    let of = |scenario: &Scenario| {
-        let drive = &scenario.setup().drive;
-        drive
-            .tangential()
-            .map(|control| control.oscillation().angular_frequency())
+    let given = |value: &str| {
+        let sets = ["tangential", "normal"].map(|name| format!("motion.{name}.{value}"));
+        load("li2019-fig3", &sets.each_ref().map(String::as_str))
     };
-    let hertz = load(&[
-        "motion.tangential.frequency=50",
-        "motion.normal.frequency=50",
-    ])
-    .expect("hertz");
-    let angular = load(&[
-        "motion.tangential.angular_frequency=50 Hz",
-        "motion.normal.angular_frequency=50 Hz",
-    ]);
-    assert_eq!(of(&hertz), of(&angular.expect("radians")));
-    assert_eq!(of(&hertz), Some(std::f64::consts::TAU * 50.0));
-    assert_eq!(of(&again(&hertz)), of(&hertz));
+    let of = |scenario: &Scenario| {
+        let motion = scenario.setup().drive.tangential().expect("a motion");
+        motion.oscillation().angular_frequency()
+    };
+    let hertz = given("frequency=50");
+    let angular = given("angular_frequency=50 Hz");
+    for scenario in [&hertz, &angular, &again(&hertz)] {
+        assert_eq!(of(scenario), std::f64::consts::TAU * 50.0);
+    }
 }
 
 /// Archard's k of a pin test is per load and distance: per friction work it is k over friction.
@@ -474,14 +415,9 @@ fn a_frequency_is_given_in_either_unit() {
 fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
     let run = |sets: &[&str]| Ok::<_, String>(ran(try_load("li2019-fig3", sets)?, 2.0));
     let k = |session: &Session| {
-        session
-            .simulation()
-            .setup()
-            .wear
-            .expect("wear")
-            .coefficient()
+        let law = session.simulation().setup().wear;
+        law.expect("wear").coefficient()
     };
-    let volume = |session: &Session| session.simulation().moment().wear_volume;
     let work = run(&["wear.coefficient=1.3e-10"]).expect("a run");
     let load = run(&["wear.coefficient_per_load=0.013 mm3/Nm"]).expect("a run");
     near("k", k(&load), 1.3e-10, 1e-12);
@@ -494,11 +430,7 @@ fn a_wear_coefficient_per_load_is_over_the_friction_of_the_moment() {
     assert!(friction > 0.15 && (k(&load) * friction / 1.3e-11 - 1.0).abs() < 1e-12);
     // A change during a run goes with it as well.
     let mut changed = work.clone();
-    changed
-        .change("wear.coefficient_per_load", "1.3e-11")
-        .expect("a change");
-    changed
-        .change("friction.coefficient", "0.2")
-        .expect("a change");
+    change(&mut changed, "wear.coefficient_per_load", "1.3e-11");
+    change(&mut changed, "friction.coefficient", "0.2");
     near("k", k(&changed), 6.5e-11, 1e-12);
 }

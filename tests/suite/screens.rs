@@ -134,11 +134,8 @@ fn spelled(key: Key) -> String {
 
 #[test]
 fn every_key_of_the_table_can_be_pressed() {
-    let all: Vec<String> = COMMANDS
-        .iter()
-        .flat_map(|row| row.keys)
-        .map(|&key| spelled(key))
-        .collect();
+    let keys = COMMANDS.iter().flat_map(|row| row.keys);
+    let all: Vec<String> = keys.map(|&key| spelled(key)).collect();
     assert!(all.len() >= 30);
     for key in ["t", "c", "a"] {
         assert!(all.iter().any(|bound| bound == key), "{key} calls nothing");
@@ -228,10 +225,8 @@ fn a_panel_is_explained_where_it_stands() {
         let text = shot(&format!(",<Enter>{tabs}"));
         has(&text, &format!("┌ {} (", panel.recipe().title));
         let plain = shot(&format!(",{tabs}"));
-        let same = plain
-            .lines()
-            .filter(|line| text.lines().any(|seen| seen == *line));
-        assert!(same.count() >= 12, "{text}");
+        let is_same = |line: &&str| text.lines().any(|seen| seen == *line);
+        assert!(plain.lines().filter(is_same).count() >= 12, "{text}");
         let symbols = panel.recipe().symbols;
         has(&words_of(&text), symbols.last().expect("a symbol").1);
     }
@@ -349,9 +344,8 @@ fn fast_runs_are_shown_at_one_phase() {
     let frames = |wanted: usize| {
         let mut seen = Vec::new();
         while seen.len() < wanted {
-            let event = events
-                .recv_timeout(Duration::from_secs(30))
-                .expect("a frame");
+            let event = events.recv_timeout(Duration::from_secs(30));
+            let event = event.expect("a frame");
             if let Event::Frame(slot) = event {
                 seen.extend(slot.take());
             }
@@ -370,11 +364,8 @@ fn fast_runs_are_shown_at_one_phase() {
     }
     orders.send(Worker::hold_or_release_phase);
     frames(3);
-    let released = frames(8);
-    let parts = released
-        .iter()
-        .map(|frame| frame.observation.moment.cycle.fract());
-    assert!(parts.into_iter().any(|part| part > 0.05));
+    let is_off = |frame: &Frame| frame.observation.moment.cycle.fract() > 0.05;
+    assert!(frames(8).iter().any(|frame| is_off(frame)));
 }
 
 /// Space at the planned end runs on only when pressed twice.
@@ -467,10 +458,8 @@ fn the_status_line_begins_sensibly_however_narrow() {
         assert!(is_told, "{columns}: {status}");
         // The pace stays longer than method, checks and law.
         let pace = parts.get(2).and_then(|part| part.split("  ").next());
-        assert!(
-            columns < 50 || pace == Some("0.5 cycles/s"),
-            "{columns}: {status}"
-        );
+        let is_told = columns < 50 || pace == Some("0.5 cycles/s");
+        assert!(is_told, "{columns}: {status}");
         let method = match columns {
             80.. => "│ method: product",
             60.. => "│ product",

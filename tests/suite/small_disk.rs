@@ -34,10 +34,8 @@ impl SmallDisk {
     /// Leaves no byte free.
     fn fill(&self) {
         let filler = vec![0_u8; 8 << 20];
-        assert!(
-            fs::write(self.0.join("filler"), filler).is_err(),
-            "not full"
-        );
+        let written = fs::write(self.0.join("filler"), filler);
+        assert!(written.is_err(), "not full");
     }
 }
 
@@ -122,10 +120,8 @@ fn where_nothing_more_is_kept_the_end_says_from_which_cycle_on() {
     let kept = fs::read(out.join("run.checkpoint")).expect("a checkpoint");
     let cycle = format!(" at cycle {from}\n");
     assert!(String::from_utf8_lossy(&kept).contains(&cycle), "{last}");
-    assert!(
-        rest.ends_with("run.checkpoint (cycles up to 60 could not be saved)"),
-        "{last}"
-    );
+    let tail = "run.checkpoint (cycles up to 60 could not be saved)";
+    assert!(rest.ends_with(tail), "{last}");
 }
 
 #[cfg(target_os = "linux")]
@@ -151,17 +147,11 @@ fn a_history_of_many_rows_takes_neither_memory_nor_checkpoints() {
     };
     let (_, small) = run("1");
     let (checkpoint, large) = run("40");
-    let rows = fs::metadata(dir.path("40/history.csv"))
-        .expect("a file")
-        .len();
-    eprintln!(
-        "{rows} bytes of rows: checkpoint {checkpoint} bytes, memory {small} and {large} bytes"
-    );
+    let rows = dir.read("40/history.csv").len();
+    eprintln!("{rows} bytes of rows: checkpoint {checkpoint}, memory {small} and {large}");
     assert!(rows > 5 << 20);
     assert!((1..200_000).contains(&checkpoint), "{checkpoint}");
     assert!(large < small + (4 << 20), "{small} and {large}");
-    assert_eq!(
-        names(&dir.path("40")),
-        ["history.csv", "scenario.toml", "state.csv"]
-    );
+    let files = ["history.csv", "scenario.toml", "state.csv"];
+    assert_eq!(names(&dir.path("40")), files);
 }

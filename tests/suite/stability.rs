@@ -1,8 +1,10 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
-use crate::common::{Scene, holds, limit, load, ours, rms, run_setup, without_numerics};
+use crate::common::{
+    Scene, holds, in_steps, limit, load, near, ours, rms, run_setup, without_numerics,
+};
 use crate::test_dir::has;
-use mdr_tui::math::abel::AbelMethod::{A, APlusB, B, Benad, Product};
+use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
@@ -13,12 +15,8 @@ use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
 fn fig3(wear_number: f64, cells: usize) -> Setup {
-    ours(Scene {
-        cells,
-        domain: 2.2f64.sqrt(),
-        steps: 100,
-        ..Scene::fig3(wear_number)
-    })
+    let scene = Scene::fig3(wear_number).cells(cells).steps(100);
+    ours(scene.domain(2.2f64.sqrt()))
 }
 
 /// The stick radius of the first pass, before the springs have settled: where d ± κu_x from springs that
@@ -58,8 +56,7 @@ fn harsh_wear_costs_its_work() {
         for cells in [200, 400] {
             let simulation = run_setup(fig3(wear_number, cells), 1.0);
             let residual = simulation.moment().energy_residual.expect("worn").abs();
-            let case = format!("K = {wear_number}, N = {cells}");
-            holds(&case, residual, allowed);
+            holds(format!("K = {wear_number}, N = {cells}"), residual, allowed);
         }
     }
 }
@@ -68,11 +65,7 @@ fn harsh_wear_costs_its_work() {
 #[test]
 fn parts_of_harsh_steps_end_where_fine_steps_do() {
     for (wear_number, cells) in [(50.0, 100), (60.0, 100), (40.0, 200), (60.0, 200)] {
-        let fine = Setup {
-            steps_per_cycle: 1600,
-            ..fig3(wear_number, cells)
-        };
-        let fine = run_setup(fine, 3.0);
+        let fine = run_setup(in_steps(1600, fig3(wear_number, cells)), 3.0);
         let mut parts = run_setup(fig3(wear_number, cells), 1.0);
         let mut highest = 0.0_f64;
         for cycle in 1..=3 {
@@ -92,32 +85,24 @@ fn parts_of_harsh_steps_end_where_fine_steps_do() {
 /// What merely is stiff is taken in short parts, not limited: a part whose wear is limited loses volume.
 #[test]
 fn few_steps_of_harsh_wear_lose_no_volume() {
-    let volume = |steps_per_cycle| {
-        let setup = Setup {
-            steps_per_cycle,
-            ..fig3(300.0, 100)
-        };
-        run_setup(setup, 1.0).moment().wear_volume
-    };
-    holds(
-        "V of 12 steps",
-        (volume(12) / volume(400) - 1.0).abs(),
-        1e-3,
-    );
+    let volume = |steps| run_setup(in_steps(steps, fig3(300.0, 100)), 1.0).wear_volume();
+    near("V of 12 steps", volume(12), volume(400), 1e-3);
 }
 
 #[test]
 fn mild_wear_is_the_same_to_the_last_bit_with_and_without_the_guard() {
     for scheme in Scheme::ALL {
-        let guarded = Setup {
-            scheme,
-            ..fig3(0.3, 50)
-        };
-        let raw = Setup {
-            stability: Stability::Off,
-            ..guarded.clone()
-        };
-        let (guarded, raw) = (run_setup(guarded, 5.0), run_setup(raw, 5.0));
+        let [guarded, raw] = [Stability::SubStep, Stability::Off].map(|stability| {
+            let setup = fig3(0.3, 50);
+            run_setup(
+                Setup {
+                    scheme,
+                    stability,
+                    ..setup
+                },
+                5.0,
+            )
+        });
         assert_eq!(guarded.state().wear, raw.state().wear);
         assert_eq!(guarded.state().stats, raw.state().stats);
         assert_eq!(guarded.state().stats.parts, 0);
@@ -146,12 +131,8 @@ fn the_stick_zone_of_the_first_pass_is_independent_of_the_step() {
     for method in [Product, A] {
         let apart = [920.0, 1e3, 1080.0].map(|k| {
             let [found, finest] = [100, 1000].map(|steps_per_cycle| {
-                let setup = Setup {
-                    method,
-                    steps_per_cycle,
-                    ..fig3(k, 100)
-                };
-                run_setup(setup, 3.0)
+                let setup = in_steps(steps_per_cycle, fig3(k, 100));
+                run_setup(Setup { method, ..setup }, 3.0)
             });
             let stuck = |run: &Simulation| run.state().permanent_stick_radius();
             let off = (stuck(&found) / stuck(&finest) - 1.0).abs();
@@ -163,7 +144,7 @@ fn the_stick_zone_of_the_first_pass_is_independent_of_the_step() {
         let median = apart.into_iter().sum::<f64>()
             - apart.into_iter().fold(f64::MIN, f64::max)
             - apart.into_iter().fold(f64::MAX, f64::min);
-        holds(&format!("profiles of {method}"), median, 1e-3);
+        holds(format!("profiles of {method}"), median, 1e-3);
     }
 }
 
@@ -185,22 +166,13 @@ fn smooth_presets_have_no_sawtooth() {
 /// Shorter steps bear more: with 400 of them N = 50 shows none up to 1.5 times.
 #[test]
 fn a_sawtooth_is_seen_where_it_was_predicted() {
-    let cases = [
+    seen_where_predicted(&[
         (Product, 50, 50, 20.0),
         (Product, 100, 100, 20.0),
         (A, 50, 100, 20.0),
         (A, 100, 50, 10.0),
         (APlusB, 50, 50, 20.0),
-    ];
-    for (method, points, steps, cycles) in cases {
-        let setting = Setting {
-            method,
-            points,
-            steps,
-            guard: false,
-        };
-        seen_where_predicted(cycles, setting);
-    }
+    ]);
 }
 
 /// The constants of b and benad were fitted to Fig. 3 with 20 cycles and amplitudes of 0.1 d: other numbers of
@@ -208,43 +180,50 @@ fn a_sawtooth_is_seen_where_it_was_predicted() {
 /// say.
 #[test]
 fn methods_that_no_step_helps_show_a_sawtooth_where_they_did_before() {
-    for (method, cycles) in [(B, 5.0), (B, 40.0), (Benad, 5.0), (Benad, 60.0)] {
-        let setting = Setting {
-            method,
-            points: 50,
-            steps: 50,
-            guard: false,
-        };
-        seen_where_predicted(cycles, setting);
-    }
+    seen_where_predicted(&[
+        (B, 50, 50, 5.0),
+        (B, 50, 50, 40.0),
+        (Benad, 50, 50, 5.0),
+        (Benad, 50, 50, 60.0),
+    ]);
 }
 
 /// How far from the prediction the first sawtooth may be.
 const APART: f64 = 1.6;
 
 /// Smooth below the prediction by that factor, and not above.
-fn seen_where_predicted(cycles: f64, setting: Setting) {
-    let scenario = load("li2019-fig3", &[]);
-    let study = Study::new(scenario, cycles).expect("a contact");
-    let study = study.expect("it wears");
-    let run = |rungs: &[f64]| {
-        let line = study.line(setting, rungs, &|| true, || {});
-        line.expect("runs")
-    };
-    let predicted = run(&[]).predicted.expect("a boundary");
-    let below = run(&[predicted / APART]);
-    assert_eq!(below.seen, None, "{setting:?}: {predicted}, {below:?}");
-    let above = run(&[predicted * APART]);
-    assert!(above.seen.is_some(), "{setting:?}: {predicted}, {above:?}");
+fn seen_where_predicted(cases: &[(AbelMethod, usize, u32, f64)]) {
+    for &(method, points, steps, cycles) in cases {
+        let setting = Setting {
+            method,
+            points,
+            steps,
+            guard: false,
+        };
+        let study = study(cycles);
+        let run = |rungs: &[f64]| {
+            let line = study.line(setting, rungs, &|| true, || {});
+            line.expect("runs")
+        };
+        let predicted = run(&[]).predicted.expect("a boundary");
+        let below = run(&[predicted / APART]);
+        assert_eq!(below.seen, None, "{setting:?}: {predicted}, {below:?}");
+        let above = run(&[predicted * APART]);
+        assert!(above.seen.is_some(), "{setting:?}: {predicted}, {above:?}");
+    }
+}
+
+/// A study of Fig. 3 over so many cycles.
+fn study(cycles: f64) -> Study {
+    let study = Study::new(load("li2019-fig3", &[]), cycles).expect("a contact");
+    study.expect("it wears")
 }
 
 /// By the ladder of the maps. With the guard, springs that let go at once leave a sawtooth of up to 7e-3 d at the end of
 /// a cycle at other K, between 15 and 200, until later ones wear them off.
 #[test]
 fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
-    let scenario = load("li2019-fig3", &[]);
-    let study = Study::new(scenario, 20.0).expect("a contact");
-    let study = study.expect("it wears");
+    let study = study(20.0);
     for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {
         let line = |guard| {
             let setting = Setting {

@@ -177,34 +177,22 @@ fn the_map_shows_two_axes_and_reads_points() {
     dir.done("sweep study.toml --out map.csv");
     // The lowest depth is the lowest row, which ends by sliding.
     let lines = screen(&dir, "map.csv", "<Tab><Tab>");
-    let lowest = lines
-        .iter()
-        .rfind(|line| line.contains('~'))
-        .expect("a row of the map");
-    assert_eq!(
-        lowest.chars().rfind(|sign| "s~#".contains(*sign)),
-        Some('#'),
-        "{lines:?}"
-    );
+    let lowest = lines.iter().rfind(|line| line.contains('~'));
+    let lowest = lowest.expect("a row of the map");
+    let last = lowest.chars().rfind(|sign| "s~#".contains(*sign));
+    assert_eq!(last, Some('#'), "{lines:?}");
     // The cursor: two to the right, three up; the point is that of the row.
     let lines = screen(&dir, "map.csv", "ll<Up>kk");
     let is_read = |line: &&String| line.starts_with("worn volume V ") && line.contains("regime");
     let read = lines.iter().rfind(is_read).expect("readings");
     has(read, " µm³  ");
-    let shown: f64 = read
-        .split_whitespace()
-        .nth(3)
-        .expect("V")
-        .parse()
-        .expect("V");
+    let shown = read.split_whitespace().nth(3).expect("V");
+    let shown: f64 = shown.parse().expect("V");
     let volume = dir.table("map.csv").column("wear_volume_m3")[11];
     near("V", 1e-18 * shown, volume, 1e-3);
     // The axes change places, and the last tick is there, too.
-    assert!(
-        screen(&dir, "map.csv", "x")
-            .iter()
-            .any(|line| line.ends_with(" 2.2"))
-    );
+    let turned = screen(&dir, "map.csv", "x");
+    assert!(turned.iter().any(|line| line.ends_with(" 2.2")));
 }
 
 #[test]
@@ -216,11 +204,10 @@ fn sensitivities_are_those_of_the_closed_forms() {
     let dir = dir_with(study);
     let json = dir.done("sweep study.toml --sensitivity --json");
     let rows: Vec<serde_json::Value> = serde_json::from_str(&json).expect("JSON");
-    let find = |key: &str, column: &str| {
-        let found = rows
-            .iter()
-            .find(|row| row["key"] == key && row["column"] == column);
-        found.unwrap_or_else(|| panic!("{key} {column}: {json}"))
+    let find = |key: &str, column: &str, name: &str| {
+        let mut found = rows.iter();
+        let row = found.find(|row| row["key"] == key && row["column"] == column);
+        row.unwrap_or_else(|| panic!("{key} {column}: {json}"))[name].clone()
     };
     for (key, force, radius) in [
         ("indenter.radius", 0.5, 0.5),
@@ -228,17 +215,16 @@ fn sensitivities_are_those_of_the_closed_forms() {
         ("material.effective_modulus", 1.0, 0.0),
     ] {
         for (column, expected) in [("F_z_N", force), ("contact_radius_m", radius)] {
-            let row = find(key, column);
-            let (found, error) = (row["elasticity"].as_f64(), row["error"].as_f64());
-            let (found, error) = (found.expect("a number"), error.expect("a number"));
+            let found = find(key, column, "elasticity").as_f64().expect("a number");
+            let error = find(key, column, "error").as_f64().expect("a number");
             assert!((found - expected).abs() < 2e-3, "{key} {column}: {found}");
             assert!(error < 0.01, "{key} {column}: {error}");
         }
         // Nothing wears: there is nothing to take a logarithm of.
-        assert!(find(key, "wear_volume_m3")["elasticity"].is_null());
+        assert!(find(key, "wear_volume_m3", "elasticity").is_null());
     }
     // 10 % of R and of E*: √((0.5·0.1)² + (1·0.1)²).
-    let spread = find("all", "F_z_N")["relative_spread"]
+    let spread = find("all", "F_z_N", "relative_spread")
         .as_f64()
         .expect("a spread");
     assert!((spread - 0.05f64.hypot(0.1)).abs() < 1e-3, "{spread}");
@@ -246,22 +232,16 @@ fn sensitivities_are_those_of_the_closed_forms() {
     has(&text, "elasticity");
     has(&dir.read("s.csv"), "\nindenter.radius,");
     dir.refuse_line("sweep study.toml", "the study has no axis");
-    dir.write(
-        "none.toml",
-        study
-            .replace("indenter.radius", "motion.normal.phase")
-            .as_bytes(),
-    );
+    let none = study.replace("indenter.radius", "motion.normal.phase");
+    dir.write("none.toml", none.as_bytes());
     let rule = "motion.normal.phase: must be a number greater than 0";
     dir.refuse_line("sweep none.toml --sensitivity", rule);
 }
 
 #[test]
 fn the_studies_of_the_guide_are_studies() {
-    let text = mdr_tui::guide::Topic::find("studies")
-        .expect("the topic")
-        .text;
-    let blocks = text.split("```toml study\n").skip(1);
+    let topic = mdr_tui::guide::Topic::find("studies").expect("the topic");
+    let blocks = topic.text.split("```toml study\n").skip(1);
     let blocks: Vec<&str> = blocks.filter_map(|rest| rest.split("```").next()).collect();
     assert_eq!(blocks.len(), 2);
     let dir = TestDir::new();
@@ -280,30 +260,15 @@ fn the_studies_of_the_guide_are_studies() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slurm_array_gives_the_rows_of_a_local_run() {
-    let there = |program: &str| {
-        ["/usr/bin", "/usr/sbin"]
-            .iter()
-            .any(|place| std::path::Path::new(place).join(program).exists())
-    };
-    let id = std::process::Command::new("id").arg("-u").output();
-    let is_root = id.is_ok_and(|id| id.stdout == b"0\n");
-    if !is_root
-        || !["sbatch", "slurmctld", "slurmd", "munged", "python3"]
-            .iter()
-            .all(|p| there(p))
-    {
+    let dir = TestDir::new();
+    let programs = "sbatch slurmctld slurmd munged python3";
+    let there = format!("PATH=/usr/bin:/usr/sbin:/bin; type {programs} && test $(id -u) = 0");
+    if dir.shell(&there).code != 0 {
         eprintln!("skipped: Slurm is not installed, or this is not root");
         return;
     }
-    let dir = TestDir::new();
-    let output = std::process::Command::new("bash")
-        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slurm/run.sh"))
-        .arg(env!("CARGO_BIN_EXE_mdr-tui"))
-        .arg(dir.path("cluster"))
-        .output()
-        .expect("a shell");
-    let said = String::from_utf8_lossy(&output.stdout);
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}{err}");
-    has(&said, "1000 points, the same bytes as the local run");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/slurm/run.sh");
+    let said = dir.shell(&format!("bash '{script}' \"$BIN\" \"$PWD/cluster\""));
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    has(&said.out, "1000 points, the same bytes as the local run");
 }

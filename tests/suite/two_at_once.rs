@@ -18,6 +18,14 @@ fn race(dir: &TestDir, lines: [&str; 2], pause: Duration) -> (usize, Said, Said)
     }
 }
 
+/// The loser is told in one line: the winner is at work, or what it has left says so.
+#[track_caller]
+fn hears_why(loser: &Said, left: &str) {
+    let under_way = loser.err.contains("another run is writing there");
+    assert!(under_way || loser.err.contains(left), "{}", loser.err);
+    assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
+}
+
 #[test]
 fn of_two_runs_into_one_directory_the_second_is_refused() {
     let dir = TestDir::new();
@@ -32,13 +40,7 @@ fn of_two_runs_into_one_directory_the_second_is_refused() {
         let both = [0, 1].map(|i| format!("{} --out {out}", lines[i]));
         let pause = Duration::from_millis([0, 1, 5, 20, 60, 150][round % 6]);
         let (winner, _, loser) = race(&dir, [&both[0], &both[1]], pause);
-        assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
-        let reasons = ["another run is writing there", "not empty"];
-        assert!(
-            reasons.iter().any(|reason| loser.err.contains(reason)),
-            "{}",
-            loser.err
-        );
+        hears_why(&loser, "not empty");
         dir.alike(&format!("whole-{winner}"), &out);
     }
     // Without --out each has a directory of its own.
@@ -60,9 +62,7 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
         "run --resume x/run.checkpoint --out x",
     ] {
         let owner = format!("another run is writing there (process {} on ", alive.id());
-        let said = dir.line(line);
-        said.ends(2, &owner);
-        assert_eq!(said.err.lines().count(), 1, "{line}: {}", said.err);
+        dir.line(line).fails(2, &owner);
     }
     assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
     // A copy elsewhere disturbs nobody.
@@ -70,10 +70,8 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
     kill(alive);
     // What it has left behind is stale.
     dir.done("run cone --cycles 1 --out x --force --quiet");
-    assert_eq!(
-        names(&dir.path("x")),
-        ["history.csv", "loop.csv", "scenario.toml", "state.csv"]
-    );
+    let files = ["history.csv", "loop.csv", "scenario.toml", "state.csv"];
+    assert_eq!(names(&dir.path("x")), files);
 }
 
 #[test]
@@ -88,13 +86,7 @@ fn of_two_that_resume_one_checkpoint_the_second_is_refused() {
         kill(broken);
         let line = "run --resume x/run.checkpoint --quiet --checkpoint-every 0.001";
         let (_, _, loser) = race(&dir, [line; 2], Duration::from_millis(pause));
-        assert_eq!(loser.err.lines().count(), 1, "{}", loser.err);
-        let reasons = ["another run is writing there", "no such file"];
-        assert!(
-            reasons.iter().any(|reason| loser.err.contains(reason)),
-            "{}",
-            loser.err
-        );
+        hears_why(&loser, "no such file");
         dir.alike("whole", "x");
     }
 }

@@ -1,8 +1,6 @@
 //! Motions that are no sines: where only the turning points count, they wear as a sine does.
 
-use mdr_tui::scenario::Scenario;
-
-use crate::common::{load, near, ran};
+use crate::common::{again, load, near, ran, volume};
 use crate::test_dir::TestDir;
 
 /// V and E_d after `cycles` of a paraboloid held at a depth and shaken sideways.
@@ -18,30 +16,19 @@ fn triangle_and_trapezoid_wear_as_a_sine_at_constant_depth() {
     // Gross slip and partial slip; in steps, and in jumps.
     for (amplitude, bound) in [("2e-7", 2e-3), ("0.8e-7", 2e-3)] {
         let amplitude = format!("motion.tangential.amplitude={amplitude}");
-        for integrator in [
-            "numerics.integrator=direct",
-            "numerics.integrator=cycle-jump",
-        ] {
-            let with = |waveform: &[&str]| {
-                let mut sets = vec![amplitude.as_str(), integrator];
-                sets.extend(waveform);
-                worn(&sets, 10.0)
-            };
+        for integrator in ["direct", "cycle-jump"] {
+            let integrator = format!("numerics.integrator={integrator}");
+            let with =
+                |waveform: &[&str]| worn(&[&[&*amplitude, &integrator], waveform].concat(), 10.0);
             let sine = with(&[]);
-            for waveform in [
-                &["motion.tangential.waveform=triangle"][..],
-                &[
-                    "motion.tangential.waveform=trapezoid",
-                    "motion.tangential.hold=0.3",
-                ][..],
-            ] {
+            let held = [
+                "motion.tangential.waveform=trapezoid",
+                "motion.tangential.hold=0.3",
+            ];
+            for waveform in [&["motion.tangential.waveform=triangle"][..], &held] {
                 for (found, expected) in with(waveform).into_iter().zip(sine) {
-                    let error = (found / expected - 1.0).abs();
-                    eprintln!("{amplitude} {integrator} {waveform:?}: {error:.2e}");
-                    assert!(
-                        error < bound,
-                        "{waveform:?} {integrator}: {found} {expected}"
-                    );
+                    let case = format!("{amplitude} {integrator} {waveform:?}");
+                    near(case, found, expected, bound);
                 }
             }
         }
@@ -51,20 +38,14 @@ fn triangle_and_trapezoid_wear_as_a_sine_at_constant_depth() {
 /// Where the depth swings as well, the path between the turning points does count.
 #[test]
 fn with_a_depth_that_swings_a_triangle_is_another_motion() {
-    let with = |waveform: &str| {
-        worn(
-            &[
-                "motion.normal.amplitude=1e-7",
-                "motion.tangential.phase=0.785",
-                waveform,
-            ],
-            3.0,
-        )[0]
-    };
-    let (sine, triangle) = (
-        with("motion.tangential.waveform=sine"),
-        with("motion.tangential.waveform=triangle"),
-    );
+    let [sine, triangle] = ["sine", "triangle"].map(|waveform| {
+        let waveform = format!("motion.tangential.waveform={waveform}");
+        let swings = [
+            "motion.normal.amplitude=1e-7",
+            "motion.tangential.phase=0.785",
+        ];
+        worn(&[swings[0], swings[1], &waveform], 3.0)[0]
+    });
     assert!((triangle / sine - 1.0).abs() > 0.01, "{sine} {triangle}");
 }
 
@@ -85,13 +66,10 @@ fn a_table_of_a_triangle_is_the_triangle() {
     let motion = motion.oscillation();
     assert!((motion.amplitude() / 2e-7 - 1.0).abs() < 1e-12 && motion.mean().abs() < 1e-20);
     assert!((scenario.setup().drive.period() - 2.0).abs() < 1e-12);
-    let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
-    assert_eq!(again.setup(), scenario.setup());
-    let tabled = ran(scenario, 5.0).simulation().moment().wear_volume;
-    let sets = [
-        "motion.tangential.amplitude=2e-7",
-        "motion.tangential.waveform=triangle",
-    ];
+    assert_eq!(again(&scenario).setup(), scenario.setup());
+    let tabled = volume(&ran(scenario, 5.0));
+    let amplitude = "motion.tangential.amplitude=2e-7";
+    let sets = [amplitude, "motion.tangential.waveform=triangle"];
     let [triangle, _] = worn(&sets, 5.0);
     near("tabled", tabled, triangle, 1e-9);
 }

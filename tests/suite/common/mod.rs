@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "not every file of tests needs all of it")]
 
 use std::f64::consts::FRAC_PI_4;
+use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::{self, JoinHandle};
@@ -78,14 +79,21 @@ macro_rules! parts {
 }
 
 impl Scene {
-    parts!(cells: usize, steps: u32, friction: f64, poisson: f64, domain: f64);
+    parts!(
+        method: AbelMethod,
+        cells: usize,
+        steps: u32,
+        friction: f64,
+        poisson: f64,
+        domain: f64,
+        modulus: f64,
+        indenter: Indenter,
+        normal: Control,
+    );
 
     /// The default scene by a method.
     pub fn by(method: AbelMethod) -> Self {
-        Self {
-            method,
-            ..Self::default()
-        }
+        Self::default().method(method)
     }
 
     /// With Archard's wear.
@@ -96,22 +104,33 @@ impl Scene {
         }
     }
 
+    /// Moved sideways.
+    pub fn moved(self, motion: Control) -> Self {
+        Self {
+            tangential: Some(motion),
+            ..self
+        }
+    }
+
     /// Moved to and fro by an amplitude.
     pub fn shaken(self, amplitude: f64) -> Self {
+        self.moved(swing(0.0, amplitude, 1.0, 0.0))
+    }
+
+    /// Not moved sideways at all.
+    pub fn still(self) -> Self {
         Self {
-            tangential: Some(swing(0.0, amplitude, 1.0, 0.0)),
+            tangential: None,
             ..self
         }
     }
 
     /// Fig. 3 of the paper at a wear number K, on the default domain.
     pub fn fig3(wear_number: f64) -> Self {
-        Self {
-            normal: swing(1.0, 0.1, 1.0, 0.0),
-            tangential: Some(swing(0.0, 0.1, 1.0, FRAC_PI_4)),
-            law: archard(wear_number),
-            ..Self::default()
-        }
+        Self::default()
+            .normal(swing(1.0, 0.1, 1.0, 0.0))
+            .moved(swing(0.0, 0.1, 1.0, FRAC_PI_4))
+            .wear(wear_number)
     }
 }
 
@@ -145,6 +164,24 @@ pub fn ours(scene: Scene) -> Setup {
         scheme: Scheme::Trapezoid,
         stability: Stability::SubStep,
         ..Setup::from(scene)
+    }
+}
+
+/// The setup by a method with the numerics that its paper has.
+pub fn as_published(method: AbelMethod, setup: Setup) -> Setup {
+    Setup {
+        method,
+        spacing: Spacing::Uniform,
+        scheme: Scheme::Euler,
+        ..setup
+    }
+}
+
+/// The setup in so many steps a cycle.
+pub fn in_steps(steps_per_cycle: u32, setup: Setup) -> Setup {
+    Setup {
+        steps_per_cycle,
+        ..setup
     }
 }
 
@@ -210,13 +247,18 @@ pub fn apart(one: &[f64], other: &[f64]) -> f64 {
 
 /// Fails unless a number is the expected one but for a share of it.
 #[track_caller]
-pub fn near(what: &str, found: f64, expected: f64, share: f64) {
+pub fn near(what: impl Display, found: f64, expected: f64, share: f64) {
     holds(what, (found / expected - 1.0).abs(), share);
 }
 
 /// A prescribed displacement mean + amplitude · sin(ωt + φ).
 pub fn swing(mean: f64, amplitude: f64, frequency: f64, phase: f64) -> Control {
     Control::Displacement(Oscillation::new(mean, amplitude, frequency, phase).expect("a motion"))
+}
+
+/// A prescribed force mean + amplitude · sin(ωt).
+pub fn force(mean: f64, amplitude: f64) -> Control {
+    Control::Force(Oscillation::new(mean, amplitude, 1.0, 0.0).expect("a force"))
 }
 
 /// Archard's law.
@@ -262,17 +304,54 @@ pub fn ran(scenario: Scenario, cycles: f64) -> Session {
     session
 }
 
+/// Changes a key of a session, which must take it.
+#[track_caller]
+pub fn change(session: &mut Session, key: &str, value: &str) {
+    session.change(key, value).expect("a change");
+}
+
+/// What is said of a change that a session refuses.
+#[track_caller]
+pub fn refused(session: &mut Session, key: &str, value: &str) -> String {
+    let refusal = session.change(key, value);
+    refusal.expect_err("a refusal").to_string()
+}
+
+/// V of a session.
+pub fn volume(session: &Session) -> f64 {
+    session.simulation().wear_volume()
+}
+
+/// E_d of a session.
+pub fn energy(session: &Session) -> f64 {
+    session.simulation().moment().dissipated_energy
+}
+
+/// Reads a scenario back from its own text.
+#[track_caller]
+pub fn again(scenario: &Scenario) -> Scenario {
+    let text = scenario.to_toml();
+    Scenario::from_toml(&text, scenario.origin(), &[])
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// The text of a preset.
+pub fn text_of(preset: &str) -> &'static str {
+    preset::find(preset).expect("a preset").text
+}
+
 /// Fails unless `error` is at most `bound` (so NaN fails); the numbers are printed.
 #[track_caller]
-pub fn holds(what: &str, error: f64, bound: f64) {
+pub fn holds(what: impl Display, error: f64, bound: f64) {
     eprintln!("{what}: {error:.3e} of {bound:.3e}");
     assert!(error <= bound, "{what}: {error:e} exceeds {bound:e}");
 }
 
 /// Fig. 3 over some cycles, without a word on how finely it is computed.
 pub fn without_numerics(cycles: f64) -> Scenario {
-    let text = preset::find("li2019-fig3").expect("a preset").text;
-    let (parts, _) = text.split_once("[numerics]").expect("numerics");
+    let (parts, _) = text_of("li2019-fig3")
+        .split_once("[numerics]")
+        .expect("numerics");
     let text = format!("{parts}[run]\ncycles = {cycles:e}\n");
     Scenario::from_toml(&text, "without numerics", &[]).expect("a scenario")
 }

@@ -115,12 +115,24 @@ pub fn home() -> TempDir {
 pub fn kept(home: &TempDir) -> Option<PathBuf> {
     let entries = std::fs::read_dir(home.path().join("mdr-tui")).ok()?;
     let paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    let mut whole = paths
-        .into_iter()
-        .filter(|path| path.extension().is_some_and(|end| end == "checkpoint"));
+    let is_one = |path: &PathBuf| path.extension().is_some_and(|end| end == "checkpoint");
+    let mut whole = paths.into_iter().filter(is_one);
     let path = whole.next();
     assert_eq!(whole.next(), None, "more than one checkpoint");
     path
+}
+
+/// Waits until there is what is looked for.
+#[track_caller]
+pub fn patiently<T>(failure: &str, attempt: impl Fn() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(found) = attempt() {
+            return found;
+        }
+        assert!(start.elapsed() < TIMEOUT, "{failure}");
+        thread::sleep(Duration::from_millis(10));
+    }
 }
 
 /// The session in a checkpoint.
@@ -156,13 +168,8 @@ impl Terminal {
         let reading_is_over = Arc::new(AtomicBool::new(false));
         let writer = Arc::new(Mutex::new(master.take_writer().expect("a writer")));
         let line = Arc::new(Mutex::new(line));
-        let collector = collect(
-            reader,
-            Arc::clone(&writer),
-            Arc::clone(&output),
-            Arc::clone(&line),
-            Arc::clone(&reading_is_over),
-        );
+        let shared = (writer.clone(), output.clone(), line.clone());
+        let collector = collect(reader, shared, reading_is_over.clone());
         let child = slave.spawn_command(command).expect("the program starts");
         Self {
             child,
@@ -218,10 +225,8 @@ impl Terminal {
 
     /// From now on it reads so many bytes a second, or none at all.
     pub fn slow_down(&self, rate: u32) {
-        self.line
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .rate = Some(rate);
+        let mut line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
+        line.rate = Some(rate);
     }
 
     /// Whether the program has ended, and how long that took from `start` on, whether the terminal reads
@@ -333,11 +338,8 @@ impl Terminal {
     /// Fails when a wait that began at `start` has taken too long.
     fn assert_patience(&self, start: Instant, failure: &str) {
         let waited = start.elapsed();
-        assert!(
-            waited < TIMEOUT,
-            "{failure} after {waited:.0?}; the screen:\n{}",
-            self.text()
-        );
+        let text = || format!("{failure} after {waited:.0?}; the screen:\n{}", self.text());
+        assert!(waited < TIMEOUT, "{}", text());
     }
 
     /// Looks at the screen.
@@ -385,9 +387,7 @@ impl Drop for Terminal {
 /// Reads what comes out, as fast as the line is.
 fn collect(
     mut reader: Box<dyn Read + Send>,
-    writer: Writer,
-    output: Arc<Mutex<Output>>,
-    line: Arc<Mutex<Line>>,
+    (writer, output, line): (Writer, Arc<Mutex<Output>>, Arc<Mutex<Line>>),
     is_over: Arc<AtomicBool>,
 ) -> thread::JoinHandle<()> {
     const QUESTION: &[u8] = b"\x1b[5n";

@@ -2,7 +2,8 @@
 //!
 //! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
 //! writer each), `font`, `look` (colours and greys), `draw` (a chart on the canvas), `frame` and `map` (its parts),
-//! `study` (the charts of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the screen (`plot`).
+//! `study` (the charts of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the
+//! screen (`plot`).
 
 use std::fmt::Write;
 use std::io;

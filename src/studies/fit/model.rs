@@ -70,8 +70,8 @@ pub(super) fn simulate(
     Ok(simulated)
 }
 
-/// The displacement that the rig measures, m, and the tangential force, N, of every step of the cycle that begins now, in a copy of the run: where cycles are jumped over, the run goes on
-/// with its jumps.
+/// The displacement that the rig measures, m, and the tangential force, N, of every step of the cycle that begins now,
+/// in a copy of the run: where cycles are jumped over, the run goes on with its jumps.
 fn next_cycle(session: &Session) -> Result<Vec<(f64, f64)>, SessionError> {
     let mut session = session.clone();
     session.change("numerics.integrator", "direct")?;

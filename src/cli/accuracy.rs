@@ -9,7 +9,7 @@ use crate::studies::refinement::{self, Resolved};
 /// and says there if they do not meet it.
 ///
 /// # Errors
-/// Of `search`.
+/// Those of `search`.
 pub(super) fn resolve(
     scenario: &Scenario,
     quiet: bool,

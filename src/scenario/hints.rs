@@ -63,7 +63,7 @@ pub fn hint(path: &str) -> String {
     known_in(split(path).0)
 }
 
-/// The keys and tables of a table, or of the whole scenario where there is no such table.
+/// The keys and sub-tables of a table; those of the whole scenario if the table does not exist.
 pub(super) fn known_in(section: &str) -> String {
     let section = if is_section(section) { section } else { "" };
     let keys = places().into_iter().filter(|key| split(key).0 == section);

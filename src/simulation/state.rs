@@ -155,11 +155,9 @@ impl State {
 
     /// The permanent stick radius, m: the smallest of the last complete period, or so far in the first.
     pub fn permanent_stick_radius(&self) -> f64 {
-        let Ledger {
-            settled_stick_radius: settled,
-            smallest_stick_radius: smallest,
-            ..
-        } = self.ledger;
-        settled.unwrap_or(smallest)
+        let ledger = &self.ledger;
+        ledger
+            .settled_stick_radius
+            .unwrap_or(ledger.smallest_stick_radius)
     }
 }

@@ -168,16 +168,16 @@ impl Held {
     }
 }
 
-/// How many frames it lasts.
+/// For how many frames a frame is held.
 const LASTS: u32 = 3;
 
-/// The frame, and how many it has lasted; none where the newest one is shown.
+/// The frame that is held, and for how many frames it has been; `None` while the newest one is shown.
 #[derive(Debug, Default)]
 pub struct Calm(Option<(Arc<Frame>, u32)>);
 
 impl Calm {
-    /// Keeps its frame where `newest` comes, or takes that; for all of a cycle where it is `slow`: a contact that is
-    /// shown large has the stress of one phase of the motion.
+    /// Holds its frame for a few frames, then takes `newest`. In a `slow` view it holds it for a whole cycle: a contact
+    /// that is shown large has the stress of one phase of the motion.
     pub fn take(&mut self, newest: &Arc<Frame>, slow: bool) {
         let begins = |frame: &Frame| frame.observation.moment.cycle.floor();
         let may_stay = |calm: &Frame, lasted| match slow {

@@ -24,7 +24,7 @@ fn says(session: &Session) -> String {
     verdict(&session.checks()).expect("a verdict")
 }
 
-/// The same in so many steps a cycle.
+/// The same with this many steps per cycle.
 fn run_in(steps: u32, name: &str, sets: &[&str], cycles: f64) -> Session {
     let steps = format!("numerics.steps_per_cycle={steps}");
     run(name, &[sets, &[&steps]].concat(), cycles)

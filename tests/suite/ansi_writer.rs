@@ -45,7 +45,7 @@ impl Counted {
         self.draw()
     }
 
-    /// So many steps as if the run had come there by itself: the worker takes them, and the screen knows of no key.
+    /// Takes this many steps as if the run had made them by itself: the worker steps, and no key is pressed.
     fn running_frame(&mut self, steps: usize) -> usize {
         for _ in 0..steps {
             self.explorer.worker.orders.send(Worker::step_once);
@@ -74,7 +74,7 @@ impl Counted {
 /// The status request behind each frame, which the flow control adds.
 const REQUEST: usize = 4;
 
-/// Fails unless `count` frames take no more than so many bytes each, and a paused screen none.
+/// Fails unless each of `count` frames takes at most the given number of bytes, and a paused screen none.
 fn take_few_bytes(
     counted: &mut Counted,
     budget: usize,

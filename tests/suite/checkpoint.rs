@@ -51,7 +51,7 @@ fn follow(mut straight: Session, steps: usize, every: usize, what: &str) -> Sess
             assert!(seen(&straight) == seen(&broken), "{what}: step {step}");
             broken = through_a_file(&broken);
             let is_same = seen(&straight) == seen(&broken);
-            assert!(is_same, "{what}: put away at {step}");
+            assert!(is_same, "{what}: saved at {step}");
         }
         let [one, other] = [&mut straight, &mut broken]
             .map(|session| session.step().map_err(|error| error.to_string()));
@@ -78,7 +78,7 @@ fn every_kind_of_run_goes_on_as_if_nothing_had_been() {
         [140, 3],
     );
     assert!(jumped.simulation().state().stats.jumps > 3);
-    // The volume that the scar brought and the moment at which the hardness was passed are put away as well.
+    // The volume that the scar brought and the moment at which the hardness was exceeded are saved as well.
     let worn = fig3(
         &[
             "wear.initial_radii=[0, 4e-5, 8e-5, 1.1e-4]",

@@ -213,7 +213,7 @@ fn seen_where_predicted(cases: &[(AbelMethod, usize, u32, f64)]) {
     }
 }
 
-/// A study of Fig. 3 over so many cycles.
+/// A study of Fig. 3 over this many cycles.
 fn study(cycles: f64) -> Study {
     let study = Study::new(load("li2019-fig3", &[]), cycles).expect("a contact");
     study.expect("it wears")

@@ -35,7 +35,7 @@ pub(super) struct Bounds {
     pub aim: f64,
 }
 
-/// How a step or a sub-step is to be taken.
+/// How a step or a sub-step is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Part {
     /// As it is, whatever comes of it.

@@ -36,7 +36,7 @@ impl Done {
 /// Rows in the order in which they came.
 #[derive(Debug)]
 pub struct Ledger {
-    /// Made when a row is to be taken in.
+    /// Made when the first row is added.
     finder: Option<Finder>,
     rows: File,
     /// The length of `rows` up to the last whole row.

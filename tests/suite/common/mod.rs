@@ -177,7 +177,7 @@ pub fn as_published(method: AbelMethod, setup: Setup) -> Setup {
     }
 }
 
-/// The setup in so many steps a cycle.
+/// The setup with this many steps per cycle.
 pub fn in_steps(steps_per_cycle: u32, setup: Setup) -> Setup {
     Setup {
         steps_per_cycle,

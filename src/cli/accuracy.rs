@@ -41,9 +41,7 @@ pub(super) fn session(
         refinement::resolve(scenario, cycles, f64::INFINITY, &|| true)
     })?;
     let mut session = Session::start(found.scenario)?;
-    for (key, value) in &found.statements {
-        session.state(key, value);
-    }
+    session.state(found.statements);
     Ok(session)
 }
 

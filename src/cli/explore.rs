@@ -4,16 +4,14 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use clap::CommandFactory;
 use serde::de::IgnoredAny;
 
-use super::args::{Arguments, ColorChoice, Explore};
+use super::args::{ColorChoice, Explore};
 use super::config::Config;
-use super::{accuracy, complain, without_waiting};
+use super::{accuracy, complain, mistyped_command, without_waiting};
 use crate::export::autosave;
-use crate::scenario::nearest::nearest;
 use crate::scenario::session::Session;
-use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, preset, printable};
+use crate::scenario::{Refusal, Scenario, checkpoint};
 use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
@@ -40,7 +38,11 @@ pub fn explore(options: &Explore) -> Result<()> {
         }
         None => {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
-                .map_err(|error| or_command(&options.scenario, error))?;
+                // The error itself names a preset that is as near.
+                .map_err(|error| match mistyped_command(&options.scenario) {
+                    Some(refusal) if !error.to_string().contains("did you mean") => refusal.into(),
+                    _ => error,
+                })?;
             let found = accuracy::resolve(&scenario, false, refinement::resolve_soon)?;
             Session::start(found.scenario)?.into()
         }
@@ -84,22 +86,4 @@ pub fn explore(options: &Explore) -> Result<()> {
         });
     }
     Ok(())
-}
-
-/// A mistyped command looks like the name of a preset: it is led to the command.
-fn or_command(given: &str, error: ScenarioError) -> anyhow::Error {
-    let names = Arguments::command();
-    let names = names.get_subcommands().map(clap::Command::get_name);
-    let is_known = preset::is_path(given) || preset::find(given).is_some();
-    let near = nearest(given, names).filter(|_| !is_known);
-    match near {
-        // The error itself names a preset that is as near.
-        Some(command) if !error.to_string().contains("did you mean") => {
-            let refusal = Refusal::new(printable(given), "no such command or preset");
-            refusal
-                .or(format_args!("did you mean mdr-tui {command}?"))
-                .into()
-        }
-        _ => error.into(),
-    }
 }

@@ -24,7 +24,7 @@ use crate::traces::Axes;
 pub fn fit(options: &args::Fit) -> Result<()> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     // The fit runs on the points and steps that its start values need.
-    let found = accuracy::resolve(&scenario, options.printing.quiet, |scenario| {
+    let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
         refinement::resolve(scenario, options.cycles, f64::INFINITY, &|| true)
     })?;
     let fit = Fit::new(
@@ -35,7 +35,7 @@ pub fn fit(options: &args::Fit) -> Result<()> {
         options.robust,
     )?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
-    let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.printing.quiet);
+    let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.quiet);
     let outcome = fit.run(&mut || bar.inc(1));
     bar.finish_and_clear();
     let fitted = outcome?;
@@ -43,7 +43,7 @@ pub fn fit(options: &args::Fit) -> Result<()> {
         target.write(fitted.scenario.to_toml().as_bytes())?;
     }
     let mut out = io::stdout().lock();
-    if options.printing.json {
+    if options.json {
         let keys = fitted.values.iter().map(|value| (&value.key, value));
         results::print_json(&keys.collect::<BTreeMap<_, _>>(), &mut out)?;
         for remark in &fitted.remarks {

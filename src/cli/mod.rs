@@ -14,8 +14,9 @@ use clap::{CommandFactory, Parser};
 use clap_complete::CompleteEnv;
 
 use crate::export::file::WriteError;
+use crate::scenario::nearest::nearest;
 use crate::scenario::session::SessionError;
-use crate::scenario::{Refusal, ScenarioError, printable};
+use crate::scenario::{Refusal, ScenarioError, preset, printable};
 use crate::tui::NoTerminal;
 
 mod accuracy;
@@ -23,7 +24,6 @@ mod args;
 mod complete;
 mod config;
 mod documents;
-mod error_curves;
 mod explore;
 mod figure;
 mod fit;
@@ -163,6 +163,16 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(io_error)
 }
 
+/// What is said to a word in the place of a command that is none, and no preset or path, where it looks like one.
+fn mistyped_command(word: &str) -> Option<Refusal> {
+    let program = Arguments::command();
+    let commands = program.get_subcommands().map(clap::Command::get_name);
+    let is_known = word.starts_with('-') || preset::is_path(word) || preset::find(word).is_some();
+    let command = nearest(word, commands).filter(|command| *command != word && !is_known)?;
+    let refusal = Refusal::new(printable(word), "no such command or preset");
+    Some(refusal.or(format_args!("did you mean mdr-tui {command}?")))
+}
+
 /// Help and version go to stdout as they are; a mistake becomes one line.
 fn refuse(error: &clap::Error) -> ExitCode {
     if matches!(
@@ -172,13 +182,17 @@ fn refuse(error: &clap::Error) -> ExitCode {
         let _ = error.print();
         return ExitCode::SUCCESS;
     }
+    let first = env::args().nth(1).unwrap_or_default();
+    if let Some(refusal) = mistyped_command(&first) {
+        complain(&refusal.to_string());
+        return ExitCode::from(MISUSED);
+    }
     let text = error.render().to_string();
     let is_end =
         |line: &&str| line.starts_with("Usage:") || line.starts_with("For more information");
     let words = text.lines().take_while(|line| !is_end(line)).map(str::trim);
     let words: Vec<&str> = words.filter(|line| !line.is_empty()).collect();
     let words = words.join(" ").replace(" tip: ", "; ");
-    let first = env::args().nth(1).unwrap_or_default();
     let command = match Arguments::command().find_subcommand(&first) {
         Some(_) => format!("mdr-tui {first}"),
         None => "mdr-tui".into(),

@@ -5,11 +5,11 @@ use std::io::Write;
 use anyhow::Result;
 use serde::Serialize;
 
-use super::args::Rows;
+use super::args::Output;
 use crate::export::file::WriteError;
 use crate::export::target::Target;
 
-impl Rows {
+impl Output {
     /// Claims the file that is asked for, before anything is computed.
     pub(super) fn claim(&self) -> Result<Option<Target>, WriteError> {
         Target::claim_given(self.csv.as_deref(), self.force)

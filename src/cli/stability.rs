@@ -15,7 +15,7 @@ use crate::studies::stability::{Line, Setting, Study};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
-    let target = options.rows.claim()?;
+    let target = options.output.claim()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let title = scenario.title().to_owned();
     let Some(study) = Study::new(scenario, options.cycles)? else {
@@ -37,7 +37,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let table = || runs(&lines).csv();
     results::write(target.as_ref(), "stability", &notes, table)?;
     let mut out = io::stdout().lock();
-    if options.printing.json {
+    if options.output.json {
         results::print_json(&runs(&lines), &mut out)?;
     } else {
         for note in &notes {
@@ -62,7 +62,7 @@ fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result
     wear_numbers.sort_by(f64::total_cmp);
     let length = settings.len() * wear_numbers.len();
     let behind = "{pos} of {len}  {elapsed} gone";
-    let bar = progress::bar(length as u64, behind, options.printing.quiet);
+    let bar = progress::bar(length as u64, behind, options.output.quiet);
     let mut lines = Vec::new();
     for setting in settings.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));

@@ -36,7 +36,7 @@ const LONGEST_SEARCH: f64 = 10.0;
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
-    let target = options.rows.claim()?;
+    let target = options.output.claim()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
     if scenario.setup().wear.is_none() {
@@ -57,7 +57,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     }
     let only = best.filter(|_| options.accuracy.is_some());
     let mut out = io::stdout().lock();
-    if options.printing.json {
+    if options.output.json {
         let shown = only.map_or_else(|| trials.iter().collect(), |(trial, _)| vec![trial]);
         results::print_json(&table(shown, trials), &mut out)?;
     } else if let Some((trial, [seconds, error])) = only {
@@ -95,7 +95,7 @@ fn run(
     let settings = trade::settings(scenario, &options.methods, points, steps);
     let finest = trade::reference(scenario, points, steps);
     let behind = "{pos} of {len}  {elapsed} gone";
-    let bar = progress::bar(settings.len() as u64, behind, options.printing.quiet);
+    let bar = progress::bar(settings.len() as u64, behind, options.output.quiet);
     let measure = |setting: &Setting, what: &str| {
         bar.set_message(format!("{what}{setting} by {}", setting.scheme));
         bar.tick();

@@ -5,18 +5,20 @@ use std::io::{self, Write};
 use anyhow::{Result, bail};
 
 use super::args::Verify;
-use super::{error_curves, progress, results};
+use super::{progress, results, small_multiples};
 use crate::math::abel::AbelMethod;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Marker, Scale};
 use crate::scenario::Refusal;
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
-use crate::studies::verify::{Outcome, Problem, Task, tasks};
+use crate::studies::verify::{Outcome, Problem, STICK_RADIUS, Task, tasks};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn verify(options: &Verify) -> Result<()> {
-    let target = options.rows.claim()?;
+    let target = options.output.claim()?;
     let problems = match &options.problem[..] {
-        [] => &Problem::ALL,
+        [] => Problem::ALL,
         some => some,
     };
     let tasks = tasks(problems, &options.points, options.long);
@@ -26,12 +28,12 @@ pub fn verify(options: &Verify) -> Result<()> {
             "these numbers of cells need --long"
         ));
     }
-    let outcomes = run(&tasks, options.printing.quiet);
+    let outcomes = run(&tasks, options.output.quiet);
     // The file first: a closed pipe on stdout must not cost it.
     let table = || all_nodes(&outcomes).csv();
     results::write(target.as_ref(), "verify", &notes(&outcomes), table)?;
     let mut out = io::stdout().lock();
-    if options.printing.json {
+    if options.output.json {
         results::print_json(&all_rows(&outcomes), &mut out)?;
     } else {
         if options.all || options.drawing.plot || !options.problem.is_empty() {
@@ -66,7 +68,7 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
 fn text(outcomes: &[Outcome], options: &Verify) -> String {
     let marker = options.drawing.marker;
     let mut text = String::new();
-    for problem in Problem::ALL {
+    for &problem in Problem::ALL {
         if !outcomes.iter().any(|o| o.task.problem == problem) {
             continue;
         }
@@ -74,7 +76,7 @@ fn text(outcomes: &[Outcome], options: &Verify) -> String {
             text.push('\n');
         }
         text.push_str(&format!("{problem}\n"));
-        for line in problem.facts().description {
+        for line in &problem.facts().description {
             text.push_str(&format!("  {line}\n"));
         }
         text.push_str(&problem_table(problem, outcomes).text());
@@ -85,7 +87,7 @@ fn text(outcomes: &[Outcome], options: &Verify) -> String {
             text.push_str(&format!("N = {} only with --long\n", left.join(", ")));
         }
         if options.drawing.plot {
-            text.push_str(&error_curves::draw(problem, outcomes, marker));
+            text.push_str(&error_curves(problem, outcomes, marker));
         }
     }
     text
@@ -99,9 +101,9 @@ fn verdict(outcomes: &[Outcome]) -> String {
         count => format!("; {count} runs stopped"),
     };
     let best = AbelMethod::Product;
-    let finest = Problem::ALL.into_iter().filter_map(|problem| {
+    let finest = Problem::ALL.iter().filter_map(|problem| {
         let mine = outcomes.iter();
-        let mine = mine.filter(|o| o.task.problem == problem && o.task.method == best);
+        let mine = mine.filter(|o| o.task.problem == *problem && o.task.method == best);
         let outcome = mine.max_by_key(|o| o.task.points)?;
         let errors = outcome.errors.as_ref().ok()?.iter().map(Errors::rms);
         Some((errors.fold(0.0, f64::max), outcome.task))
@@ -117,10 +119,42 @@ fn verdict(outcomes: &[Outcome]) -> String {
 
 /// What the errors of each problem are.
 fn notes(outcomes: &[Outcome]) -> Vec<String> {
-    let shown = |problem: &Problem| outcomes.iter().any(|o| o.task.problem == *problem);
-    Problem::ALL
-        .into_iter()
-        .filter(shown)
+    let shown = |problem: &&Problem| outcomes.iter().any(|o| o.task.problem == **problem);
+    let shown = Problem::ALL.iter().filter(shown);
+    shown
         .map(|problem| format!("{problem}: {}", problem.facts().description.join(" ")))
         .collect()
+}
+
+/// Curves of the error over r/a, drawn as text: for all quantities of a problem a small plot per method on its finest
+/// grid, all on the same axes, so that they can be compared without colour.
+///
+/// ```text
+/// a: g, N = 800                          b: g, N = 800
+/// 1e-1 ┤⡀                                1e-1 ┤⡀
+/// 1e-3 ┤⠈⠒⠤⢄⣀⣀⣀⣀⣀⣀⣀⣀                     1e-3 ┤⠈⠒⠤⢄⣀⣀⣀⣀⣀⣀⣀⣀
+///      0               1                      0               1   r/a
+/// ```
+fn error_curves(problem: Problem, outcomes: &[Outcome], marker: Marker) -> String {
+    let mut text = String::new();
+    for (at, quantity) in problem.facts().quantities.iter().enumerate() {
+        let chart = |method| {
+            let tried = |o: &&Outcome| o.task.problem == problem && o.task.method == method;
+            let (points, errors) = outcomes
+                .iter()
+                .filter(tried)
+                .filter_map(|o| Some((o.task.points, o.errors.as_ref().ok()?.get(at)?)))
+                .max_by_key(|(points, _)| *points)?;
+            let name = format!("{method}: {}, N = {points}", quantity);
+            let y = Axis::new(name, "").scale(Scale::Log);
+            let (radii, values) = (errors.radii.clone(), errors.errors.clone());
+            let curve = Curve::new("", radii, values, Role::Profile);
+            Some(Chart::new("", Axis::new("r/a", ""), y).curve(curve))
+        };
+        if *quantity != STICK_RADIUS {
+            let charts = AbelMethod::ALL.into_iter().filter_map(chart);
+            text.push_str(&small_multiples::draw_alike(charts.collect(), marker));
+        }
+    }
+    text
 }

@@ -351,7 +351,7 @@ pub(super) fn remove(table: &mut Table, path: &str) -> Option<Value> {
 }
 
 /// The dotted path of a key in the table at `path`.
-pub(super) fn join(path: &str, key: &str) -> String {
+pub(crate) fn join(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
         path => format!("{path}.{key}"),

@@ -260,11 +260,12 @@ impl Session {
         (before.simulation.cycle() == self.simulation.cycle()).then_some(before)
     }
 
-    /// Notes a statement that the files of this run carry in their headers, as `# key: value`; one of the same
-    /// key is replaced.
-    pub fn state(&mut self, key: &str, value: &str) {
-        self.statements.retain(|(known, _)| known != key);
-        self.statements.push((key.to_owned(), value.to_owned()));
+    /// Notes statements, keys and values, that the files of this run carry in their headers, as `# key: value`; one
+    /// of the same key is replaced.
+    pub fn state(&mut self, statements: Vec<(String, String)>) {
+        let is_new = |key: &String| statements.iter().all(|(new, _)| new != key);
+        self.statements.retain(|(known, _)| is_new(known));
+        self.statements.extend(statements);
     }
 
     /// The statements that files carry, in order.

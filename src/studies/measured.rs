@@ -48,18 +48,6 @@ impl Measured {
         Ok(scar)
     }
 
-    /// Says so where the radii of a scar and the `reach` of the contact, m, differ by so much that one of
-    /// them is in another unit.
-    ///
-    /// # Errors
-    /// A line that names both.
-    pub fn check_radii(&self, reach: f64) -> Result<(), Refusal> {
-        match self.axes.over_r() {
-            true => check_radii(&self.name, &self.at, reach),
-            false => Ok(()),
-        }
-    }
-
     /// A loop: columns `u_m` and `F_N`, through one closed cycle in the order of time; `error_N`. In this program's
     /// own `loop.csv` they are the displacement that the rig senses, else `u_x_m`, and `F_x_N`.
     ///

@@ -240,7 +240,7 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
         eprintln!("{method}: seen/predicted {ratio:.2}");
         assert!((1.0 / 1.5..1.5).contains(&ratio), "{method}: {ratio}");
         let guarded = line(true);
-        let stable = |(_, outcome): &(f64, Outcome)| *outcome == Outcome::Stable;
+        let stable = |(_, outcome): &(f64, Outcome)| outcome.is_stable();
         assert!(guarded.outcomes.iter().all(stable), "{guarded:?}");
         assert_eq!(guarded.seen, None);
     }

@@ -30,7 +30,7 @@ fn hertz(method: AbelMethod) -> [Errors; 3] {
 #[test]
 fn the_tables_have_every_method_and_n_and_fit_eighty_columns() {
     let text = said("--points 100,50,100 --all");
-    for problem in Problem::ALL {
+    for &problem in Problem::ALL {
         let from = text.split(&format!("{problem}\n  ")).nth(1);
         let from = from.expect("a problem");
         let table = from.split("\n\n").next().expect("a table");

@@ -18,14 +18,7 @@ const FONT: &str = "a font has from 3 to 72 points, e.g. 8";
 /// Options of `figure`.
 #[derive(Debug, Args)]
 #[command(mut_args = listed)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui figure --figure fig2 -o fig2.pdf                 Fig. 2 of the paper\n  \
-    mdr-tui figure --figure fig3 -o fig3.svg                 Fig. 3 of the paper\n  \
-    mdr-tui figure fig3-run --panel loop -o loop.svg         one chart of a run's directory\n  \
-    mdr-tui figure fig3-run --overlay scar.csv -o worn.pdf   with a measured scar over it\n  \
-    mdr-tui figure map.csv -o map.pdf -o map.png             a sweep's map, or its curves, in two formats\n  \
-    mdr-tui figure mine.toml --at 10,50,200 --panel profile --size 85x60 --style grey -o f.pdf\n\n\
-    Beside FILE, the same name with .csv holds exactly what is drawn, and what a caption needs.")]
+#[command(after_help = include_str!("examples/figure.txt").trim_end())]
 pub struct Figure {
     /// A run's directory, a CSV file of one, the table of a sweep, a preset's name, or a path to a .toml file,
     /// which is run.

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::engine::{ArgValueCandidates, ArgValueCompleter};
 use ratatui::layout::Size;
+use serde::Serialize;
 
 use super::complete;
 
@@ -19,7 +20,7 @@ mod sweep;
 mod values;
 
 pub use figure::{Figure, PaperFigure, on_paper};
-pub use studies::{Fit, Guard, Rows, Stability, Trade, Verify};
+pub use studies::{Fit, Guard, Output, Stability, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
 use values::{budget, cycles, interval, listed};
@@ -32,11 +33,7 @@ use values::{budget, cycles, interval, listed};
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     disable_help_subcommand = true,
-    after_help = "Examples:\n  \
-        mdr-tui                                     open the explorer on the preset li2019-fig3\n  \
-        mdr-tui gross-slip --set numerics.points=200  another preset, with one value changed\n  \
-        mdr-tui presets li2019-fig3 > mine.toml     start your own scenario\n  \
-        mdr-tui run mine.toml --cycles 200 --out X  the same simulation without a screen"
+    after_help = include_str!("examples/program.txt").trim_end()
 )]
 pub struct Arguments {
     /// What to do instead of opening the explorer.
@@ -161,13 +158,7 @@ pub struct Explore {
 #[command(
     override_usage = "mdr-tui run [OPTIONS] <SCENARIO>\n       mdr-tui run [OPTIONS] --resume <FILE>"
 )]
-#[command(after_help = "Examples:\n  \
-    mdr-tui run li2019-fig3 --cycles 199.24 --snapshot-at 50.72,100 --out fig3\n  \
-    mdr-tui run mine.toml --set numerics.method=b --out with-b\n  \
-    mdr-tui run mine.toml --set numerics.accuracy=1e-3 --budget 60s\n  \
-    mdr-tui run mindlin --cycles 0.25 --field     the stresses inside the half-space too\n  \
-    mdr-tui run fig3/scenario.toml --out again    the same numbers to the last bit\n  \
-    mdr-tui run --resume fig3/run.checkpoint      go on with a run that was interrupted")]
+#[command(after_help = include_str!("examples/run.txt").trim_end())]
 pub struct Run {
     /// A preset's name, or a path to a .toml file.
     #[arg(required_unless_present = "resume", add = ArgValueCompleter::new(complete::scenarios))]
@@ -234,9 +225,7 @@ pub struct Guide {
 
 /// Options of `man`.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui man run | man -l -\n  \
-    mdr-tui man --out ~/.local/share/man/man1")]
+#[command(after_help = include_str!("examples/manual.txt").trim_end())]
 pub struct Manual {
     /// The command; without one, the program and all commands.
     pub command: Option<String>,
@@ -246,15 +235,13 @@ pub struct Manual {
 }
 
 /// Options of `new`.
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
 #[command(
     long_about = "Answer a few questions, and get a commented scenario of your own.\n\n\
         Each question tells what it means and has a default; what closed forms say of the answers \
         (contact radius, Hertz pressure, stick or slip) stands below it. Options answer questions \
         beforehand; without a terminal nothing is asked, and what is not given has its default.",
-    after_help = "Examples:\n  mdr-tui new\n  \
-        mdr-tui new pin.toml --ball '5 mm' --material steel --against 'titanium alloy' --load '10 N'\n  \
-        mdr-tui new punch.toml --punch '1 mm' --depth '1 um' --stroke '4 um' --wear none"
+    after_help = include_str!("examples/new.txt").trim_end()
 )]
 pub struct New {
     /// The file to write.

@@ -19,11 +19,7 @@ const ACCURACY: &str =
 /// Options of `verify`.
 #[derive(Debug, Args)]
 #[command(mut_args = listed)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui verify                                  how far the default method is from theory\n  \
-    mdr-tui verify --all                            the error tables of all methods and problems\n  \
-    mdr-tui verify --problem hertz --csv fig2.csv   Fig. 2 of the paper, node by node\n  \
-    mdr-tui verify --problem hertz --points 100 --plot")]
+#[command(after_help = include_str!("examples/verify.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("csv", "Write the error at every node to this file"),
     ("plot", "Draw the errors over r/a, on the finest grid of each method"),
@@ -43,24 +39,18 @@ pub struct Verify {
     /// Also run what takes minutes: the limiting profile on more than 200 cells.
     #[arg(long)]
     pub long: bool,
-    /// The file of the rows.
+    /// What is written and said.
     #[command(flatten)]
-    pub rows: Rows,
+    pub output: Output,
     /// What is drawn.
     #[command(flatten)]
     pub drawing: Drawing,
-    /// What is said.
-    #[command(flatten)]
-    pub printing: Printing,
 }
 
 /// Options of `trade`.
 #[derive(Debug, Args)]
 #[command(mut_args = listed)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui trade li2019-fig3 --plot            the Pareto front, as a table and drawn\n  \
-    mdr-tui trade mine.toml --accuracy 1e-3     the cheapest setting for an error of 1e-3\n  \
-    mdr-tui trade mine.toml --methods product,a --points 50,100,200 --csv trade.csv")]
+#[command(after_help = include_str!("examples/trade.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("csv", "Write all settings to this file"),
     ("plot", "Draw error against time, one plot per method; the overall front is dashed"),
@@ -92,24 +82,18 @@ pub struct Trade {
     /// Print all settings, not only the Pareto front.
     #[arg(long)]
     pub all: bool,
-    /// The file of the rows.
+    /// What is written and said.
     #[command(flatten)]
-    pub rows: Rows,
+    pub output: Output,
     /// What is drawn.
     #[command(flatten)]
     pub drawing: Drawing,
-    /// What is said.
-    #[command(flatten)]
-    pub printing: Printing,
 }
 
 /// Options of `stability`.
 #[derive(Debug, Args)]
 #[command(mut_args = listed)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui stability li2019-fig3                         every method as it was published\n  \
-    mdr-tui stability li2019-fig3 --guard both --methods product,b\n  \
-    mdr-tui stability mine.toml --points 100 --wear-numbers 1,3,10,30 --csv map.csv")]
+#[command(after_help = include_str!("examples/stability.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("csv", "Write all runs to this file"),
     ("json", "Print all runs as JSON instead of maps"),
@@ -139,24 +123,15 @@ pub struct Stability {
     /// Whether steps that are too stiff are split.
     #[arg(long, value_enum, default_value_t = Guard::Off)]
     pub guard: Guard,
-    /// The file of the rows.
+    /// What is written and said.
     #[command(flatten)]
-    pub rows: Rows,
-    /// What is said.
-    #[command(flatten)]
-    pub printing: Printing,
+    pub output: Output,
 }
 
 /// Options of `fit`.
 #[derive(Debug, Args)]
 #[command(mut_args = listed)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui fit mine.toml --scar scar.csv --loop loop.csv --free wear.coefficient,friction.coefficient\n  \
-    mdr-tui fit mine.toml --history volume.csv --free wear.coefficient --out fitted.toml --plot\n\n\
-    A scar has columns r_m and wear_m or f_m, a loop u_m and F_N through one closed cycle, a history\n\
-    cycle and wear_volume_m3 or depth_m. Standard errors stand in error_m, error_N or error_m3. Other\n\
-    units may be named: r_mm, f_um, F_kN. A scar is compared with the end of the run, a loop with the\n\
-    cycle that it states (loop.csv@3000, or a line # cycle: 3000), else with the last one.")]
+#[command(after_help = include_str!("examples/fit.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("plot", "Draw measured minus simulated values, one plot per data set"),
     ("json", "Print the keys with values, standard errors and correlations as JSON"),
@@ -196,9 +171,12 @@ pub struct Fit {
     /// What is drawn.
     #[command(flatten)]
     pub drawing: Drawing,
-    /// What is said.
-    #[command(flatten)]
-    pub printing: Printing,
+    /// Print all rows as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 fn methods() -> impl TypedValueParser<Value = AbelMethod> {
@@ -226,15 +204,21 @@ pub enum Guard {
     Both,
 }
 
-/// Output file of a study.
+/// Output of a study: a file, stdout and stderr.
 #[derive(Debug, Args)]
-pub struct Rows {
+pub struct Output {
     /// Write all rows to this file.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Overwrite an existing file.
     #[arg(long, requires = "csv")]
     pub force: bool,
+    /// Print all rows as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// Curves printed below the tables of a study.
@@ -246,17 +230,6 @@ pub struct Drawing {
     /// What the curves of --plot are made of.
     #[arg(long, value_enum, default_value_t = Marker::Braille, requires = "plot")]
     pub marker: Marker,
-}
-
-/// Output of a study on stdout and stderr.
-#[derive(Debug, Args)]
-pub struct Printing {
-    /// Print all rows as JSON.
-    #[arg(long)]
-    pub json: bool,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
 }
 
 /// Help texts of shared options, worded for each study.

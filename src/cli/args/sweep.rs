@@ -16,16 +16,7 @@ use crate::tui::parse_size;
 
 /// Options of `sweep`.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  \
-    mdr-tui sweep study.toml --out map.csv          a row per point, on all cores\n  \
-    mdr-tui sweep study.toml --out map.csv --resume    continue after Ctrl-C\n  \
-    mdr-tui sweep study.toml --resume --failed      run only what failed\n  \
-    mdr-tui sweep study.toml --point 17 > p.toml    the scenario of one point\n  \
-    mdr-tui sweep study.toml --shard 3/16           the 4th of 16 parts, for another machine\n  \
-    mdr-tui sweep study.toml --shards 16 --slurm > job.sh   a job script for Slurm\n  \
-    mdr-tui sweep --merge study.shards --out map.csv   put the parts together\n  \
-    mdr-tui sweep --view map.csv                    the map, also while the study runs\n  \
-    mdr-tui sweep study.toml --sensitivity          how sensitive the results are to the keys")]
+#[command(after_help = include_str!("examples/sweep.txt").trim_end())]
 #[command(group = ArgGroup::new("what").required(true).args(["study", "merge", "view"]))]
 pub struct Sweep {
     /// The study, a .toml file.

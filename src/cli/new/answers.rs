@@ -1,38 +1,81 @@
-//! The answers to `mdr-tui new`, and the commented scenario made from them.
+//! The questions of `mdr-tui new`, how their answers are read, and the commented scenario made from them.
+//!
+//! `questions.toml` has each question with what it means, its default, and the key that it is about.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
 use toml::Value;
 
 use crate::scenario::schema::{self, Kind};
-use crate::scenario::{Scenario, ScenarioError, units};
+use crate::scenario::{Scenario, ScenarioError, units, write};
 
-/// A scenario with more cycles than this jumps over those that are alike.
-const JUMP_FROM: f64 = 1000.0;
+/// What `questions.toml` says.
+#[derive(Deserialize)]
+struct Form {
+    #[serde(rename = "question")]
+    questions: Vec<Question>,
+    #[serde(rename = "material")]
+    materials: Vec<Body>,
+}
 
-/// A material of the short list: name, Young's modulus, Poisson's ratio.
-pub const MATERIALS: [(&str, &str, f64); 12] = [
-    ("steel", "210 GPa", 0.3),
-    ("stainless steel", "193 GPa", 0.29),
-    ("titanium alloy", "114 GPa", 0.34),
-    ("aluminium alloy", "72 GPa", 0.33),
-    ("bronze", "110 GPa", 0.34),
-    ("alumina", "380 GPa", 0.22),
-    ("silicon nitride", "310 GPa", 0.27),
-    ("tungsten carbide", "630 GPa", 0.22),
-    ("glass", "70 GPa", 0.22),
-    ("PEEK", "3.8 GPa", 0.4),
-    ("UHMWPE", "0.8 GPa", 0.46),
-    (RIGID, "", 0.0),
-];
+static FORM: LazyLock<Form> = LazyLock::new(|| {
+    toml::from_str(include_str!("questions.toml")).expect("the questions are whole")
+});
 
-/// The body that does not yield.
-const RIGID: &str = "rigid";
+/// A question that is answered by a line, about a key of the scenario.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Question {
+    /// The option that answers it beforehand.
+    pub option: String,
+    /// What a title calls what it is about.
+    pub name: String,
+    /// What it is, in a list.
+    pub item: String,
+    with: Option<[String; 3]>,
+    key: String,
+    share: Option<f64>,
+    unit: String,
+    /// The question.
+    pub prompt: String,
+    /// What it means.
+    pub meaning: String,
+    /// The answer of who gives none.
+    pub default: String,
+    note: String,
+}
+
+/// The question that an option answers.
+pub fn question(option: &str) -> &'static Question {
+    let mut questions = FORM.questions.iter();
+    let found = questions.find(|question| question.option == option);
+    found.expect("a question of the form")
+}
+
+impl Question {
+    /// Reads an answer; a bare number is in the question's unit.
+    ///
+    /// # Errors
+    /// The rule that it breaks.
+    pub fn read(&self, text: &str) -> Result<Quantity, String> {
+        quantity(text, &self.key, &self.unit)
+    }
+}
 
 /// One of the two bodies.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Body {
-    name: String,
+    /// The material's name.
+    pub name: String,
     /// Young's modulus with its unit, and Poisson's ratio; none if it is rigid.
-    elastic: Option<(String, f64)>,
+    pub elastic: Option<(String, f64)>,
+}
+
+/// The materials of the short list.
+pub fn materials() -> &'static [Body] {
+    &FORM.materials
 }
 
 impl Body {
@@ -42,22 +85,19 @@ impl Body {
     /// What would be right.
     pub fn read(text: &str) -> Result<Self, String> {
         let text = text.trim();
-        let mut materials = MATERIALS.iter();
-        let known = materials.find(|(name, ..)| name.eq_ignore_ascii_case(text));
-        if let Some(&(name, modulus, poisson)) = known {
-            return Ok(Self {
-                name: name.to_owned(),
-                elastic: (name != RIGID).then(|| (modulus.to_owned(), poisson)),
-            });
+        let mut known = materials().iter();
+        if let Some(body) = known.find(|body| body.name.eq_ignore_ascii_case(text)) {
+            return Ok(body.clone());
         }
         let Some((modulus, poisson)) = text.split_once(',') else {
-            let names = MATERIALS.map(|(name, ..)| name).join(", ");
+            let names: Vec<&str> = materials().iter().map(|body| &*body.name).collect();
             return Err(format!(
-                "must be one of {names}, or E,NU such as \"200 GPa,0.3\""
+                "must be one of {}, or E,NU such as \"200 GPa,0.3\"",
+                names.join(", ")
             ));
         };
-        let modulus = quantity(modulus, "material.indenter.youngs_modulus", "GPa", false)?;
-        let poisson = quantity(poisson, "material.indenter.poisson", "", false)?;
+        let modulus = quantity(modulus, "material.indenter.youngs_modulus", "GPa")?;
+        let poisson = quantity(poisson, "material.indenter.poisson", "")?;
         Ok(Self {
             name: format!("E = {}", modulus.text),
             elastic: Some((modulus.text, poisson.value)),
@@ -75,10 +115,7 @@ pub struct Quantity {
 }
 
 /// Reads a value of a key; a bare number is in `unit`.
-///
-/// # Errors
-/// The rule that it breaks.
-pub fn quantity(text: &str, key: &str, unit: &str, is_force: bool) -> Result<Quantity, String> {
+fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
     let text = text.trim();
     let known = schema::find(key).filter(|known| known.kind == Kind::Number);
     let known = known.ok_or_else(|| format!("{key} is no number"))?;
@@ -86,7 +123,7 @@ pub fn quantity(text: &str, key: &str, unit: &str, is_force: bool) -> Result<Qua
         Ok(_) => format!("{text} {unit}").trim_end().to_owned(),
         Err(_) => text.to_owned(),
     };
-    let value = match units::quantity(&text, known, is_force) {
+    let value = match units::quantity(&text, known, unit == "N") {
         Some(value) => value?,
         None => text
             .parse::<f64>()
@@ -103,35 +140,48 @@ pub fn quantity(text: &str, key: &str, unit: &str, is_force: bool) -> Result<Qua
     }
 }
 
-/// All answers.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Answers {
-    /// Whether the indenter is a flat disc, and else a ball near its pole.
-    pub is_punch: bool,
-    /// Its radius.
-    pub radius: Quantity,
-    /// The indenter's material.
-    pub indenter: Body,
-    /// The half-space's.
-    pub half_space: Body,
-    /// Whether a depth is held, and else a load.
-    pub holds_depth: bool,
-    /// Load or depth.
-    pub press: Quantity,
-    /// From turning point to turning point.
-    pub stroke: Quantity,
-    /// Cycles per second.
-    pub frequency: Quantity,
-    /// The coefficient of friction.
-    pub friction: Quantity,
-    /// Archard's k of a pin test; none: no wear.
-    pub wear: Option<Quantity>,
-    /// The length of the test.
-    pub cycles: Quantity,
-}
+/// The scenario so far: its keys, by their places in the schema, each with its value and a note.
+#[derive(Debug, Default)]
+pub struct Draft(BTreeMap<usize, (Value, String)>);
 
-impl Answers {
-    /// The scenario of the answers.
+impl Draft {
+    /// Sets a key, with a note beside it.
+    pub fn set(&mut self, path: &str, value: impl Into<Value>, note: impl Into<String>) {
+        let mut known = schema::parameters().iter();
+        let place = known.position(|known| known.path == path);
+        let place = place.expect("a key of the table");
+        self.0.insert(place, (value.into(), note.into()));
+    }
+
+    /// Sets the key of a question, and the one that goes with it.
+    pub fn answer(&mut self, question: &Question, given: &Quantity) {
+        let value = match question.share {
+            Some(share) => Value::Float(share * given.value),
+            None if question.unit.is_empty() => Value::Float(given.value),
+            None => Value::String(given.text.clone()),
+        };
+        let note = question.note.replace("{}", &given.text);
+        self.set(&question.key, value, note);
+        if let Some([key, value, note]) = &question.with {
+            self.set(key, value.as_str(), note);
+        }
+    }
+
+    /// Sets the keys of the body that a question is about.
+    pub fn body(&mut self, question: &Question, body: &Body) {
+        let mut set = |key: &str, value: Value, note: &str| {
+            self.set(&schema::join(&question.key, key), value, note);
+        };
+        match &body.elastic {
+            None => set("rigid", true.into(), ""),
+            Some((modulus, poisson)) => {
+                set("youngs_modulus", modulus.as_str().into(), &body.name);
+                set("poisson", (*poisson).into(), "");
+            }
+        }
+    }
+
+    /// The scenario.
     ///
     /// # Errors
     /// Answers that make no contact together.
@@ -141,86 +191,14 @@ impl Answers {
 
     /// The scenario as a commented file.
     pub fn to_toml(&self) -> String {
-        let quoted = |text: &str| Value::from(text).to_string();
-        let (name, shape, of_what) = match self.is_punch {
-            false => ("Ball", "paraboloid", "of the ball"),
-            true => ("Flat punch", "flat-punch", "of the flat face"),
-        };
-        let (control, meaning) = match self.holds_depth {
-            false => (
-                "force",
-                "the load is held: the contact sinks in as it wears",
-            ),
-            true => (
-                "displacement",
-                "the depth is held: wear unloads the contact",
-            ),
-        };
-        let (press, stroke) = (&self.press.text, &self.stroke.text);
-        let half = format!("{:e}", self.stroke.value / 2.0);
-        let keys = "mdr-tui guide scenarios lists all shapes and keys";
-        // Section, key, value, and what it means.
-        let mut rows = vec![
-            ("indenter", "shape", quoted(shape), keys.to_owned()),
-            (
-                "indenter",
-                "radius",
-                quoted(&self.radius.text),
-                of_what.into(),
-            ),
-        ];
-        for (section, body) in [
-            ("material.indenter", &self.indenter),
-            ("material.half_space", &self.half_space),
-        ] {
-            match &body.elastic {
-                None => rows.push((section, "rigid", "true".into(), String::new())),
-                Some((modulus, poisson)) => rows.extend([
-                    (
-                        section,
-                        "youngs_modulus",
-                        quoted(modulus),
-                        body.name.clone(),
-                    ),
-                    (section, "poisson", poisson.to_string(), String::new()),
-                ]),
+        let (mut text, mut open) = (String::new(), "");
+        for (&place, (value, note)) in &self.0 {
+            let known = &schema::parameters()[place];
+            if known.section() != open {
+                open = known.section();
+                text += &format!("\n[{open}]\n");
             }
-        }
-        let friction = self.friction.text.clone();
-        let frequency = quoted(&self.frequency.text);
-        let half_stroke = format!("m: half the stroke of {stroke}");
-        let tangential = "motion.tangential";
-        rows.extend([
-            ("friction", "coefficient", friction, String::new()),
-            ("motion.normal", "control", quoted(control), meaning.into()),
-            ("motion.normal", "mean", quoted(press), String::new()),
-            (tangential, "amplitude", half, half_stroke),
-            (
-                tangential,
-                "frequency",
-                frequency,
-                "one period is a cycle".into(),
-            ),
-        ]);
-        if let Some(wear) = &self.wear {
-            let note = "of a pin test: per load and sliding distance".to_owned();
-            rows.push(("wear", "coefficient_per_load", quoted(&wear.text), note));
-            if self.cycles.value > JUMP_FROM {
-                let note = "jumps over cycles that are alike; \"direct\": every step".to_owned();
-                rows.push(("numerics", "integrator", quoted("cycle-jump"), note));
-            }
-        }
-        let cycles = format!("{:?}", self.cycles.value);
-        rows.push(("run", "cycles", cycles, String::new()));
-        let (of, on) = (&self.indenter.name, &self.half_space.name);
-        let title = quoted(&format!("{name} of {of} on {on}, {press}, stroke {stroke}"));
-        let (mut text, mut open) = (format!("title = {title}\n"), "");
-        for (section, key, value, note) in rows {
-            if section != open {
-                text += &format!("\n[{section}]\n");
-                open = section;
-            }
-            let row = format!("{key} = {value}");
+            let row = format!("{} = {}", known.key(), write::value(value));
             text += &match note.is_empty() {
                 true => row + "\n",
                 false => format!("{row:38} # {note}\n"),
@@ -236,8 +214,8 @@ mod tests {
 
     #[test]
     fn materials_are_names_or_two_numbers() {
-        for (name, ..) in MATERIALS {
-            assert_eq!(Body::read(name).expect("a material").name, *name);
+        for known in materials() {
+            assert_eq!(Body::read(&known.name).as_ref(), Ok(known));
         }
         let body = Body::read(" 200 GPa , 0.28").expect("two numbers");
         assert_eq!(body.elastic, Some(("200 GPa".into(), 0.28)));
@@ -252,7 +230,7 @@ mod tests {
 
     #[test]
     fn quantities_are_in_the_unit_that_is_asked_for_unless_they_say() {
-        let of = |text: &str| quantity(text, "indenter.radius", "mm", false);
+        let of = |text: &str| question("ball").read(text);
         assert_eq!(of("10").expect("a length").value, 0.01);
         assert_eq!(of("200 um").expect("a length").value, 2e-4);
         for (text, rule) in [

@@ -32,7 +32,6 @@ pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
     if options.skip_invalid {
         more += " --skip-invalid";
     }
-    let last = shards - 1;
     let wanted = [
         ("time", Some(&options.time)),
         ("account", options.account.as_ref()),
@@ -48,35 +47,16 @@ pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
         .map(|name| format!("module load {name}\n"))
         .collect();
     format!(
-        r#"#!/bin/bash
-# {points} points in {shards} shards. Submit with: sbatch FILE   (a throttle: sbatch --array=0-{last}%4 FILE)
-# When all tasks are done: mdr-tui sweep --merge {directory} --out map.csv
-#SBATCH --job-name=sweep
-#SBATCH --array=0-{last}
-#SBATCH --ntasks=1
-#SBATCH --cpus-per-task=1
-{wanted}#SBATCH --signal=B:TERM@60
-#SBATCH --requeue
-#SBATCH --open-mode=append
-#SBATCH --output=%x-%A_%a.log
-
-{modules}program= signals=0
-trap 'signals=$((signals + 1)); [ -z "$program" ] || kill -TERM "$program" 2>/dev/null' TERM
-mdr-tui sweep {study} --shards {shards} --resume --out {directory}/shard-"$SLURM_ARRAY_TASK_ID".csv \
-    --threads "${{SLURM_CPUS_PER_TASK:-1}}" --quiet{more} &
-program=$!
-[ "$signals" = 0 ] || kill -TERM "$program"
-# A trapped signal ends wait before the program ends; then wait again. 127: there was nothing left.
-status= seen=
-while [ "$signals" != "$seen" ]; do
-    seen=$signals
-    wait "$program"; code=$?
-    [ "$code" = 127 ] || status=$code
-done
-if [ "$status" = {UNFINISHED} ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {MOST_REQUEUES} ]; then
-    scontrol requeue "$SLURM_JOB_ID"
-fi
-exit "$status"
-"#
+        include_str!("slurm.sh"),
+        points = points,
+        shards = shards,
+        last = shards - 1,
+        directory = directory,
+        study = study,
+        more = more,
+        wanted = wanted,
+        modules = modules,
+        unfinished = UNFINISHED,
+        most_requeues = MOST_REQUEUES,
     )
 }

@@ -28,7 +28,7 @@ use serde::Serialize;
 use crate::scenario::schema::{self, Kind, Range as Allowed};
 use crate::scenario::session::SessionError;
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
-use crate::studies::measured::Measured;
+use crate::studies::measured::{Measured, check_radii};
 use crate::traces::Axes;
 use errors::{Errors, freedom};
 use solver::Free;
@@ -172,7 +172,9 @@ impl Fit {
                      --loop FILE@CYCLE say others"
                 ));
             }
-            set.check_radii(domain)?;
+            if set.axes.over_r() {
+                check_radii(&set.name, &set.at, domain)?;
+            }
         }
         Ok(Self {
             scenario,

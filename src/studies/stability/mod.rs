@@ -43,20 +43,20 @@ pub struct Setting {
     pub guard: bool,
 }
 
-/// How a run ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
-    /// Smooth to the end.
-    Stable,
-    /// Ran to the end, with a sawtooth of this height at the end of a cycle, relative to the largest depth.
-    Sawtooth(f64),
-    /// After some cycles, for a reason.
-    Exploded {
-        /// Cycles that it held.
-        cycle: f64,
-        /// In a plain word.
-        reason: String,
-    },
+/// How a run ended: stable, unless it tells of something else.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Outcome {
+    /// The height of a sawtooth at the end of a cycle, relative to the largest depth.
+    pub sawtooth: Option<f64>,
+    /// The cycles that it held, and the reason in a plain word.
+    pub exploded: Option<(f64, String)>,
+}
+
+impl Outcome {
+    /// Whether it was smooth to the end.
+    pub fn is_stable(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// The scenario and how long it is run.
@@ -135,18 +135,18 @@ impl Study {
             let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
             match session.advance_while(end, |_| go_on()) {
                 Err(SessionError::Breakdown(breakdown)) => {
-                    return Ok(Outcome::Exploded {
-                        cycle: breakdown.cycle,
-                        reason: breakdown.cause.to_string(),
+                    return Ok(Outcome {
+                        sawtooth: None,
+                        exploded: Some((breakdown.cycle, breakdown.cause.to_string())),
                     });
                 }
                 other => other?,
             }
             highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
         }
-        Ok(match highest > VISIBLE {
-            true => Outcome::Sawtooth(highest),
-            false => Outcome::Stable,
+        Ok(Outcome {
+            sawtooth: (highest > VISIBLE).then_some(highest),
+            exploded: None,
         })
     }
 
@@ -184,9 +184,9 @@ impl Study {
         let (mut below, mut above) = (None, None);
         for &wear_number in wear_numbers {
             let outcome = self.run(line.setting, wear_number, go_on)?;
-            match (&outcome, above) {
-                (Outcome::Stable, None) => below = Some(wear_number),
-                (_, None) => above = Some(wear_number),
+            match (outcome.is_stable(), above) {
+                (true, None) => below = Some(wear_number),
+                (false, None) => above = Some(wear_number),
                 _ => {}
             }
             line.outcomes.push((wear_number, outcome));
@@ -199,9 +199,9 @@ impl Study {
         };
         for _ in 0..HALVINGS {
             let middle = (low * high).sqrt();
-            match self.run(line.setting, middle, go_on)? {
-                Outcome::Stable => low = middle,
-                _ => high = middle,
+            match self.run(line.setting, middle, go_on)?.is_stable() {
+                true => low = middle,
+                false => high = middle,
             }
         }
         line.seen = Some(high);

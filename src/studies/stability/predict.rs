@@ -79,7 +79,7 @@ pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, Se
     // The first cycle lets the springs settle.
     cycle(&mut mild, MILD, 0.0)?;
     let unworn = cycle(&mut mild, MILD, 0.0)?;
-    if let Some(depth) = sawtooth_from(setting.method) {
+    if let Some((depth, _)) = sawtooth_from(setting.method) {
         let worn = unworn.worn * study.cycles;
         return Ok((worn > 0.0).then(|| depth / worn));
     }
@@ -157,29 +157,24 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
 }
 
 /// The wear at which a method shows a sawtooth whatever the step, at the rate of a cycle of the unworn contact and
-/// relative to the largest depth. `None` if short steps prevent it.
+/// relative to the largest depth, and why. `None` if short steps prevent it.
 ///
 /// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps a
 /// cycle, 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of what a cycle wears by a given profile
 /// are those of the other methods with b, and change fourfold with N with benad, so that they tell neither.
 /// On other motions they may be off by more than 1.5.
-pub(super) fn sawtooth_from(method: AbelMethod) -> Option<f64> {
+pub(super) fn sawtooth_from(method: AbelMethod) -> Option<(f64, &'static str)> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => Some(0.4),
-        AbelMethod::Benad => Some(0.045),
-    }
-}
-
-/// Why even the shortest steps do not keep a method from a sawtooth; `None` if they do.
-pub(super) fn beyond_steps(method: AbelMethod) -> Option<&'static str> {
-    match method {
-        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => Some(
-            "its differences reach across the stick border and wear the \
-            permanent stick zone",
-        ),
-        AbelMethod::Benad => Some("its Eq. (2) adds the unevenness of the springs in every cycle"),
+        AbelMethod::B => {
+            let why =
+                "its differences reach across the stick border and wear the permanent stick zone";
+            Some((0.4, why))
+        }
+        AbelMethod::Benad => {
+            let why = "its Eq. (2) adds the unevenness of the springs in every cycle";
+            Some((0.045, why))
+        }
     }
 }
 

@@ -2,17 +2,19 @@
 
 use std::fmt::Write;
 
-use super::predict::beyond_steps;
-use super::{Line, Outcome};
-use crate::studies::table::{Format, Table};
+use super::predict::sawtooth_from;
+use super::{Line, Outcome, Setting};
+use crate::scenario::scalars::Value;
+use crate::studies::table::Format::{Count, Fixed, Rough, Words};
+use crate::studies::table::Table;
 
 impl Outcome {
     /// The word for it in tables, and the mark in maps.
     fn words(&self) -> (&'static str, char) {
-        match self {
-            Self::Stable => ("stable", '.'),
-            Self::Sawtooth(_) => ("sawtooth", '~'),
-            Self::Exploded { .. } => ("exploded", '#'),
+        match (&self.exploded, self.sawtooth) {
+            (Some(_), _) => ("exploded", '#'),
+            (None, Some(_)) => ("sawtooth", '~'),
+            (None, None) => ("stable", '.'),
         }
     }
 }
@@ -31,33 +33,22 @@ fn guard(line: &Line) -> &'static str {
 /// A row a run.
 pub fn runs(lines: &[Line]) -> Table {
     let mut table = Table::of(&[
-        ("", "method guard", Format::Words),
-        ("", "points steps_per_cycle", Format::Count),
-        ("", "wear_number", Format::Rough),
-        ("", "outcome", Format::Words),
-        ("", "exploded_at_cycle", Format::Fixed),
-        ("", "sawtooth predicted_wear_number", Format::Rough),
-        ("", "reason", Format::Words),
+        ("", "method guard", Words),
+        ("", "points steps_per_cycle", Count),
+        ("", "wear_number", Rough),
+        ("", "outcome", Words),
+        ("", "exploded_at_cycle", Fixed),
+        ("", "sawtooth predicted_wear_number", Rough),
+        ("", "reason", Words),
     ]);
     for line in lines {
         for (wear_number, outcome) in &line.outcomes {
-            let (cycle, sawtooth, reason) = match outcome {
-                Outcome::Stable => (None, None, None),
-                Outcome::Sawtooth(height) => (None, Some(*height), None),
-                Outcome::Exploded { cycle, reason } => (Some(*cycle), None, Some(reason.clone())),
-            };
-            table.push(vec![
-                line.setting.method.name().into(),
-                guard(line).into(),
-                line.setting.points.into(),
-                (line.setting.steps as usize).into(),
-                (*wear_number).into(),
-                outcome.words().0.into(),
-                cycle.into(),
-                sawtooth.into(),
-                line.predicted.into(),
-                reason.into(),
-            ]);
+            let (cycle, reason) = outcome.exploded.clone().unzip();
+            let steps = Value::Count(line.setting.steps.into());
+            let of_run = [steps, (*wear_number).into(), outcome.words().0.into()];
+            let found = [cycle.into(), outcome.sawtooth.into(), line.predicted.into()];
+            let row = key(line).into_iter().chain(of_run).chain(found);
+            table.push(row.chain([reason.into()]).collect());
         }
     }
     table
@@ -66,22 +57,21 @@ pub fn runs(lines: &[Line]) -> Table {
 /// A row a method and grid: where the boundary was predicted, and where it was seen.
 pub fn boundaries(lines: &[Line]) -> Table {
     let mut table = Table::of(&[
-        ("", "method guard", Format::Words),
-        ("", "points", Format::Count),
-        ("critical K", "predicted seen", Format::Rough),
-        ("critical K", "ratio", Format::Fixed),
+        ("", "method guard", Words),
+        ("", "points", Count),
+        ("critical K", "predicted seen", Rough),
+        ("critical K", "ratio", Fixed),
     ]);
     for line in lines {
-        table.push(vec![
-            line.setting.method.name().into(),
-            guard(line).into(),
-            line.setting.points.into(),
-            line.predicted.into(),
-            line.seen.into(),
-            line.ratio().into(),
-        ]);
+        let found = [line.predicted, line.seen, line.ratio()].map(Value::from);
+        table.push(key(line).into_iter().chain(found).collect());
     }
     table
+}
+
+fn key(line: &Line) -> [Value; 3] {
+    let Setting { method, points, .. } = line.setting;
+    [method.name().into(), guard(line).into(), points.into()]
 }
 
 /// Width of a rung in a map.
@@ -107,7 +97,7 @@ pub fn maps(lines: &[Line]) -> String {
         let rungs = first.outcomes.iter().map(|(k, _)| format!("{k:<RUNG$}"));
         let rungs: String = rungs.collect();
         let _ = writeln!(text, "  N  K={}", rungs.trim_end());
-        if let Some(why) = beyond_steps(first.setting.method) {
+        if let Some((_, why)) = sawtooth_from(first.setting.method) {
             let _ = writeln!(
                 text,
                 "  Measured, not derived: the sawtooth grows with K x cycles at any step \
@@ -144,12 +134,15 @@ fn strip(line: &Line) -> String {
 mod tests {
     use super::*;
     use crate::math::abel::AbelMethod;
-    use crate::studies::stability::Setting;
 
     fn line() -> Line {
-        let exploded = Outcome::Exploded {
-            cycle: 2.5,
-            reason: "it blew, up".into(),
+        let sawtooth = Outcome {
+            sawtooth: Some(0.5),
+            ..Outcome::default()
+        };
+        let exploded = Outcome {
+            exploded: Some((2.5, "it blew, up".into())),
+            ..Outcome::default()
         };
         Line {
             setting: Setting {
@@ -159,8 +152,8 @@ mod tests {
                 guard: false,
             },
             outcomes: vec![
-                (1.0, Outcome::Stable),
-                (10.0, Outcome::Sawtooth(0.5)),
+                (1.0, Outcome::default()),
+                (10.0, sawtooth),
                 (100.0, exploded),
             ],
             predicted: Some(8.0),

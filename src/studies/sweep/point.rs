@@ -109,9 +109,7 @@ fn begun(
         Some(ended) if *stop == Stop::default() => ended,
         _ => Session::start(found.scenario)?,
     };
-    for (key, value) in &found.statements {
-        session.state(key, value);
-    }
+    session.state(found.statements);
     let status = match (found.missed_by, scenario.accuracy()) {
         (Some(reached), Some(asked)) => format!("{INACCURATE}{reached:.1e} instead of {asked:e}"),
         _ => OK.to_owned(),

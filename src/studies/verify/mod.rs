@@ -68,11 +68,9 @@ impl Stop {
 /// The tasks of some problems, by problem, method and rising N; `long` ones, which take minutes, only if asked for.
 pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
     let points: BTreeSet<usize> = points.iter().copied().collect();
-    let problems = Problem::ALL
-        .into_iter()
-        .filter(|problem| problems.contains(problem));
+    let wanted = |problem: &&Problem| problems.contains(problem);
     let mut tasks = Vec::new();
-    for problem in problems {
+    for &problem in Problem::ALL.iter().filter(wanted) {
         for method in AbelMethod::ALL {
             let points = points.iter().copied();
             let points = points.filter(|&points| long || !problem.is_long(points));
@@ -91,7 +89,7 @@ impl Task {
     pub fn run(self) -> Outcome {
         Outcome {
             task: self,
-            errors: (self.problem.facts().solve)(self.method, self.points),
+            errors: self.problem.solve(self.method, self.points),
         }
     }
 }

@@ -1,13 +1,17 @@
 //! The problems of the study, by name.
 
-use strum::{Display, IntoStaticStr};
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+use strum::{Display, IntoStaticStr, VariantArray};
 
 use super::errors::Errors;
 use super::{Stop, normal, sliding};
 use crate::math::abel::AbelMethod;
 
 /// A problem with a closed form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, IntoStaticStr)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, IntoStaticStr, VariantArray)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Problem {
     /// The paraboloid of the paper's Fig. 2.
@@ -30,27 +34,28 @@ pub enum Problem {
 pub const STICK_RADIUS: &str = "c";
 
 /// What there is to know of a problem.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Facts {
-    /// Solves it by a method on N cells; gives the errors of the quantities.
-    pub(super) solve: fn(AbelMethod, usize) -> Result<Vec<Errors>, Stop>,
+    name: &'static str,
     /// The symbols of what is compared.
-    pub quantities: &'static [&'static str],
+    pub quantities: Vec<&'static str>,
     /// What is solved, how, where the edges lie, in what the error is measured and what is left
     /// out: lines of at most 78 columns.
-    pub description: &'static [&'static str],
+    pub description: Vec<&'static str>,
 }
+
+/// What `problems.toml` says.
+static FACTS: LazyLock<HashMap<&str, Vec<Facts>>> = LazyLock::new(|| {
+    let table = toml::Deserializer::parse(include_str!("problems.toml"));
+    table
+        .and_then(HashMap::deserialize)
+        .expect("the problems are whole")
+});
 
 impl Problem {
     /// Every problem, in the order of the report.
-    pub const ALL: [Self; 7] = [
-        Self::Hertz,
-        Self::Cone,
-        Self::Quartic,
-        Self::TruncatedParaboloid,
-        Self::FlatPunch,
-        Self::Cattaneo,
-        Self::Limit,
-    ];
+    pub const ALL: &[Self] = Self::VARIANTS;
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -58,76 +63,24 @@ impl Problem {
     }
 
     /// What there is to know of it.
-    pub fn facts(self) -> Facts {
-        match self {
-            Self::Hertz => Facts {
-                solve: normal::hertz,
-                quantities: &["g", "p", "w"],
-                description: &[
-                    "Paraboloid, as in Fig. 2 of the paper: N cells over the contact, the edge a on",
-                    "the last node; g of the exact f, p of the exact q, w of the exact u = d - g.",
-                    "Error relative to theory at each node. Left out: g at r = 0 and p at r = a,",
-                    "where theory is 0.",
-                ],
-            },
-            Self::Cone => Facts {
-                solve: normal::cone,
-                quantities: &["g", "p", "w"],
-                description: &[
-                    "Cone: N cells over the contact, the edge a on the last node; transforms of",
-                    "exact data. Errors of g and w relative to d, of p to the mean pressure.",
-                    "Left out: p at r = 0, where theory is infinite.",
-                ],
-            },
-            Self::Quartic => Facts {
-                solve: normal::quartic,
-                quantities: &["g", "p", "w"],
-                description: &[
-                    "f = r^4: N cells over 1.5 a, the edge a a third of a cell past a node; p as",
-                    "the simulation has it, g and w of exact data. Error of g and w in the depth d,",
-                    "of p in the mean pressure. Nodes inside a.",
-                ],
-            },
-            Self::TruncatedParaboloid => Facts {
-                solve: normal::truncated_paraboloid,
-                quantities: &["g", "p", "w"],
-                description: &[
-                    "Paraboloid with a flat tip of radius b = a/2: N cells over 1.5 a, a and b a",
-                    "third of a cell past a node; p, infinite at b, as the simulation has it, g and",
-                    "w of exact data. Errors of g and w relative to d, of p to the mean pressure.",
-                    "Nodes inside a.",
-                ],
-            },
-            Self::FlatPunch => Facts {
-                solve: normal::flat_punch,
-                quantities: &["p"],
-                description: &[
-                    "Flat punch: N cells over the punch, its rim on the last node, where q jumps;",
-                    "p as the simulation has it. Error relative to the mean pressure.",
-                    "Left out: r = a, where theory is infinite.",
-                ],
-            },
-            Self::Cattaneo => Facts {
-                solve: sliding::cattaneo,
-                quantities: &["tau", "slip"],
-                description: &[
-                    "Partial slip of a paraboloid on first loading, c = a/2, a quarter of a cycle",
-                    "of the simulation without wear: N cells over 1.5 a, a and c a third of a cell",
-                    "past a node. Error of tau in its peak at all nodes, of the slip of the surface",
-                    "in its peak at the nodes inside a.",
-                ],
-            },
-            Self::Limit => Facts {
-                solve: sliding::limit,
-                quantities: &["f", STICK_RADIUS],
-                description: &[
-                    "Limiting profile: paraboloid at constant depth d, mu = 0.1, nu = 0.3,",
-                    "amplitude 0.05 d, k E* d/a = 3, 400 cycles of 40 steps, N cells over 1.5 a;",
-                    "each method on its own grid and scheme. Error of f in d, the rms over the",
-                    "radius; relative error of the permanent stick radius c.",
-                ],
-            },
-        }
+    pub fn facts(self) -> &'static Facts {
+        let mut all = FACTS["problem"].iter();
+        let found = all.find(|facts| facts.name == self.name());
+        found.expect("every problem is described")
+    }
+
+    /// Solves it by a method on N cells; gives the errors of the quantities.
+    pub(super) fn solve(self, method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+        let solve = match self {
+            Self::Hertz => normal::hertz,
+            Self::Cone => normal::cone,
+            Self::Quartic => normal::quartic,
+            Self::TruncatedParaboloid => normal::truncated_paraboloid,
+            Self::FlatPunch => normal::flat_punch,
+            Self::Cattaneo => sliding::cattaneo,
+            Self::Limit => sliding::limit,
+        };
+        solve(method, points)
     }
 
     /// Whether runs with `points` cells need `--all`: each run to the limiting profile takes seconds.
@@ -141,6 +94,21 @@ impl Problem {
         match self {
             Self::Limit => 400 * square,
             _ => square,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_problem_is_described() {
+        for problem in Problem::ALL {
+            let facts = problem.facts();
+            assert!(!facts.quantities.is_empty(), "{problem}");
+            let is_short = |line: &&str| line.chars().count() <= 78;
+            assert!(facts.description.iter().all(is_short), "{problem}");
         }
     }
 }

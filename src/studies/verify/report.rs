@@ -13,7 +13,7 @@ const ROOMY: usize = 2;
 
 /// The table of one problem, a row for each method and N.
 pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
-    let quantities = problem.facts().quantities;
+    let quantities = &problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
     let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Count)];
     for quantity in quantities {

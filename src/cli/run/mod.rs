@@ -1,34 +1,31 @@
 //! `mdr-tui run`: the simulation without a screen.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow};
 
 use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::progress::Progress;
 use super::{FAILED, accuracy, complain, provenance, stop};
-use crate::export::autosave::{Autosave, Recent, state_directory};
-use crate::export::file::{
-    RUN_CHECKPOINT, RunDirectory, WriteError, directory_of, shell_word, write_whole,
-};
+use crate::export::autosave::{Autosave, Recent};
+use crate::export::file::{RunDirectory, WriteError, shell_word};
 use crate::export::header::{self, number};
 use crate::export::{field, state};
-use crate::reading::verdict;
 use crate::scenario::checkpoint;
-use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Refusal, Scenario, printable};
-use crate::studies::refinement;
+
+mod begin;
+mod summary;
+
+use summary::remarks;
 
 /// Polling interval for signals.
 const GLANCE: Duration = Duration::from_millis(20);
@@ -151,118 +148,7 @@ struct Job<'a> {
     owed: Vec<(String, String)>,
 }
 
-impl<'a> Job<'a> {
-    fn start(options: &'a Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
-        let mut scenario = Scenario::load(name, &options.changes.set)?;
-        let mut job = RunJob::new(options, &scenario, name)?;
-        if options.budget.is_some() && scenario.accuracy().is_none() {
-            let rule = "limits the search for numerics.accuracy, but that key is not set";
-            bail!(Refusal::new("--budget", rule));
-        }
-        let directory = match &options.out {
-            Some(path) => RunDirectory::claim(path, options.force)?,
-            None => new_directory(&scenario)?,
-        };
-        if scenario.run().cycles == Some(job.cycles) {
-            job.statements = scenario.statements();
-        }
-        if scenario.accuracy().is_some() {
-            let (end, budget) = (Some(job.cycles), options.budget.unwrap_or(f64::INFINITY));
-            let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
-                refinement::resolve(scenario, end, budget, go_on)
-            });
-            let found = found.with_context(|| printable(name))?;
-            scenario = found.scenario;
-            job.statements = found.statements;
-        }
-        let session = Session::start(scenario).with_context(|| printable(name))?;
-        // Only now, when there is something to put in their place.
-        if options.force {
-            directory.clear()?;
-        }
-        job.set_home(directory.path());
-        Ok(Self::new(options, name.to_owned(), session, job, directory))
-    }
-
-    /// Resumes a run in its own directory, or in another one, to which the files written so far are
-    /// copied.
-    fn resume(options: &'a Run, file: &Path) -> Result<Self> {
-        let name = printable(&file.display().to_string());
-        let real = |path: &Path| path.canonicalize().ok();
-        let out = options.out.as_deref();
-        let is_out = |home: &Path| {
-            out.is_none_or(|out| real(out).is_some_and(|out| real(home) == Some(out)))
-        };
-        let is_of_a_run = file.is_file() && file.ends_with(RUN_CHECKPOINT);
-        let beside = is_of_a_run.then(|| directory_of(file));
-        // Only the first process may resume it.
-        let claimed = beside.filter(|home| is_out(home));
-        let claimed = claimed.map(RunDirectory::reopen).transpose()?;
-        let kept = checkpoint::read::<RunJob>(file)?;
-        let session = kept.session;
-        let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
-        let home = beside.or(job.home()).map(Path::to_owned);
-        let inside = home.as_deref();
-        let inside = inside.filter(|home| is_out(home) && home.is_dir());
-        let directory = match (claimed, inside.or(out)) {
-            (Some(directory), _) => directory,
-            (None, Some(home)) if inside.is_some() && home.join(RUN_CHECKPOINT).exists() => {
-                RunDirectory::reopen(home)?
-            }
-            (None, Some(directory)) => RunDirectory::claim(directory, options.force)?,
-            (None, None) => new_directory(session.loaded())?,
-        };
-        let from = home.as_deref().unwrap_or(Path::new("."));
-        for snapshot in job.taken() {
-            let name = file_of(snapshot);
-            let (from, to) = (from.join(&name), directory.path().join(&name));
-            if to.exists() {
-                continue;
-            }
-            match fs::read(&from) {
-                Ok(table) => write_whole(&to, &table)?,
-                Err(_) => complain(&format!("{}: no longer exists", from.display())),
-            }
-        }
-        if let Err(error) = job.move_to(from, directory.path()) {
-            let cycle = number(session.simulation().cycle());
-            let lost = format!("the history before cycle {cycle} no longer exists");
-            complain(&format!("{name}: {lost}: {error}"));
-        }
-        let resumed = Self::new(options, name, session, job, directory);
-        let cycle = resumed.session.simulation().cycle();
-        locked(&resumed.safe).checkpoints.remember(file, cycle);
-        Ok(resumed)
-    }
-
-    fn new(
-        options: &'a Run,
-        name: String,
-        mut session: Session,
-        job: RunJob,
-        directory: RunDirectory,
-    ) -> Self {
-        for (key, value) in &job.statements {
-            session.state(key, value);
-        }
-        let home = directory.checkpoint();
-        let every = Some(options.checkpoint_every).filter(|every| !every.is_zero());
-        let safe = Safe {
-            checkpoints: Autosave::new(Some(home), state_directory(), every),
-            copy: Recent::new((session.clone(), job.clone())),
-        };
-        Self {
-            options,
-            name,
-            safe: Arc::new(Mutex::new(safe)),
-            directory,
-            session,
-            job,
-            unwritten: None,
-            owed: Vec::new(),
-        }
-    }
-
+impl Job<'_> {
     /// Estimates the error at the end, which the headers of the files then state. An accuracy has stated it before.
     fn estimate(&mut self, go_on: &dyn Fn() -> bool) {
         if !self.job.statements.is_empty() {
@@ -270,9 +156,7 @@ impl<'a> Job<'a> {
         }
         match accuracy::estimated(&self.session, go_on) {
             Ok(statements) => {
-                for (key, value) in statements {
-                    self.session.state(&key, &value);
-                }
+                self.session.state(statements);
                 self.restate();
             }
             Err(word) => complain(&word),
@@ -452,81 +336,6 @@ impl<'a> Job<'a> {
         }
         outcome
     }
-
-    /// The last row of the history and the header of the files, by the names that they have there.
-    fn print_json(&self) -> Result<()> {
-        let header = header::entries(&self.session).into_iter();
-        let header = header.map(|(key, text)| match text.parse::<f64>() {
-            Ok(number) => (key, number.into()),
-            Err(_) => (key, text.into()),
-        });
-        let values = self.job.history.values(&self.session).into_iter();
-        let values = values.map(|(name, value)| (name.to_owned(), value));
-        let directory = self.directory.path().display().to_string();
-        let directory = [("directory".to_owned(), directory.into())];
-        let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
-        let summary = serde_json::to_string(&summary)?;
-        Ok(writeln!(io::stdout().lock(), "{summary}")?)
-    }
-
-    fn summarize(&self) -> Result<()> {
-        let simulation = self.session.simulation();
-        let (moment, stats) = (simulation.moment(), simulation.stats());
-        let mut lines = vec![("contact radius", format!("{:.4e} m", moment.contact_radius))];
-        if let Some(radius) = moment.permanent_stick_radius {
-            lines.push(("permanent stick radius", format!("{radius:.4e} m")));
-        }
-        let (volume, work) = (moment.wear_volume, moment.dissipated_energy);
-        lines.push(("worn volume", format!("{volume:.4e} m3")));
-        lines.push(("dissipated energy", format!("{work:.4e} J")));
-        let setup = simulation.setup();
-        if let Some(law) = &setup.wear {
-            let k = law.coefficient();
-            let per_load = k * setup.material.friction() * 1e9;
-            let both = format!("{k:.4e} 1/Pa per friction work, {per_load:.4e} mm3/(N m) per load");
-            lines.push(("wear coefficient", both));
-        }
-        if let Some(residual) = moment.energy_residual {
-            let residual = format!("{residual:.1e}   (1 - V/(k E_d))");
-            lines.push(("energy residual", residual));
-        }
-        let error = "estimated error";
-        let stated = self.session.statements().iter();
-        if volume > 0.0 && stated.clone().all(|(key, _)| key != "estimated_error") {
-            lines.push((error, "not run (--estimate-error measures it)".into()));
-        }
-        for (key, value) in stated {
-            let words = refinement::words_of(key);
-            lines.extend(words.map(|words| (error, format!("{value}   {words}"))));
-        }
-        if let Some(verdict) = verdict(&self.session.checks()) {
-            lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
-        }
-        if stats.parts > 0 {
-            let (parts, steps) = (stats.parts, simulation.steps());
-            let parts = format!("{parts} sub-steps in {steps} steps   (numerics.stability)");
-            lines.push(("stiff wear", parts));
-        }
-        let directory = self.directory.path().display().to_string();
-        lines.push(("files in", printable(&directory)));
-        let mut out = io::stdout().lock();
-        let title = self.session.scenario().title();
-        writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
-        for (name, text) in lines {
-            writeln!(out, "  {name:<22}  {text}")?;
-        }
-        Ok(())
-    }
-}
-
-/// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
-fn remarks(session: &Session) -> Vec<String> {
-    let never = session.simulation().why_never_jumped();
-    let never = never.map(|why| format!("no cycle jumps: {why}"));
-    let indenter = session.scenario().setup().indenter.remark();
-    let indenter = indenter.map(|told| format!("indenter: {told}"));
-    let known = never.into_iter().chain(indenter);
-    known.chain(session.warnings()).collect()
 }
 
 /// The table of the state at a cycle that `session` has reached or is yet to reach.
@@ -538,11 +347,6 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle())?;
     Ok(state::table(&glimpse))
-}
-
-/// A new directory named after the scenario.
-fn new_directory(scenario: &Scenario) -> Result<RunDirectory, WriteError> {
-    RunDirectory::claim_new(&format!("{}-run", scenario.stem()))
 }
 
 /// The value is always whole, even after a panic: it is replaced, never changed in place.

@@ -1,0 +1,92 @@
+//! What a run says of itself: remarks at its start, and its end in words or as JSON.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use anyhow::Result;
+
+use super::Job;
+use crate::export::header::{self, number};
+use crate::reading::verdict;
+use crate::scenario::printable;
+use crate::scenario::scalars::Value;
+use crate::scenario::session::Session;
+use crate::studies::refinement;
+
+/// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
+pub(super) fn remarks(session: &Session) -> Vec<String> {
+    let never = session.simulation().why_never_jumped();
+    let never = never.map(|why| format!("no cycle jumps: {why}"));
+    let indenter = session.scenario().setup().indenter.remark();
+    let indenter = indenter.map(|told| format!("indenter: {told}"));
+    let known = never.into_iter().chain(indenter);
+    known.chain(session.warnings()).collect()
+}
+
+impl Job<'_> {
+    /// The last row of the history and the header of the files, by the names that they have there.
+    pub(super) fn print_json(&self) -> Result<()> {
+        let header = header::entries(&self.session).into_iter();
+        let header = header.map(|(key, text)| match text.parse::<f64>() {
+            Ok(number) => (key, number.into()),
+            Err(_) => (key, text.into()),
+        });
+        let values = self.job.history.values(&self.session).into_iter();
+        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let directory = self.directory.path().display().to_string();
+        let directory = [("directory".to_owned(), directory.into())];
+        let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
+        let summary = serde_json::to_string(&summary)?;
+        Ok(writeln!(io::stdout().lock(), "{summary}")?)
+    }
+
+    /// The end in words.
+    pub(super) fn summarize(&self) -> Result<()> {
+        let simulation = self.session.simulation();
+        let (moment, stats) = (simulation.moment(), simulation.stats());
+        let mut lines = vec![("contact radius", format!("{:.4e} m", moment.contact_radius))];
+        if let Some(radius) = moment.permanent_stick_radius {
+            lines.push(("permanent stick radius", format!("{radius:.4e} m")));
+        }
+        let (volume, work) = (moment.wear_volume, moment.dissipated_energy);
+        lines.push(("worn volume", format!("{volume:.4e} m3")));
+        lines.push(("dissipated energy", format!("{work:.4e} J")));
+        let setup = simulation.setup();
+        if let Some(law) = &setup.wear {
+            let k = law.coefficient();
+            let per_load = k * setup.material.friction() * 1e9;
+            let both = format!("{k:.4e} 1/Pa per friction work, {per_load:.4e} mm3/(N m) per load");
+            lines.push(("wear coefficient", both));
+        }
+        if let Some(residual) = moment.energy_residual {
+            let residual = format!("{residual:.1e}   (1 - V/(k E_d))");
+            lines.push(("energy residual", residual));
+        }
+        let error = "estimated error";
+        let stated = self.session.statements().iter();
+        if volume > 0.0 && stated.clone().all(|(key, _)| key != "estimated_error") {
+            lines.push((error, "not run (--estimate-error measures it)".into()));
+        }
+        for (key, value) in stated {
+            let words = refinement::words_of(key);
+            lines.extend(words.map(|words| (error, format!("{value}   {words}"))));
+        }
+        if let Some(verdict) = verdict(&self.session.checks()) {
+            lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
+        }
+        if stats.parts > 0 {
+            let (parts, steps) = (stats.parts, simulation.steps());
+            let parts = format!("{parts} sub-steps in {steps} steps   (numerics.stability)");
+            lines.push(("stiff wear", parts));
+        }
+        let directory = self.directory.path().display().to_string();
+        lines.push(("files in", printable(&directory)));
+        let mut out = io::stdout().lock();
+        let title = self.session.scenario().title();
+        writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
+        for (name, text) in lines {
+            writeln!(out, "  {name:<22}  {text}")?;
+        }
+        Ok(())
+    }
+}

@@ -6,6 +6,7 @@ use super::check::unknown;
 use super::error::{Origin, Refusal, ScenarioError, echo};
 use super::hints;
 use super::schema::{self, Kind, Parameter};
+use super::values;
 
 /// Splits `KEY=VALUE`; `flag` stands before it in messages.
 pub(crate) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
@@ -48,7 +49,7 @@ pub(super) fn assign(
     }
     drop_replaced(table, parameter.path);
     origin.assign(parameter.path, written);
-    schema::insert(table, parameter.path, value);
+    values::insert(table, parameter.path, value);
     Ok(())
 }
 
@@ -58,12 +59,12 @@ fn drop_replaced(table: &mut Table, path: &str) {
     for of in twins {
         for (keys, others) in [(&of.keys, &of.others), (&of.others, &of.keys)] {
             let replaced = others.iter().filter(|_| keys.contains(&path));
-            replaced.for_each(|other| _ = schema::remove(table, other));
+            replaced.for_each(|other| _ = values::remove(table, other));
         }
     }
     let stale = schema::SCHEMA.stale.iter();
     for of in stale.filter(|of| of.keys.contains(&path)) {
-        schema::remove(table, of.dropped);
+        values::remove(table, of.dropped);
     }
 }
 
@@ -86,18 +87,18 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
         return;
     };
     let is_punch = |shape: &str| shape == "flat-punch";
-    let before: Option<String> = schema::read(table, "indenter.shape");
+    let before: Option<String> = values::read(table, "indenter.shape");
     let was_punch = before.is_some_and(|before| is_punch(&before));
     let others = schema::parameters().iter().filter(|key| !key.is_of(shape));
     for key in others {
-        schema::remove(table, key.path);
+        values::remove(table, key.path);
     }
     for (key, is_stale) in [
         ("indenter.radius", was_punch != is_punch(shape)),
         ("numerics.domain_radius", is_punch(shape)),
     ] {
         if is_stale && !origin.assigns(key) {
-            schema::remove(table, key);
+            values::remove(table, key);
         }
     }
 }

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use super::check::show;
 use super::error::{Origin, ScenarioError, echo};
-use super::{Change, schema, write};
+use super::{Change, values, write};
 
 /// The tables whose keys a block may change.
 const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
@@ -34,7 +34,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
     for (i, block) in list.into_iter().enumerate() {
         let at = format!("blocks[{i}]");
         let given = block.get("cycles");
-        let cycles = given.and_then(schema::number);
+        let cycles = given.and_then(values::number);
         let Some(cycles) = cycles.filter(|cycles| *cycles > 0.0) else {
             let value = given.map_or_else(|| "nothing".into(), show);
             let rule = "must be a number of cycles greater than 0";
@@ -51,7 +51,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
         }
         for (path, value) in keys {
             if i == 0 {
-                schema::insert(table, &path, value);
+                values::insert(table, &path, value);
             } else {
                 let set = format!("{path} = {}", write::value(&value));
                 let at_cycle = cycle;
@@ -62,8 +62,8 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
     }
     let changes = Value::try_from(changes).expect("changes are a list");
     table.insert("changes".into(), changes);
-    if schema::at(table, "run.cycles").is_none() {
-        schema::insert(table, "run.cycles", Value::Float(cycle));
+    if values::at(table, "run.cycles").is_none() {
+        values::insert(table, "run.cycles", Value::Float(cycle));
     }
     Ok(())
 }

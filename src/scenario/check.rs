@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::error::{Faults, Origin, Refusal, ScenarioError, echo};
 use super::hints;
 use super::schema::{self, Parameter};
-use super::{units, write};
+use super::{units, values, write};
 
 /// Finds every key that is not in the table of parameters or has a value of the wrong kind, and puts the number in SI
 /// units in the place of every text with a unit.
@@ -18,7 +18,7 @@ pub(super) fn keys(table: &mut Table, origin: &Origin, faults: &mut Faults) {
 pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), ScenarioError> {
     // The first of each kind stands for the others.
     let given = |keys: &[&'static str]| {
-        let given = |&key: &&'static str| Some((key, schema::at(table, key)?));
+        let given = |&key: &&'static str| Some((key, values::at(table, key)?));
         keys.iter().find_map(given)
     };
     for of in &schema::SCHEMA.exclusive {
@@ -35,7 +35,7 @@ fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: 
     let is_force = table.get("control").and_then(Value::as_str) == Some("force");
     for (name, value) in table.iter_mut() {
         let name = echo(name);
-        let (path, shown) = (schema::join(path, &name), schema::join(shown, &name));
+        let (path, shown) = (values::join(path, &name), values::join(shown, &name));
         if path == "changes" {
             changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
@@ -106,7 +106,7 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
             .filter(|known| known.section() == "changes")
         {
             if !table.contains_key(parameter.key()) && !faults.blames(parameter.path) {
-                let shown = schema::join(&shown, parameter.key());
+                let shown = values::join(&shown, parameter.key());
                 faults.note(&shown, origin.missing(&shown, parameter.described()));
             }
         }

@@ -109,21 +109,20 @@ impl Columns {
         self.rows.get(row).map_or(0, |(line, _)| *line)
     }
 
-    /// Whether there is a column of this name, with any unit.
-    pub fn has(&self, name: &str, unit: &str) -> bool {
-        self.find(name, unit).is_some()
+    /// Whether there is a column of this name, as `r_m`, in any unit of its kind.
+    pub fn has(&self, name: &str) -> bool {
+        self.find(name).is_some()
     }
 
-    /// The numbers of the column `name` in SI units, one per row.
+    /// The numbers of the column `name`, as `r_m`, in the unit of the name, one per row.
     ///
     /// # Errors
     /// If the column is missing, or one of its fields is empty or not a finite number.
-    pub fn column(&self, name: &str, unit: &str) -> Result<Vec<f64>, ScenarioError> {
-        let Some((at, size)) = self.find(name, unit) else {
-            let ending = if unit.is_empty() { "" } else { "_" };
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, ScenarioError> {
+        let Some((at, size)) = self.find(name) else {
+            let named = self.named();
             return Err(self.refuse(format!(
-                "has no column {name}{ending}{unit}; the first line names {}",
-                self.named()
+                "has no column {name}; the first line names {named}"
             )));
         };
         let number = |(line, row): &(u64, csv::StringRecord)| {
@@ -178,10 +177,11 @@ impl Columns {
         Refusal::new(&self.path, reason).into()
     }
 
-    fn find(&self, name: &str, unit: &str) -> Option<(usize, f64)> {
-        let size = |column: &str| match (column.strip_prefix(name)?, unit) {
-            ("", "") => Some(1.0),
-            (ending, own) => units::ratio(ending.strip_prefix('_')?, own),
+    fn find(&self, name: &str) -> Option<(usize, f64)> {
+        let ends = name.rsplit_once('_').filter(|ends| OWN.contains(&ends.1));
+        let size = |column: &str| match ends {
+            None => (column == name).then_some(1.0),
+            Some((base, own)) => units::ratio(column.strip_prefix(base)?.strip_prefix('_')?, own),
         };
         let mut columns = self.names.iter().enumerate();
         columns.find_map(|(at, column)| Some((at, size(column)?)))
@@ -225,7 +225,7 @@ mod tests {
             let columns = parsed(text);
             assert_eq!(columns.rows(), 2);
             for (name, value) in ["r", "f"].into_iter().zip(expected) {
-                let column = columns.column(name, "m").expect("a column");
+                let column = columns.column(&format!("{name}_m")).expect("a column");
                 assert!((column[1] / value - 1.0).abs() < 1e-14, "{text}");
             }
         }
@@ -235,7 +235,7 @@ mod tests {
     fn gaps_and_words_are_told_with_their_line() {
         let message = |text: &str| {
             let columns = Columns::parse(text, "scar.csv");
-            let column = columns.and_then(|columns| columns.column("f", "m"));
+            let column = columns.and_then(|columns| columns.column("f_m"));
             column.expect_err("a refusal").to_string()
         };
         assert_eq!(

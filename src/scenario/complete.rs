@@ -4,6 +4,7 @@
 use toml::{Table, Value};
 
 use super::schema::{self, Default, Kind, Parameter};
+use super::values;
 
 /// Tables that every scenario has, written or not.
 const ALWAYS: [&str; 2] = ["motion.normal", "numerics"];
@@ -24,7 +25,7 @@ pub const USUAL_ACCURACY: f64 = 1e-2;
 /// `[[changes]]`: numbers as floats, defaults filled in.
 pub(super) fn table(written: &Table) -> Table {
     let usual = has_usual_accuracy(written).then_some(Value::Float(USUAL_ACCURACY));
-    let has_accuracy = schema::at(written, ACCURACY).is_some() || usual.is_some();
+    let has_accuracy = values::at(written, ACCURACY).is_some() || usual.is_some();
     let mut complete = Table::new();
     for parameter in schema::parameters()
         .iter()
@@ -34,14 +35,14 @@ pub(super) fn table(written: &Table) -> Table {
         let chosen = has_accuracy
             && (CHOSEN_BY_ACCURACY.contains(&parameter.path)
                 || parameter.path == "numerics.integrator");
-        let value = match schema::at(written, parameter.path) {
+        let value = match values::at(written, parameter.path) {
             Some(value) => Some(plain(value, parameter.kind)),
             None if chosen => None,
             None if parameter.path == ACCURACY => usual.clone(),
             None => default(written, parameter),
         };
         if let Some(value) = value {
-            schema::insert(&mut complete, parameter.path, value);
+            values::insert(&mut complete, parameter.path, value);
         }
     }
     complete
@@ -49,7 +50,7 @@ pub(super) fn table(written: &Table) -> Table {
 
 /// Whether wear is computed and nothing is written that says how finely.
 fn has_usual_accuracy(written: &Table) -> bool {
-    let is_written = |path: &str| schema::at(written, path).is_some();
+    let is_written = |path: &str| values::at(written, path).is_some();
     let mut chosen = CHOSEN_BY_ACCURACY.into_iter().chain([ACCURACY]);
     let mut wear = ["wear.coefficient", "wear.coefficient_per_load"].into_iter();
     wear.any(is_written) && !chosen.any(is_written)
@@ -58,7 +59,7 @@ fn has_usual_accuracy(written: &Table) -> bool {
 /// The default that is written out where its table is used.
 fn default(written: &Table, parameter: &Parameter) -> Option<Value> {
     let section = parameter.section();
-    let used = ALWAYS.contains(&section) || schema::at(written, section).is_some();
+    let used = ALWAYS.contains(&section) || values::at(written, section).is_some();
     match &parameter.default {
         Default::Written(value) if used => Some(value.clone()),
         _ => None,

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use super::check::show;
 use super::columns::Columns;
 use super::error::{Origin, ScenarioError};
-use super::schema;
+use super::{schema, values};
 
 /// Reads the files that `table` names, relative to the directory of the scenario's file, and puts
 /// their columns in their place. Values that are not paths stay, for the check of all keys to reject.
@@ -18,19 +18,19 @@ pub(super) fn files(
     origin: &mut Origin,
 ) -> Result<(), ScenarioError> {
     for schema::Embedded { key, lists } in &schema::SCHEMA.files {
-        let Some(value @ Value::String(file)) = schema::at(table, key) else {
+        let Some(value @ Value::String(file)) = values::at(table, key) else {
             continue;
         };
         let place = origin.place(key, &show(value));
         // A preset has no directory.
         let directory = Path::new(scenario).parent().unwrap_or(Path::new(""));
         let columns = Columns::read(&directory.join(file))?;
-        schema::remove(table, key);
+        values::remove(table, key);
         for lists in lists {
-            let there = lists.iter().find(|list| columns.has(list.1, list.2));
-            let &(path, name, unit) = there.unwrap_or(&lists[0]);
-            let values = columns.column(name, unit)?;
-            schema::insert(table, path, values.into());
+            let there = lists.iter().find(|(_, name)| columns.has(name));
+            let &(path, name) = there.unwrap_or(&lists[0]);
+            let values = columns.column(name)?;
+            values::insert(table, path, values.into());
             origin.assign(path, &place);
         }
     }

@@ -1,9 +1,12 @@
 //! What is said to a key or a word that no scenario has: the one that was meant, or those that there are.
 
+use std::collections::HashSet;
+
 use toml::Value;
 
 use super::nearest::nearest;
-use super::schema::{Kind, Parameter, is_section, parameters, split};
+use super::schema::{Kind, Parameter, is_section, parameters};
+use super::values::split;
 
 /// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
 /// is nothing near.
@@ -38,19 +41,12 @@ pub(super) fn meant(path: &str) -> impl Iterator<Item = &'static str> {
 
 /// All keys and tables.
 fn places() -> Vec<&'static str> {
-    let mut known: Vec<&str> = Vec::new();
-    for parameter in parameters() {
-        let dots = parameter
-            .path
-            .match_indices('.')
-            .map(|(at, _)| &parameter.path[..at]);
-        for candidate in dots.chain([parameter.path]) {
-            if !known.contains(&candidate) {
-                known.push(candidate);
-            }
-        }
-    }
-    known
+    let all = parameters().iter().flat_map(|Parameter { path, .. }| {
+        let tables = path.match_indices('.').map(|(at, _)| &path[..at]);
+        tables.chain([*path])
+    });
+    let mut seen = HashSet::new();
+    all.filter(|place| seen.insert(*place)).collect()
 }
 
 /// A hint for the unknown `path`.

@@ -2,7 +2,7 @@
 
 use strsim::normalized_damerau_levenshtein as likeness;
 
-use super::schema::split;
+use super::values::split;
 
 /// Below this, two names are taken to have nothing to do with each other.
 const LIKELY: f64 = 0.5;
@@ -10,15 +10,10 @@ const LIKELY: f64 = 0.5;
 /// The name among `known` that `typed` most likely stands for; dotted paths are compared with regard
 /// to their tables.
 pub fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let mut best = None;
-    let mut highest = LIKELY;
-    for candidate in known {
-        let score = score(typed, candidate);
-        if score > highest {
-            (best, highest) = (Some(candidate), score);
-        }
-    }
-    best
+    let scored = known.map(|known| (score(typed, known), known));
+    let likely = scored.filter(|(score, _)| *score > LIKELY);
+    let best = likely.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    best.map(|(_, known)| known)
 }
 
 /// What is said to a mistyped name: the known one that it most likely stands for, or all of them.

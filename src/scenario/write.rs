@@ -5,7 +5,8 @@ use std::fmt::Write;
 use toml::{Table, Value};
 
 use super::error::printable;
-use super::schema::{Kind, at, parameters};
+use super::schema::{Kind, parameters};
+use super::values::at;
 
 /// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
 /// and a value, becomes a comment where the table does not give it, which ends with its `source`.

@@ -109,18 +109,17 @@ impl Ghost {
     /// Columns that make nothing that could be drawn; gaps and more in measured data.
     pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, ScenarioError> {
         let mut ghost = Self::new(name);
-        let has = |name, unit| columns.has(name, unit);
-        let own = ["f0", "u_z", "scar_depth"];
-        if own.iter().any(|name| has(name, "m")) {
+        let has = |name| columns.has(name);
+        if ["f0_m", "u_z_m", "scar_depth_m"].into_iter().any(has) {
             ghost.take(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
-            if has("r", "m") {
+            if has("r_m") {
                 ghost.take_measured(Measured::scar(columns)?);
             }
-            if has("u", "m") || has("u_x", "m") {
+            if has("u_m") || has("u_x_m") {
                 ghost.take_measured(Measured::fretting_loop(columns)?);
-            } else if has("cycle", "") {
+            } else if has("cycle") {
                 ghost.take_measured(Measured::history(columns)?);
             }
         }

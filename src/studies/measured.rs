@@ -37,11 +37,11 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
     pub fn scar(columns: &Columns) -> Result<Self, ScenarioError> {
-        let (name, axes) = match columns.has("wear", "m") {
-            true => ("wear", Axes::WEAR),
-            false => ("f", Axes::PROFILE),
+        let axes = match columns.has(Axes::WEAR.y) {
+            true => Axes::WEAR,
+            false => Axes::PROFILE,
         };
-        let mut scar = read(columns, axes, ("r", "m"), (name, "m"))?;
+        let mut scar = read(columns, axes, axes.x, axes.y)?;
         for r in &mut scar.at {
             *r = r.abs();
         }
@@ -54,14 +54,14 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 8 rows; a loop that does not close.
     pub fn fretting_loop(columns: &Columns) -> Result<Self, ScenarioError> {
-        let is_own = columns.has("u_x", "m") && columns.has("F_x", "N");
-        let is_sensed = columns.column("rig_displacement", "m").is_ok();
+        let is_own = columns.has("u_x_m") && columns.has("F_x_N");
+        let is_sensed = columns.column("rig_displacement_m").is_ok();
         let (shift, force) = match (is_own, is_sensed) {
-            (true, true) => ("rig_displacement", "F_x"),
-            (true, false) => ("u_x", "F_x"),
-            (false, _) => ("u", "F"),
+            (true, true) => ("rig_displacement_m", "F_x_N"),
+            (true, false) => ("u_x_m", "F_x_N"),
+            (false, _) => (Axes::LOOP.x, Axes::LOOP.y),
         };
-        let measured = read(columns, Axes::LOOP, (shift, "m"), (force, "N"))?;
+        let measured = read(columns, Axes::LOOP, shift, force)?;
         if measured.at.len() < FEWEST_OF_LOOP {
             let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
             return Err(columns.refuse(reason));
@@ -96,11 +96,11 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows; negative cycles.
     pub fn history(columns: &Columns) -> Result<Self, ScenarioError> {
-        let cycle = ("cycle", "");
-        let measured = match columns.has("depth", "m") {
-            true => read(columns, Axes::DEPTH, cycle, ("depth", "m"))?,
-            false => read(columns, Axes::VOLUME, cycle, ("wear_volume", "m3"))?,
+        let (axes, values) = match columns.has("depth_m") {
+            true => (Axes::DEPTH, "depth_m"),
+            false => (Axes::VOLUME, Axes::VOLUME.y),
         };
+        let measured = read(columns, axes, axes.x, values)?;
         if let Some(row) = measured.at.iter().position(|cycle| *cycle < 0.0) {
             let line = columns.line(row);
             return Err(columns.refuse(format!("line {line}: cycle must be 0 or greater")));
@@ -109,19 +109,16 @@ impl Measured {
     }
 }
 
-fn read(
-    columns: &Columns,
-    axes: Axes,
-    at: (&str, &str),
-    values: (&str, &str),
-) -> Result<Measured, ScenarioError> {
+fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measured, ScenarioError> {
+    let (_, unit) = values.rsplit_once('_').unwrap_or_default();
+    let error = format!("error_{unit}");
     let measured = Measured {
         name: columns.path.clone(),
         axes,
-        at: columns.column(at.0, at.1)?,
-        values: columns.column(values.0, values.1)?,
-        errors: match columns.has("error", values.1) {
-            true => Some(columns.column("error", values.1)?),
+        at: columns.column(at)?,
+        values: columns.column(values)?,
+        errors: match columns.has(&error) {
+            true => Some(columns.column(&error)?),
             false => None,
         },
         cycle: columns.stated_cycle(),

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Value;
 
 use crate::scenario::schema::{self, Kind};
-use crate::scenario::{Scenario, ScenarioError, units, write};
+use crate::scenario::{Scenario, ScenarioError, units, values, write};
 
 /// What `questions.toml` says.
 #[derive(Deserialize)]
@@ -170,7 +170,7 @@ impl Draft {
     /// Sets the keys of the body that a question is about.
     pub fn body(&mut self, question: &Question, body: &Body) {
         let mut set = |key: &str, value: Value, note: &str| {
-            self.set(&schema::join(&question.key, key), value, note);
+            self.set(&values::join(&question.key, key), value, note);
         };
         match &body.elastic {
             None => set("rigid", true.into(), ""),

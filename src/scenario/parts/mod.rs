@@ -14,7 +14,8 @@ use super::check::{self, length, show};
 use super::complete;
 use super::derive::{self, Contact};
 use super::error::{Faults, Origin, ScenarioError};
-use super::schema::{self, Parameter, join};
+use super::schema::{self, Parameter};
+use super::values::{self, join};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
@@ -46,9 +47,9 @@ pub(super) fn setup(
 ) -> Result<(Table, Setup), ScenarioError> {
     // Whatever is wrong, what is missing beside it can be told.
     for path in faults.paths() {
-        let wrong = schema::remove(table, path).and_then(|_| schema::find(path));
+        let wrong = values::remove(table, path).and_then(|_| schema::find(path));
         if let Some(value) = wrong.and_then(Parameter::any_value) {
-            schema::insert(table, path, value);
+            values::insert(table, path, value);
         }
     }
     let complete = complete::table(table);
@@ -113,7 +114,7 @@ impl Parts<'_> {
             running_in,
             method,
             spacing: self.spacing(spacing)?,
-            scheme: schema::named(self.table, "numerics.scheme").unwrap_or(scheme),
+            scheme: values::named(self.table, "numerics.scheme").unwrap_or(scheme),
             stability: self.choice("numerics.stability")?,
             steps_per_cycle: self.require("numerics.steps_per_cycle")?,
             integrator: Integrator::new(
@@ -127,7 +128,7 @@ impl Parts<'_> {
 
     /// The value of a key, where it is given.
     fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
-        schema::read(self.table, key)
+        values::read(self.table, key)
     }
 
     /// A coefficient as a run begins with it: its value, or the first of the table of its `section`.
@@ -191,12 +192,12 @@ impl Parts<'_> {
     }
 
     fn has(&self, path: &str) -> bool {
-        schema::at(self.written, path).is_some()
+        values::at(self.written, path).is_some()
     }
 
     /// Refuses the value that stands at `path`, if one was written.
     fn refuse(&self, path: &str, rule: impl Display) -> ScenarioError {
-        let written = schema::at(self.written, path).map(show);
+        let written = values::at(self.written, path).map(show);
         self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
@@ -310,7 +311,7 @@ impl Parts<'_> {
     fn spacing(&self, default: Spacing) -> Result<Spacing, ScenarioError> {
         let has_nodes = self.has("numerics.nodes");
         let default = if has_nodes { Spacing::Given } else { default };
-        let named = schema::named(self.table, "numerics.grid").unwrap_or(default);
+        let named = values::named(self.table, "numerics.grid").unwrap_or(default);
         match (named, has_nodes) {
             (Spacing::Given, false) => {
                 let rule =

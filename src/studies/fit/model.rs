@@ -3,6 +3,7 @@
 use crate::math::scan::largest;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
+use crate::simulation::Simulation;
 use crate::studies::measured::{Measured, Strokes, rises};
 use crate::traces::Axes;
 
@@ -17,57 +18,47 @@ pub(super) fn simulate(
 ) -> Result<Vec<Vec<f64>>, SessionError> {
     let mut session = Session::start(scenario.clone())?;
     let mut simulated: Vec<Vec<f64>> = data.iter().map(|set| vec![0.0; set.at.len()]).collect();
-    // What is read off the run on its way: where it must stop, and what for.
+    // Where the run must stop, and for which points.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
-        match set.axes {
-            Axes::VOLUME | Axes::DEPTH => {
-                moments.extend(set.at.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
-            }
-            Axes::LOOP => moments.push((set.cycle.unwrap_or(cycles) - 1.0, i, 0)),
-            _ => {}
-        }
+        let stops = match set.axes {
+            Axes::LOOP => vec![set.cycle.unwrap_or(cycles) - 1.0],
+            axes if axes.over_r() => vec![cycles],
+            _ => set.at.clone(),
+        };
+        moments.extend(stops.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (cycle, i, j) in moments {
         session.advance_to(cycle)?;
-        match data[i].axes {
+        let (set, simulation) = (&data[i], session.simulation());
+        match set.axes {
+            Axes::DEPTH => simulated[i][j] = largest(simulation.worn_depth()),
+            Axes::VOLUME => simulated[i][j] = simulation.moment().wear_volume,
             Axes::LOOP => {
-                let Some(strokes) = Strokes::new(&next_cycle(&session)?) else {
-                    continue;
-                };
-                let points = data[i].at.iter().zip(rises(&data[i].at));
-                let forces = points.map(|(&shift, rising)| strokes.force(shift, rising));
-                simulated[i] = forces.collect();
-            }
-            Axes::DEPTH => {
-                simulated[i][j] = largest(session.simulation().worn_depth());
-            }
-            _ => simulated[i][j] = session.simulation().moment().wear_volume,
-        }
-    }
-    session.advance_to(cycles)?;
-    let worn = session.simulation().worn_depth();
-    let setup = session.simulation().setup();
-    for (set, simulated) in data.iter().zip(&mut simulated) {
-        if set.axes.over_r() {
-            let is_profile = set.axes == Axes::PROFILE;
-            let at = |&r: &f64| match r > setup.grid.radius() {
-                // Nothing wears outside of the grid.
-                true => 0.0,
-                false => setup.grid.interpolate(worn, r),
-            };
-            let unworn = |&r: &f64| {
-                if is_profile {
-                    setup.indenter.profile(r)
-                } else {
-                    0.0
+                if let Some(strokes) = Strokes::new(&next_cycle(&session)?) {
+                    let points = set.at.iter().zip(rises(&set.at));
+                    let forces = points.map(|(&shift, rising)| strokes.force(shift, rising));
+                    simulated[i] = forces.collect();
                 }
-            };
-            *simulated = set.at.iter().map(|r| at(r) + unworn(r)).collect();
+            }
+            axes => {
+                let depth = |&r: &f64| scar(simulation, r, axes == Axes::PROFILE);
+                simulated[i] = set.at.iter().map(depth).collect();
+            }
         }
     }
     Ok(simulated)
+}
+
+/// What has worn at a radius, m, or the worn profile there, m.
+fn scar(simulation: &Simulation, r: f64, is_profile: bool) -> f64 {
+    let setup = simulation.setup();
+    let unworn = is_profile.then(|| setup.indenter.profile(r));
+    // Nothing wears outside of the grid.
+    let is_inside = r <= setup.grid.radius();
+    let worn = is_inside.then(|| setup.grid.interpolate(simulation.worn_depth(), r));
+    unworn.unwrap_or(0.0) + worn.unwrap_or(0.0)
 }
 
 /// The displacement that the rig measures, m, and the tangential force, N, of every step of the cycle that begins now,

@@ -54,12 +54,11 @@ pub fn explore(options: &Explore) -> Result<()> {
         let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
         bail!(Refusal::new("--overlay", rule));
     }
-    let keep_in = autosave::state_directory();
     let farewell = tui::run(Options {
         running: options.resume.is_none() && !directory.is_dir(),
         run,
         ghosts,
-        keep_in,
+        keep_in: autosave::state_directory(),
         keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
         fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         marker: options.marker.or(config.marker),

@@ -1,14 +1,12 @@
 //! `mdr-tui fit`: parameters from measured scars, loops and histories.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
 use super::args;
-use super::{accuracy, progress, results, small_multiples};
+use super::{accuracy, complain, progress, results, small_multiples};
 use crate::export::target::Target;
 use crate::plot::theme::Role;
 use crate::plot::units::reading;
@@ -42,19 +40,14 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     if let Some(target) = target {
         target.write(fitted.scenario.to_toml().as_bytes())?;
     }
-    let mut out = io::stdout().lock();
-    if options.json {
-        let keys = fitted.values.iter().map(|value| (&value.key, value));
-        results::print_json(&keys.collect::<BTreeMap<_, _>>(), &mut out)?;
-        for remark in &fitted.remarks {
-            super::complain(remark);
-        }
-    } else {
-        write!(out, "{}", report(&fitted))?;
-        if options.drawing.plot {
-            write!(out, "{}", residual_plots(&fitted, options.drawing.marker))?;
-        }
-    }
+    let keys = fitted.values.iter().map(|value| (&value.key, value));
+    let keys: BTreeMap<_, _> = keys.collect();
+    results::print(options.json.then_some(&keys), || {
+        let plots = || residual_plots(&fitted, options.drawing.marker);
+        report(&fitted) + &options.drawing.plot.then(plots).unwrap_or_default()
+    })?;
+    let remarks = fitted.remarks.iter().filter(|_| options.json);
+    remarks.for_each(|remark| complain(remark));
     Ok(())
 }
 
@@ -89,34 +82,38 @@ fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
 
 /// The keys with their errors and correlations, and how well each data set is matched.
 fn report(fitted: &Fitted) -> String {
-    let mut text = String::new();
+    let mut lines = Vec::new();
     let width = fitted.values.iter().map(|value| value.key.len()).max();
     let width = width.unwrap_or(0);
-    for value in &fitted.values {
-        let error = match value.stderr {
-            Some(error) => format!(
-                "± {error:.2e} {} ({:.2} %)",
-                value.unit,
-                100.0 * (error / value.value).abs()
-            ),
-            None => format!("{} (not determined)", value.unit),
-        };
+    for Value {
+        key,
+        value,
+        unit,
+        stderr,
+        ..
+    } in &fitted.values
+    {
+        let error = stderr.map(|error| {
+            let share = 100.0 * (error / value).abs();
+            format!("± {error:.2e} {unit} ({share:.2} %)")
+        });
+        let error = error.unwrap_or_else(|| format!("{unit} (not determined)"));
         // A pin test's k is read in mm³/(N·m), an amplitude in µm.
-        let (number, unit) = reading(value.value, value.unit, true);
-        let read = match unit != value.unit {
-            true => format!(", {number} {unit}"),
-            false => String::new(),
-        };
-        let _ = writeln!(
-            text,
-            "{:width$}  {:.6e} {error}{read}",
-            value.key, value.value
-        );
+        let (number, read) = reading(*value, unit, true);
+        let read = (read != *unit).then(|| format!(", {number} {read}"));
+        let read = read.unwrap_or_default();
+        lines.push(format!("{key:width$}  {value:.6e} {error}{read}"));
     }
-    for (i, value) in fitted.values.iter().enumerate() {
+    for (
+        i,
+        Value {
+            key, correlations, ..
+        },
+    ) in fitted.values.iter().enumerate()
+    {
         for Value { key: other, .. } in &fitted.values[..i] {
-            let (key, correlation) = (&value.key, value.correlations[other]);
-            let _ = writeln!(text, "correlation {other} - {key}: {correlation:.3}");
+            let correlation = correlations[other];
+            lines.push(format!("correlation {other} - {key}: {correlation:.3}"));
         }
     }
     for set in &fitted.compared {
@@ -124,22 +121,18 @@ fn report(fitted: &Fitted) -> String {
         let (name, unit) = (&set.measured.name, set.measured.axes.unit());
         let at = match (set.measured.axes, set.measured.cycle) {
             (Axes::LOOP, Some(cycle)) => format!(" in cycle {cycle}"),
-            (Axes::LOOP, None) => format!(
-                " in the last cycle, {} (--loop {name}@CYCLE for another)",
-                fitted.cycles
-            ),
+            (Axes::LOOP, None) => {
+                let last = fitted.cycles;
+                format!(" in the last cycle, {last} (--loop {name}@CYCLE for another)")
+            }
             _ => String::new(),
         };
-        let _ = writeln!(
-            text,
-            "{name}: {points} points{at}, residuals {rms:.2e} {unit} rms"
-        );
+        let residuals = format!("residuals {rms:.2e} {unit} rms");
+        lines.push(format!("{name}: {points} points{at}, {residuals}"));
     }
-    for remark in &fitted.remarks {
-        let _ = writeln!(text, "{remark}");
-    }
-    let _ = writeln!(text, "{} runs", fitted.runs);
-    text
+    lines.extend(fitted.remarks.iter().cloned());
+    lines.push(format!("{} runs\n", fitted.runs));
+    lines.join("\n")
 }
 
 /// Measured minus simulated values, one plot per data set.

@@ -3,35 +3,31 @@
 use std::io::{self, Write};
 
 use anyhow::{Result, bail};
+use serde_json::{Value, json};
 
 use super::args::Presets;
 use super::results;
+use crate::scenario::Refusal;
 use crate::scenario::nearest::hint;
-use crate::scenario::{Refusal, preset};
+use crate::scenario::preset::{self, Preset};
 
 /// Lists the presets or prints one.
 pub fn presets(options: &Presets) -> Result<()> {
-    let mut out = io::stdout().lock();
     if let Some(name) = &options.name {
         let Some(found) = preset::find(name) else {
             let hint = hint(name, preset::ALL.iter().map(|preset| preset.name));
             let place = format!("presets {}", name.escape_debug());
             bail!(Refusal::new(place, "no such preset").or(hint));
         };
-        write!(out, "{}", found.text)?;
-        return Ok(());
+        return Ok(write!(io::stdout(), "{}", found.text)?);
     }
-    if options.json {
-        let list = preset::ALL
-            .iter()
-            .map(|preset| serde_json::json!({ "name": preset.name, "title": preset.title() }));
-        results::print_json(&list.collect::<Vec<_>>(), &mut out)?;
-        return Ok(());
-    }
-    let widths = preset::ALL.iter().map(|preset| preset.name.len());
-    let width = widths.max().unwrap_or(0);
-    for preset in preset::ALL {
-        writeln!(out, "{:width$}  {}", preset.name, preset.title())?;
-    }
-    Ok(())
+    let all = preset::ALL.iter();
+    let about = |preset: &Preset| json!({ "name": preset.name, "title": preset.title() });
+    let list: Vec<Value> = all.clone().map(about).collect();
+    results::print(options.json.then_some(&list), || {
+        let width = all.clone().map(|preset| preset.name.len()).max();
+        let width = width.unwrap_or(0);
+        let line = |preset: &Preset| format!("{:width$}  {}\n", preset.name, preset.title());
+        all.map(line).collect()
+    })
 }

@@ -1,6 +1,6 @@
-//! Output of the rows of a study: a file, or JSON on stdout.
+//! Output of what a study has found: a file, and a text or JSON on stdout.
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use anyhow::Result;
 use serde::Serialize;
@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::args::Output;
 use crate::export::file::WriteError;
 use crate::export::target::Target;
+use crate::studies::table::Table;
 
 impl Output {
     /// Claims the file that is asked for, before anything is computed.
@@ -16,27 +17,29 @@ impl Output {
     }
 }
 
-/// Writes the file of a study, if there is one: program, study, `notes` and table.
+/// Writes the file of a study, if there is one: program, study, `notes` and rows. It comes before what is printed: a
+/// closed pipe on stdout must not cost it.
 pub fn write(
     target: Option<&Target>,
     study: &str,
     notes: &[String],
-    table: impl FnOnce() -> String,
+    rows: &Table,
 ) -> Result<(), WriteError> {
     let Some(target) = target else {
         return Ok(());
     };
     let version = env!("CARGO_PKG_VERSION");
-    let mut text = format!("# mdr-tui: {version}\n# study: {study}\n");
-    for note in notes {
-        text.push_str(&format!("# {note}\n"));
-    }
-    text.push_str(&table());
+    let notes = notes.iter().map(|note| format!("# {note}\n"));
+    let head = format!("# mdr-tui: {version}\n# study: {study}\n");
+    let text = head + &notes.collect::<String>() + &rows.csv();
     target.write(text.as_bytes())
 }
 
-/// Prints rows as JSON.
-pub fn print_json(rows: &impl Serialize, out: &mut impl Write) -> Result<()> {
-    writeln!(out, "{}", serde_json::to_string_pretty(rows)?)?;
-    Ok(())
+/// Prints what was found as JSON, if that is given, or as a text.
+pub fn print<T: Serialize>(json: Option<&T>, text: impl FnOnce() -> String) -> Result<()> {
+    let text = match json {
+        Some(found) => serde_json::to_string_pretty(found)? + "\n",
+        None => text(),
+    };
+    Ok(io::stdout().lock().write_all(text.as_bytes())?)
 }

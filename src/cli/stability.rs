@@ -1,6 +1,5 @@
 //! `mdr-tui stability`: how much wear per cycle each method tolerates.
 
-use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
@@ -34,21 +33,13 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     if interrupted {
         notes.push("interrupted: the last line is not complete".to_owned());
     }
-    let table = || runs(&lines).csv();
-    results::write(target.as_ref(), "stability", &notes, table)?;
-    let mut out = io::stdout().lock();
-    if options.output.json {
-        results::print_json(&runs(&lines), &mut out)?;
-    } else {
-        for note in &notes {
-            writeln!(out, "{note}")?;
-        }
-        writeln!(
-            out,
-            ". stable  ~ sawtooth # exploded  | where the limit is predicted\n"
-        )?;
-        write!(out, "{}{}", maps(&lines), boundaries(&lines).text())?;
-    }
+    let runs = runs(&lines);
+    results::write(target.as_ref(), "stability", &notes, &runs)?;
+    results::print(options.output.json.then_some(&runs), || {
+        let signs = ". stable  ~ sawtooth # exploded  | where the limit is predicted";
+        let (maps, boundaries) = (maps(&lines), boundaries(&lines).text());
+        format!("{}\n{signs}\n\n{maps}{boundaries}", notes.join("\n"))
+    })?;
     Ok(match interrupted {
         true => ExitCode::from(FAILED),
         false => ExitCode::SUCCESS,

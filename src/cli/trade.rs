@@ -1,6 +1,5 @@
 //! `mdr-tui trade`: speed against accuracy, measured on this machine.
 
-use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
@@ -48,35 +47,31 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let Some((trials, notes)) = &run(&scenario, cycles, options, &go_on)? else {
         bail!("interrupted before the reference was computed: no results");
     };
-    results::write(target.as_ref(), "trade", notes, || {
-        table(trials, trials).csv()
-    })?;
+    results::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     if let (Some(accuracy), None) = (options.accuracy, best) {
         bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
     }
     let only = best.filter(|_| options.accuracy.is_some());
-    let mut out = io::stdout().lock();
-    if options.output.json {
-        let shown = only.map_or_else(|| trials.iter().collect(), |(trial, _)| vec![trial]);
-        results::print_json(&table(shown, trials), &mut out)?;
-    } else if let Some((trial, [seconds, error])) = only {
-        let what = "at worst (depth, V, E_d, F_x)";
-        writeln!(out, "# error {error:.1e} {what}, in {seconds:.1e} s")?;
-        writeln!(out, "{}", trial.setting.assignments().join("\n"))?;
-    } else {
-        let front = || front(trials).into_iter().map(|(trial, _)| trial).collect();
-        let shown: Vec<&Trial> = match options.all {
-            true => trials.iter().collect(),
-            false => front(),
-        };
-        writeln!(out, "{}", notes.join("\n"))?;
-        write!(out, "{}", table(shown, trials).text())?;
-        if options.drawing.plot {
-            write!(out, "{}", plots(trials, options))?;
+    let json = options.output.json;
+    let shown: Vec<&Trial> = match only {
+        Some((trial, _)) => vec![trial],
+        None if options.all || json => trials.iter().collect(),
+        None => front(trials).into_iter().map(|(trial, _)| trial).collect(),
+    };
+    let table = table(shown, trials);
+    results::print(json.then_some(&table), || match only {
+        Some((trial, [seconds, error])) => {
+            let what = "at worst (depth, V, E_d, F_x)";
+            let keys = trial.setting.assignments().join("\n");
+            format!("# error {error:.1e} {what}, in {seconds:.1e} s\n{keys}\n")
         }
-        writeln!(out, "{}", advice(best))?;
-    }
+        None => {
+            let plots = options.drawing.plot.then(|| plots(trials, options));
+            let (plots, table) = (plots.unwrap_or_default(), table.text());
+            format!("{}\n{table}{plots}{}\n", notes.join("\n"), advice(best))
+        }
+    })?;
     Ok(match go_on() {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(FAILED),

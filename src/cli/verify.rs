@@ -1,7 +1,5 @@
 //! `mdr-tui verify`: the error of every method against closed forms.
 
-use std::io::{self, Write};
-
 use anyhow::{Result, bail};
 
 use super::args::Verify;
@@ -29,19 +27,14 @@ pub fn verify(options: &Verify) -> Result<()> {
         ));
     }
     let outcomes = run(&tasks, options.output.quiet);
-    // The file first: a closed pipe on stdout must not cost it.
-    let table = || all_nodes(&outcomes).csv();
-    results::write(target.as_ref(), "verify", &notes(&outcomes), table)?;
-    let mut out = io::stdout().lock();
-    if options.output.json {
-        results::print_json(&all_rows(&outcomes), &mut out)?;
-    } else {
-        if options.all || options.drawing.plot || !options.problem.is_empty() {
-            writeln!(out, "{}", text(&outcomes, options))?;
-        }
-        writeln!(out, "{}", verdict(&outcomes))?;
-    }
-    Ok(())
+    let (nodes, notes) = (all_nodes(&outcomes), notes(&outcomes));
+    results::write(target.as_ref(), "verify", &notes, &nodes)?;
+    let rows = options.output.json.then(|| all_rows(&outcomes));
+    let is_whole = options.all || options.drawing.plot || !options.problem.is_empty();
+    results::print(rows.as_ref(), || match is_whole {
+        true => format!("{}\n{}\n", text(&outcomes, options), verdict(&outcomes)),
+        false => verdict(&outcomes) + "\n",
+    })
 }
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {

@@ -75,14 +75,16 @@ pub fn shell_word(path: &Path) -> String {
 /// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
 /// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
-    write_with(path, |file| file.write_all(contents))
+    write_with(path, |file| {
+        file.write_all(contents).map_err(WriteError::io(path))
+    })
 }
 
 /// [`write_whole`] with what `fill` writes, which need not be in memory at once.
-pub fn write_with(
+pub fn write_with<T, E: From<WriteError>>(
     path: &Path,
-    fill: impl FnOnce(&mut fs::File) -> io::Result<()>,
-) -> Result<(), WriteError> {
+    fill: impl FnOnce(&mut fs::File) -> Result<T, E>,
+) -> Result<T, E> {
     let failed = WriteError::io(path);
     let prefix = temporary_of(path);
     let mut builder = tempfile::Builder::new();
@@ -93,10 +95,11 @@ pub fn write_with(
         .suffix(TEMPORARY)
         .permissions(permissions);
     let mut file = builder.tempfile_in(directory_of(path)).map_err(failed)?;
-    fill(file.as_file_mut()).map_err(failed)?;
+    let filled = fill(file.as_file_mut())?;
     file.as_file().sync_all().map_err(failed)?;
     let persisted = file.persist(path);
-    persisted.map_err(|error| failed(error.error)).map(drop)
+    persisted.map_err(|error| failed(error.error))?;
+    Ok(filled)
 }
 
 /// The directory of a file.
@@ -181,22 +184,18 @@ impl RunDirectory {
     /// Takes a directory that is not there yet: `stem`, or `stem-2`, `stem-3`, … in the working
     /// directory.
     pub fn claim_new(stem: &str) -> Result<Self, WriteError> {
-        for number in 1_u32.. {
-            let path = match number {
-                1 => PathBuf::from(stem),
-                number => PathBuf::from(format!("{stem}-{number}")),
-            };
-            match fs::create_dir(&path) {
-                Ok(()) => {
-                    let mut run = Self::claim(&path, false)?;
-                    run.claim.is_new = true;
-                    return Ok(run);
-                }
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(cause) => return Err(WriteError::io(&path)(cause)),
+        let mut path = PathBuf::from(stem);
+        let mut number = 1;
+        while let Err(cause) = fs::create_dir(&path) {
+            if cause.kind() != io::ErrorKind::AlreadyExists {
+                return Err(WriteError::io(&path)(cause));
             }
+            number += 1;
+            path = PathBuf::from(format!("{stem}-{number}"));
         }
-        unreachable!("the number of names is unlimited")
+        let mut run = Self::claim(&path, false)?;
+        run.claim.is_new = true;
+        Ok(run)
     }
 
     /// Continues in the directory of an interrupted run and removes leftovers of a kill. Checks
@@ -252,7 +251,8 @@ impl RunDirectory {
         name: &str,
         fill: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> Result<(), WriteError> {
-        write_with(&self.path.join(name), fill)
+        let path = self.path.join(name);
+        write_with(&path, |file| fill(file).map_err(WriteError::io(&path)))
     }
 
     /// Where the files stand.

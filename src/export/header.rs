@@ -19,12 +19,8 @@ pub fn table<R: AsRef<[String]>>(
     names: &[&str],
     rows: impl IntoIterator<Item = R>,
 ) -> String {
-    let mut text = head(session, names);
-    for row in rows {
-        text += &row.as_ref().join(",");
-        text.push('\n');
-    }
-    text
+    let rows = rows.into_iter().map(|row| row.as_ref().join(",") + "\n");
+    rows.fold(head(session, names), |text, row| text + &row)
 }
 
 /// A line of a header.

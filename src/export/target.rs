@@ -140,12 +140,11 @@ impl Target {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
         if !self.is_stdout() {
-            let filled = |file: &mut fs::File| {
+            return write_with(&self.path, |file| {
                 let mut out = io::BufWriter::new(file);
-                fill(&mut out)?;
-                out.flush()
-            };
-            return write_with(&self.path, filled);
+                let filled = fill(&mut out).and_then(|()| out.flush());
+                filled.map_err(WriteError::io(&self.path))
+            });
         }
         let mut out = io::stdout().lock();
         let written = fill(&mut out).and_then(|()| out.flush());

@@ -29,7 +29,7 @@ use crate::export::file::WriteError;
 use crate::export::header::{field, number};
 use crate::export::target::{Target, write_all};
 use crate::plot::theme::Role;
-use crate::plot::{Chart, Curve};
+use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::scalars::quoted;
 use crate::scenario::{Refusal, printable};
 
@@ -177,18 +177,11 @@ impl Sheet {
             let _ = writeln!(text, "# {key}: {}", printable(value));
         }
         for (k, chart) in self.charts.iter().enumerate() {
-            let _ = write!(
-                text,
-                "# panel {}: {}, x = {}, y = {}",
-                letter(k),
-                chart.title,
-                chart.x.in_data_units(),
-                chart.y.in_data_units()
-            );
-            if let Some(map) = &chart.map {
-                let _ = write!(text, ", value = {}", map.quantity.in_data_units());
-            }
-            text.push('\n');
+            let (panel, title) = (letter(k), &chart.title);
+            let [x, y] = [&chart.x, &chart.y].map(Axis::in_data_units);
+            let value = chart.map.as_ref().map(|map| map.quantity.in_data_units());
+            let value = value.map_or(String::new(), |value| format!(", value = {value}"));
+            let _ = writeln!(text, "# panel {panel}: {title}, x = {x}, y = {y}{value}");
         }
         text.push_str("panel,curve,x,y,value,error\n");
         for (k, chart) in self.charts.iter().enumerate() {

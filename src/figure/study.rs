@@ -200,17 +200,10 @@ fn map(
     let criteria = criteria.into_iter().enumerate();
     let criteria = criteria.map(|(k, line)| (3 + k, line));
     for (k, line) in borders.into_iter().enumerate().chain(criteria) {
-        let mut points = Vec::new();
-        let mut last = None;
-        for [from, to] in line.pieces() {
-            if last != Some(from) {
-                points.extend(last.map(|_| (f64::NAN, f64::NAN)));
-                points.push(spot(from));
-            }
-            points.push(spot(to));
-            last = Some(to);
-        }
-        let (xs, ys): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        let gap = [(f64::NAN, f64::NAN)];
+        let parts = line.parts().map(|part| part.iter().map(|&at| spot(at)));
+        let points = parts.flat_map(|part| gap.into_iter().chain(part)).skip(1);
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.unzip();
         let end = line.at.last().map(|&end| spot(end));
         chart.points.extend(end.map(|(x, y)| Point {
             at: [x, y],

@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::map::Map;
 use super::stroke::Stroke;
 use super::theme::Role;
-use crate::math::scan::value_at;
+use crate::math::scan::{range, value_at};
 
 /// The dashes of curves of other sources in a terminal, by their number.
 const GHOSTS: [Stroke; 4] = [
@@ -235,34 +235,20 @@ impl Chart {
     pub fn extent(&self, counted: impl Fn(&Curve) -> bool) -> [Option<[f64; 2]>; 2] {
         let limits = self.x.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
         let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);
-        let widen = |range: &mut Option<[f64; 2]>, value: f64| {
-            let [lo, hi] = range.unwrap_or([value; 2]);
-            *range = Some([lo.min(value), hi.max(value)]);
-        };
-        let axes = [&self.x, &self.y];
-        let has = |k: usize, value: f64| axes[k].scale.has(value);
-        let mut ranges = [None, None];
-        for curve in self.curves.iter().filter(|curve| counted(curve)) {
-            for (x, y) in curve.points().chain(curve.bars()) {
-                if has(0, x) && has(1, y) && seen(x) {
-                    widen(&mut ranges[0], x);
-                    widen(&mut ranges[1], y);
-                }
-            }
-            if let Fill::To(base) = curve.fill
-                && has(1, base)
-            {
-                widen(&mut ranges[1], base);
-            }
-        }
-        for (k, range) in ranges.iter_mut().enumerate() {
+        let (across, up) = (self.x.scale, self.y.scale);
+        let curves = || self.curves.iter().filter(|curve| counted(curve));
+        [0, 1].map(|k| {
+            let axis = [&self.x, &self.y][k];
+            let points = curves().flat_map(|curve| curve.points().chain(curve.bars()));
+            let points = points.filter(|at| across.has(at.0) && up.has(at.1) && seen(at.0));
+            let bases = curves().filter_map(|curve| match curve.fill {
+                Fill::To(base) if k == 1 => Some(base),
+                _ => None,
+            });
             let places = self.map.iter().flat_map(|map| &map.places[k]);
-            for &value in places.chain(&axes[k].holds) {
-                if has(k, value) {
-                    widen(range, value);
-                }
-            }
-        }
-        ranges
+            let places = bases.chain(places.chain(&axis.holds).copied());
+            let places = places.filter(|place| axis.scale.has(*place));
+            range(points.map(|at| [at.0, at.1][k]).chain(places))
+        })
     }
 }

@@ -66,10 +66,8 @@ impl Measured {
             let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
             return Err(columns.refuse(reason));
         }
-        let (spans, rows) = (
-            [span(&measured.at), span(&measured.values)],
-            measured.at.len(),
-        );
+        let spans = [&measured.at, &measured.values].map(|values| span(values));
+        let rows = measured.at.len();
         if spans.contains(&0.0) {
             return Err(columns.refuse("is not a loop: displacement or force never changes"));
         }

@@ -1,7 +1,5 @@
 //! A table with named columns, rendered as aligned text, CSV or JSON.
 
-use std::fmt::Write;
-
 use serde::{Serialize, Serializer};
 
 use crate::scenario::scalars::Value;
@@ -43,15 +41,9 @@ impl Format {
     }
 }
 
-/// A column.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Column {
-    /// A heading that neighbouring columns share; empty for none. Text only.
-    group: &'static str,
-    /// The heading, and the key in files.
-    name: &'static str,
-    format: Format,
-}
+/// A heading that neighbouring columns share, empty for none and in texts only; a column's own heading, which is its key
+/// in files; how it is written.
+pub type Column = (&'static str, &'static str, Format);
 
 /// Columns and rows.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -63,14 +55,10 @@ pub struct Table {
 impl Table {
     /// A table without rows, of columns by the headings that they share, their names with blanks between them, and how
     /// they are written.
-    pub fn of(columns: &[(&'static str, &'static str, Format)]) -> Self {
+    pub fn of(columns: &[Column]) -> Self {
         let columns = columns.iter().flat_map(|&(group, names, format)| {
-            let column = move |name| Column {
-                group,
-                name,
-                format,
-            };
-            names.split(' ').map(column)
+            let names = names.split(' ');
+            names.map(move |name| (group, name, format))
         });
         Self {
             columns: columns.collect(),
@@ -90,13 +78,13 @@ impl Table {
         &self.rows
     }
 
-    fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.columns.iter().map(|column| column.name)
+    fn names(&self) -> Vec<&'static str> {
+        self.columns.iter().map(|(_, name, _)| *name).collect()
     }
 
     /// Comma-separated values under a line of names.
     pub fn csv(&self) -> String {
-        let mut text = self.names().collect::<Vec<_>>().join(",") + "\n";
+        let mut text = self.names().join(",") + "\n";
         for row in &self.rows {
             let fields: Vec<String> = row.iter().map(Value::field).collect();
             text += &(fields.join(",") + "\n");
@@ -106,28 +94,34 @@ impl Table {
 
     /// Aligned columns under their headings, no trailing blanks.
     pub fn text(&self) -> String {
-        let widths: Vec<usize> = (0..self.columns.len()).map(|at| self.width(at)).collect();
+        let columns = &self.columns;
+        let widths: Vec<usize> = (0..columns.len()).map(|at| self.width(at)).collect();
         let mut text = String::new();
-        let mut push = |pieces: Vec<String>| {
-            let _ = writeln!(text, "{}", pieces.join(GAP).trim_end());
-        };
-        if self.columns.iter().any(|column| !column.group.is_empty()) {
-            push(self.groups(&widths));
+        if columns.iter().any(|(group, ..)| !group.is_empty()) {
+            let heading = |at: usize, width| match columns[at].0 {
+                "" => " ".repeat(width),
+                group => format!("{group:-^width$}"),
+            };
+            text += &line(&widths, |at| self.group_end(at), heading);
         }
-        let names = self.columns.iter().zip(&widths);
-        push(
-            names
-                .map(|(column, &width)| column.format.aligned(column.name, width))
-                .collect(),
-        );
+        let name = |at: usize, width| columns[at].2.aligned(columns[at].1, width);
+        text += &line(&widths, |at| at + 1, name);
         for row in &self.rows {
-            push(self.line(row, &widths));
+            let end = |at: usize| match columns[at].2.is_spanned_by(&row[at]) {
+                true => self.group_end(at),
+                false => at + 1,
+            };
+            let cell = |at: usize, width| {
+                let (.., format) = columns[at];
+                format.aligned(&format.text(&row[at]), width)
+            };
+            text += &line(&widths, end, cell);
         }
         text
     }
 
     fn width(&self, at: usize) -> usize {
-        let Column { name, format, .. } = &self.columns[at];
+        let (_, name, format) = &self.columns[at];
         let cells = self.rows.iter().map(|row| &row[at]);
         let cells = cells.filter(|cell| !format.is_spanned_by(cell));
         let widths = cells.map(|cell| format.text(cell).chars().count());
@@ -136,52 +130,36 @@ impl Table {
 
     /// One past the last column of the group that column `at` belongs to.
     fn group_end(&self, at: usize) -> usize {
-        let group = &self.columns[at].group;
         let others = self.columns[at..].iter();
-        at + others.take_while(|column| column.group == *group).count()
-    }
-
-    fn groups(&self, widths: &[usize]) -> Vec<String> {
-        let (mut line, mut at) = (Vec::new(), 0);
-        while at < widths.len() {
-            let (group, end) = (self.columns[at].group, self.group_end(at));
-            let width = span(&widths[at..end]);
-            line.push(match group {
-                "" => " ".repeat(width),
-                group => format!("{group:-^width$}"),
-            });
-            at = end;
-        }
-        line
-    }
-
-    fn line(&self, row: &[Value], widths: &[usize]) -> Vec<String> {
-        let (mut line, mut at) = (Vec::new(), 0);
-        while at < row.len() {
-            let format = self.columns[at].format;
-            let end = match format.is_spanned_by(&row[at]) {
-                true => self.group_end(at),
-                false => at + 1,
-            };
-            line.push(format.aligned(&format.text(&row[at]), span(&widths[at..end])));
-            at = end;
-        }
-        line
+        at + others
+            .take_while(|other| other.0 == self.columns[at].0)
+            .count()
     }
 }
 
 /// Between columns.
 const GAP: &str = " ";
 
-/// The width of neighbouring columns with the gaps between them.
-fn span(widths: &[usize]) -> usize {
-    widths.iter().sum::<usize>() + GAP.len() * widths.len().saturating_sub(1)
+/// A line of pieces, each of which goes from its column to the one before `end`, and is as wide as these.
+fn line(
+    widths: &[usize],
+    end: impl Fn(usize) -> usize,
+    piece: impl Fn(usize, usize) -> String,
+) -> String {
+    let (mut line, mut at) = (Vec::new(), 0);
+    while at < widths.len() {
+        let next = end(at);
+        let gaps = GAP.len() * (next - at - 1);
+        line.push(piece(at, widths[at..next].iter().sum::<usize>() + gaps));
+        at = next;
+    }
+    line.join(GAP).trim_end().to_owned() + "\n"
 }
 
 impl Serialize for Table {
     /// A list of objects, keys in the order of the columns.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let names: Vec<&str> = self.names().collect();
+        let names = self.names();
         serializer.collect_seq(self.rows.iter().map(|row| Object(&names, row)))
     }
 }

@@ -262,5 +262,5 @@ fn the_fatigue_limit_is_a_line_on_the_map() {
     // Every row is crossed once, and the pieces join them all.
     let rows = line.at.iter().filter(|[_, y]| y.fract() == 0.0);
     assert_eq!(rows.count(), 4, "{line:?}");
-    assert_eq!(line.pieces().count(), line.at.len() - 1, "{line:?}");
+    assert_eq!(line.parts().count(), 1, "{line:?}");
 }

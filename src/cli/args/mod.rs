@@ -52,6 +52,10 @@ pub enum Command {
     /// List the presets, or print one as TOML.
     Presets(Presets),
     /// Answer a few questions, and get a commented scenario of your own.
+    ///
+    /// Each question tells what it means and has a default; what closed forms say of the answers (contact radius, Hertz
+    /// pressure, stick or slip) stands below it. Options answer questions beforehand; without a terminal nothing is
+    /// asked, and what is not given has its default.
     New(New),
     /// Compare every method with closed forms, for increasing N.
     Verify(Verify),
@@ -97,15 +101,11 @@ pub struct Explore {
     #[command(flatten)]
     pub changes: Changes,
     /// Lay measured data, a run's files or a scenario over the plots; can be repeated.
-    #[arg(
-        long,
-        value_name = "FILE",
-        add = ArgValueCompleter::new(complete::overlays),
-        long_help = "Lay other curves over the plots; can be repeated.\n\n\
-            FILE is a CSV file (a scar: r_um, wear_nm; a loop: u_um, F_N; a history: cycle, \
-            wear_volume_um3 or depth_um; error_... for error bars), a run's or a snapshot's directory, \
-            one of its tables, or a scenario, which runs beside."
-    )]
+    ///
+    /// FILE is a CSV file (a scar: r_um, wear_nm; a loop: u_um, F_N; a history: cycle, wear_volume_um3 or depth_um;
+    /// error_... for error bars), a run's or a snapshot's directory, one of its tables, or a scenario, which runs
+    /// beside.
+    #[arg(long, value_name = "FILE", add = ArgValueCompleter::new(complete::overlays))]
     pub overlay: Vec<String>,
     /// Maximum frame rate per second; default 10.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=120))]
@@ -236,13 +236,7 @@ pub struct Manual {
 
 /// Options of `new`.
 #[derive(Debug, Args, Serialize)]
-#[command(
-    long_about = "Answer a few questions, and get a commented scenario of your own.\n\n\
-        Each question tells what it means and has a default; what closed forms say of the answers \
-        (contact radius, Hertz pressure, stick or slip) stands below it. Options answer questions \
-        beforehand; without a terminal nothing is asked, and what is not given has its default.",
-    after_help = include_str!("examples/new.txt").trim_end()
-)]
+#[command(after_help = include_str!("examples/new.txt").trim_end())]
 pub struct New {
     /// The file to write.
     #[arg(default_value = "new.toml")]

@@ -2,7 +2,7 @@
 //! whether it will stick in the middle or slip as a whole.
 
 use crate::contact::indenter::Indenter;
-use crate::plot::units::format_value_in;
+use crate::plot::units::{format_value_in, plain};
 use crate::scenario::{Pressed, Scenario};
 use crate::simulation::drive::Control;
 
@@ -81,15 +81,6 @@ impl Forecast {
             plain(self.frequency * DAY),
             plain(self.frequency)
         )
-    }
-}
-
-/// A number in a few digits.
-fn plain(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    match rounded {
-        large if large >= 1e7 => format!("{large:e}"),
-        usual => usual.to_string(),
     }
 }
 

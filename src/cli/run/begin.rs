@@ -1,21 +1,13 @@
 //! How a run begins: from a scenario, or where an interrupted one ended.
 
-use std::fs;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, bail};
 
-use super::super::args::Run;
-use super::super::job::RunJob;
-use super::super::{accuracy, complain};
-use super::{Job, Safe, file_of, locked};
-use crate::export::autosave::{Autosave, Recent, state_directory};
-use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError, directory_of, write_whole};
-use crate::export::header::number;
-use crate::scenario::session::Session;
-use crate::scenario::{Refusal, Scenario, checkpoint, printable};
-use crate::studies::refinement;
+use super::*;
+use crate::export::autosave::state_directory;
+use crate::export::file::{RUN_CHECKPOINT, directory_of, write_whole};
+use crate::scenario::Refusal;
 
 impl<'a> Job<'a> {
     /// Starts the scenario called `name`.

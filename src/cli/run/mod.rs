@@ -1,4 +1,6 @@
 //! `mdr-tui run`: the simulation without a screen.
+//!
+//! What its parts need is imported here, and they begin with `use super::*`.
 
 use std::fs;
 use std::io::{self, Write};
@@ -19,8 +21,9 @@ use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{RunDirectory, WriteError, shell_word};
 use crate::export::header::{self, number};
 use crate::export::{field, state};
-use crate::scenario::checkpoint;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Scenario, checkpoint, printable};
+use crate::studies::refinement;
 
 mod begin;
 mod summary;

@@ -1,17 +1,10 @@
 //! What a run says of itself: remarks at its start, and its end in words or as JSON.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
-use anyhow::Result;
-
-use super::Job;
-use crate::export::header::{self, number};
+use super::*;
 use crate::reading::verdict;
-use crate::scenario::printable;
 use crate::scenario::scalars::Value;
-use crate::scenario::session::Session;
-use crate::studies::refinement;
 
 /// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
 pub(super) fn remarks(session: &Session) -> Vec<String> {
@@ -45,23 +38,21 @@ impl Job<'_> {
         let simulation = self.session.simulation();
         let (moment, stats) = (simulation.moment(), simulation.stats());
         let mut lines = vec![("contact radius", format!("{:.4e} m", moment.contact_radius))];
-        if let Some(radius) = moment.permanent_stick_radius {
-            lines.push(("permanent stick radius", format!("{radius:.4e} m")));
-        }
+        let stick = moment.permanent_stick_radius;
+        lines.extend(stick.map(|c| ("permanent stick radius", format!("{c:.4e} m"))));
         let (volume, work) = (moment.wear_volume, moment.dissipated_energy);
         lines.push(("worn volume", format!("{volume:.4e} m3")));
         lines.push(("dissipated energy", format!("{work:.4e} J")));
         let setup = simulation.setup();
-        if let Some(law) = &setup.wear {
+        lines.extend(setup.wear.map(|law| {
             let k = law.coefficient();
             let per_load = k * setup.material.friction() * 1e9;
             let both = format!("{k:.4e} 1/Pa per friction work, {per_load:.4e} mm3/(N m) per load");
-            lines.push(("wear coefficient", both));
-        }
-        if let Some(residual) = moment.energy_residual {
-            let residual = format!("{residual:.1e}   (1 - V/(k E_d))");
-            lines.push(("energy residual", residual));
-        }
+            ("wear coefficient", both)
+        }));
+        let residual = moment.energy_residual;
+        let residual = residual.map(|of| format!("{of:.1e}   (1 - V/(k E_d))"));
+        lines.extend(residual.map(|residual| ("energy residual", residual)));
         let error = "estimated error";
         let stated = self.session.statements().iter();
         if volume > 0.0 && stated.clone().all(|(key, _)| key != "estimated_error") {

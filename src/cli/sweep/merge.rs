@@ -1,20 +1,9 @@
 //! `sweep --merge`: merges the shards of a study into one table.
 
 use std::collections::BTreeSet;
-use std::env;
-use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-
-use super::super::args::Sweep;
-use super::super::complain;
-use crate::export::target::Target;
-use crate::scenario::{Refusal, printable};
-use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::record::{self, Arithmetic, Record, Refused};
-use crate::studies::sweep::{Shard, Study};
+use super::*;
+use crate::studies::sweep::record::Refused;
 
 /// Maximum number of points named in a message.
 const NAMED: usize = 3;

@@ -1,11 +1,13 @@
 //! `mdr-tui sweep`: a study of many points, whole or in shards.
+//!
+//! What its parts need is imported here, and they begin with `use super::*`.
 
-use std::env;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
+use std::{env, fs};
 
 use anyhow::{Context, Result, anyhow, bail};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -13,10 +15,12 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::args::Sweep;
 use super::{FAILED, UNFINISHED, complain, progress, stop};
 use crate::export::file::shell_word;
+use crate::export::target::Target;
 use crate::scenario::{Refusal, limited, printable};
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::{Shard, Study, Success, record};
+use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::{Shard, Study, Success};
 
 mod merge;
 mod output;

@@ -1,21 +1,9 @@
 //! The output file: rows are appended as they finish, and sorted at the end. Its size is no matter of
 //! memory.
 
-use std::env;
-use std::io::{self, Write};
-use std::path::Path;
-use std::time::{Duration, Instant};
-
-use anyhow::{Context, Result, bail};
-
-use super::super::args::Sweep;
+use super::*;
 use crate::export::file::{WriteError, write_with};
-use crate::export::target::Target;
 use crate::export::{header, own};
-use crate::scenario::Refusal;
-use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::record::{self, Arithmetic, Record};
-use crate::studies::sweep::{Shard, Study, Success};
 
 /// How often rows are flushed to disk. A killed process loses none, since the system has them
 /// already; a crash of the machine loses at most this much.
@@ -63,31 +51,24 @@ impl Output {
             let ledger = Ledger::unnamed(study, &directory);
             ledger.with_context(|| directory.display().to_string())?
         } else {
-            let (mut ledger, mut refused) = (None, None);
-            let written = write_with(path, |file| {
-                file.write_all(head.as_bytes())?;
-                let new = Ledger::new(study, file.try_clone()?, target.directory())?;
-                let new = ledger.insert(new);
+            write_with(path, |file| -> Result<Ledger> {
+                let failed = WriteError::io(path);
+                file.write_all(head.as_bytes()).map_err(failed)?;
+                let file = file.try_clone().map_err(failed)?;
+                let mut ledger = Ledger::new(study, file, target.directory()).map_err(failed)?;
                 for row in rows.into_iter().flatten() {
-                    let row = row.map_err(|error| {
-                        refused = Some(error);
-                        io::ErrorKind::InvalidData
-                    })?;
+                    let row = row?;
                     if options.failed && !Success::of(&row).has_result() {
                         continue;
                     }
                     let begins = row.join(",");
-                    if let Err(why) = new.take(study, row)? {
+                    if let Err(why) = ledger.take(study, row).map_err(failed)? {
                         let why = format!("row {begins} does not belong to the study ({why:?})");
-                        refused = Some(Refusal::new(path.display(), why));
-                        return Err(io::ErrorKind::InvalidData.into());
+                        bail!(Refusal::new(path.display(), why));
                     }
                 }
-                Ok(())
-            });
-            refused.map_or(Ok(()), Err)?;
-            written?;
-            ledger.context("no rows")?
+                Ok(ledger)
+            })?
         };
         Ok(Self {
             target,

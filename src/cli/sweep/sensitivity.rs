@@ -1,14 +1,7 @@
 //! `sweep --sensitivity`: how sensitive the results are to the keys, as a table.
 
-use std::io::{self, Write};
-use std::sync::atomic::Ordering;
-
-use anyhow::{Result, bail};
-
-use super::super::args::Sweep;
-use super::super::{complain, results, stop};
-use crate::export::target::Target;
-use crate::studies::sweep::Study;
+use super::super::results;
+use super::*;
 use crate::studies::sweep::sensitivity;
 
 /// Runs the study of sensitivities and prints, or writes, its table.
@@ -26,17 +19,11 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let mut lines = lines.lines().filter(|line| !line.is_empty());
     let first = lines.next().unwrap_or_default();
     let others: Vec<String> = lines.map(|line| format!("study: {line}")).collect();
-    results::write(target.as_ref(), first, &others, || table.csv())?;
-    let mut stdout = io::stdout().lock();
-    if options.json {
-        results::print_json(table, &mut stdout)?;
-    } else if !options.quiet {
-        let (cells, steps) = found.numerics;
-        writeln!(
-            stdout,
-            "{}N = {cells}, {steps} steps per cycle",
-            table.text()
-        )?;
+    results::write(target.as_ref(), first, &others, table)?;
+    let (cells, steps) = found.numerics;
+    let numerics = || format!("N = {cells}, {steps} steps per cycle\n");
+    if options.json || !options.quiet {
+        results::print(options.json.then_some(table), || table.text() + &numerics())?;
     }
     if !found.is_resolved {
         complain(

@@ -9,12 +9,7 @@
 //! - The number of shards is written down: Slurm's own count shrinks when single tasks are queued
 //!   again.
 
-use std::path::Path;
-
-use super::super::UNFINISHED;
-use super::super::args::Sweep;
-use super::shards_directory;
-use crate::export::file::shell_word;
+use super::*;
 
 /// How often a task that was interrupted asks to be queued again.
 const MOST_REQUEUES: u32 = 100;

@@ -1,17 +1,12 @@
 //! `sweep --view`: the map, the points it opens, and the way back.
 
-use std::fs;
-use std::path::Path;
-use std::sync::atomic::Ordering;
 use std::time::SystemTime;
 
-use anyhow::{Context, Result};
 use clap::Parser;
 
-use super::super::args::{Arguments, Sweep};
-use super::super::{explore, stop};
-use crate::scenario::Refusal;
-use crate::studies::sweep::record::Record;
+use super::super::args::Arguments;
+use super::super::explore;
+use super::*;
 use crate::tui::map::{self, Leave, View};
 use crate::tui::{self, keys};
 

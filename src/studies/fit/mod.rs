@@ -25,7 +25,6 @@ use std::ops::Range;
 use anyhow::{Context, Result, anyhow};
 use serde::Serialize;
 
-use crate::scenario::schema::{self, Kind, Range as Allowed};
 use crate::scenario::session::SessionError;
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
 use crate::studies::measured::{Measured, check_radii};
@@ -129,7 +128,7 @@ impl Fit {
         cycles: Option<f64>,
         robust: bool,
     ) -> Result<Self, ScenarioError> {
-        let free = free.iter().map(|key| start(&scenario, key));
+        let free = free.iter().map(|key| Free::of(&scenario, key));
         let free: Vec<Free> = free.collect::<Result<_, _>>()?;
         let points: usize = data.iter().map(|set| set.values.len()).sum();
         if free.is_empty() || data.is_empty() {
@@ -376,42 +375,6 @@ impl Fit {
 
 fn refuse<T>(line: String) -> Result<T, ScenarioError> {
     Err(Refusal::from(line).into())
-}
-
-/// A key and where its search starts.
-fn start(scenario: &Scenario, key: &str) -> Result<Free, ScenarioError> {
-    let Some(parameter) = schema::find(key) else {
-        // The scenario's own words for a key that is unknown.
-        scenario.with(key, "1.0")?;
-        return refuse(format!("{key}: no such key"));
-    };
-    if parameter.kind != Kind::Number {
-        return refuse(format!("{key} is not a number that can be fitted"));
-    }
-    if ["run", "changes", "numerics"].contains(&parameter.section()) {
-        return refuse(format!(
-            "{key} is not a physical property, so data cannot determine it"
-        ));
-    }
-    let value = scenario.value(key);
-    let Some(value) = value.and_then(|value| value.parse::<f64>().ok()) else {
-        return refuse(format!(
-            "{key} has no value to start from; give one with --set {key}=..."
-        ));
-    };
-    if parameter.range == Allowed::NotNegative && value == 0.0 {
-        return refuse(format!(
-            "{key} starts at 0; give a value greater than 0 with --set"
-        ));
-    }
-    let (positive, limits) = match parameter.range {
-        Allowed::Any => (false, [f64::NEG_INFINITY, f64::INFINITY]),
-        Allowed::Positive | Allowed::NotNegative => (true, [0.0, f64::INFINITY]),
-        Allowed::UpTo(most) => (true, [0.0, most]),
-        Allowed::Acute => (true, [0.0, std::f64::consts::FRAC_PI_2]),
-        Allowed::Within(least, most) => (least > 0.0, [least, most]),
-    };
-    Ok(Free::new(key, parameter.unit, value, positive, limits))
 }
 
 /// The errors of a data set: as given, or its size until a fit estimates them.

@@ -2,6 +2,10 @@
 
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
 
+use super::refuse;
+use crate::scenario::schema::{self, Kind, Range};
+use crate::scenario::{Scenario, ScenarioError};
+
 /// By how many e-folds a positive key may move.
 const FARTHEST: f64 = 12.0;
 
@@ -28,30 +32,58 @@ pub(super) struct Free {
 }
 
 impl Free {
-    /// A key within `limits`, a `positive` one fitted by its logarithm.
-    pub fn new(
-        key: &str,
-        unit: &'static str,
-        start: f64,
-        positive: bool,
-        limits: [f64; 2],
-    ) -> Self {
+    /// A key of `scenario`, whose value there starts the search; positive ones are fitted by their logarithms.
+    ///
+    /// # Errors
+    /// A key that is unknown, is no physical number, or has no value to start from.
+    pub fn of(scenario: &Scenario, key: &str) -> Result<Self, ScenarioError> {
+        let Some(parameter) = schema::find(key) else {
+            // The scenario's own words for a key that is unknown.
+            scenario.with(key, "1.0")?;
+            return refuse(format!("{key}: no such key"));
+        };
+        if parameter.kind != Kind::Number {
+            return refuse(format!("{key} is not a number that can be fitted"));
+        }
+        if ["run", "changes", "numerics"].contains(&parameter.section()) {
+            return refuse(format!(
+                "{key} is not a physical property, so data cannot determine it"
+            ));
+        }
+        let value = scenario.value(key);
+        let Some(value) = value.and_then(|value| value.parse::<f64>().ok()) else {
+            return refuse(format!(
+                "{key} has no value to start from; give one with --set {key}=..."
+            ));
+        };
+        if parameter.range == Range::NotNegative && value == 0.0 {
+            return refuse(format!(
+                "{key} starts at 0; give a value greater than 0 with --set"
+            ));
+        }
+        let (positive, limits) = match parameter.range {
+            Range::Any => (false, [f64::NEG_INFINITY, f64::INFINITY]),
+            Range::Positive | Range::NotNegative => (true, [0.0, f64::INFINITY]),
+            Range::UpTo(most) => (true, [0.0, most]),
+            Range::Acute => (true, [0.0, std::f64::consts::FRAC_PI_2]),
+            Range::Within(least, most) => (least > 0.0, [least, most]),
+        };
         let (start, bounds) = match positive {
-            false => (start, limits),
+            false => (value, limits),
             true => {
                 // A limit that has no logarithm is none.
-                let (start, [least, most]) = (start.ln(), limits.map(f64::ln));
+                let (start, [least, most]) = (value.ln(), limits.map(f64::ln));
                 let reach = [start - FARTHEST, start + FARTHEST];
                 (start, [least.max(reach[0]), most.min(reach[1])])
             }
         };
-        Self {
+        Ok(Self {
             key: key.to_owned(),
-            unit,
+            unit: parameter.unit,
             positive,
             start,
             bounds,
-        }
+        })
     }
 
     /// The value of the key.
@@ -171,7 +203,13 @@ mod tests {
 
     #[test]
     fn a_range_is_kept_and_its_end_is_told() {
-        let free = [Free::new("a", "", 0.3, false, [0.0, 0.5])];
+        let free = [Free {
+            key: "a".into(),
+            unit: "",
+            positive: false,
+            start: 0.3,
+            bounds: [0.0, 0.5],
+        }];
         let mut residuals =
             |theta: &[f64]| Some((1..9).map(|i| f64::from(i) * (theta[0] - 2.0)).collect());
         let theta = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");

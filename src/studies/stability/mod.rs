@@ -112,12 +112,8 @@ impl Study {
             ("numerics.integrator", "direct".to_owned()),
             ("wear.coefficient", format!("{:e}", wear_number * self.unit)),
         ];
-        let scenario = keys
-            .iter()
-            .try_fold(self.scenario.clone(), |scenario, (key, value)| {
-                scenario.after(&[Change::new(0.0, key, value)])
-            })?;
-        Session::start(scenario)
+        let changes = keys.map(|(key, value)| Change::new(0.0, key, &value));
+        Session::start(self.scenario.after(&changes)?)
     }
 
     /// Runs one setting at one wear number.

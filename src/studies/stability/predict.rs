@@ -200,14 +200,8 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     let zones = simulation.observe(Curves::ZONES).zones;
     let least = LEAST * largest(worn);
     let (mut stiffest, mut most) = (0.0_f64, 0.0_f64);
-    let inner = 1..setup.grid.cells();
-    for (j, width) in setup
-        .grid
-        .widths()
-        .enumerate()
-        .take(inner.end)
-        .skip(inner.start)
-    {
+    let inner = setup.grid.cells();
+    for (j, width) in setup.grid.widths().enumerate().take(inner).skip(1) {
         if zones[j] != Zone::Slip || worn[j] <= least {
             continue;
         }

@@ -126,7 +126,7 @@ fn advance(
     let end = session.loaded().run().cycles.unwrap_or_default();
     let drive = &session.simulation().setup().drive;
     let period = f64::from(drive.repeats_after().unwrap_or(1));
-    let (mut worn, mut is_reached) = (Worn::default(), false);
+    let (mut worn, mut is_reached) = (Worn(vec![[0.0; 2]]), false);
     let ended = session.advance_while(end, |session| {
         let simulation = session.simulation();
         let may_end = simulation.cycle() % period == 0.0 || simulation.may_jump();
@@ -140,7 +140,6 @@ fn advance(
 }
 
 /// The worn volume over the cycles, for [`Stop::settled`].
-#[derive(Default)]
 struct Worn(Vec<[f64; 2]>);
 
 impl Worn {
@@ -162,11 +161,10 @@ impl Worn {
     /// The worn volume at an earlier cycle, m³, on straight lines between those that were noted.
     fn at(&self, cycle: f64) -> f64 {
         let after = self.0.partition_point(|[at, _]| *at < cycle);
-        let (Some([end, high]), before) = (self.0.get(after), after.checked_sub(1)) else {
-            return self.0.last().map_or(0.0, |[_, volume]| *volume);
-        };
-        let [start, low] = before.map_or([0.0, 0.0], |before| self.0[before]);
-        low + (high - low) * (cycle - start) / (end - start).max(f64::MIN_POSITIVE)
+        let after = after.clamp(1, self.0.len() - 1);
+        let [[start, low], [end, high]] = [self.0[after - 1], self.0[after]];
+        let share = (cycle - start) / (end - start).max(f64::MIN_POSITIVE);
+        low + (high - low) * share.min(1.0)
     }
 }
 
@@ -176,7 +174,7 @@ mod tests {
 
     #[test]
     fn volumes_in_between_lie_on_lines() {
-        let worn = Worn(vec![[2.0, 4.0], [10.0, 12.0]]);
+        let worn = Worn(vec![[0.0; 2], [2.0, 4.0], [10.0, 12.0]]);
         assert_eq!(worn.at(1.0), 2.0);
         assert_eq!(worn.at(2.0), 4.0);
         assert_eq!(worn.at(6.0), 8.0);

@@ -1,6 +1,5 @@
 //! From a TOML text to a study. Each refusal is one line: what is wrong, where, what would be right.
 
-use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -100,32 +99,29 @@ impl Study {
         let refused = |why: Refusal| Refusal::new(&origin, why);
         let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
-        let study = Study {
-            title: given.title.as_deref().map(printable),
-            base: load(&given.base)?,
-            base_name: given.base.clone(),
-            set: BTreeMap::new(),
-            axes: Vec::new(),
-            design: given.design,
-            columns: Vec::new(),
-            stop: given.stop,
-            sensitivity: Vec::new(),
-            written,
-        };
-        given.complete(study).map_err(refused)
+        let base = load(&given.base)?;
+        given.study(base, written).map_err(refused)
     }
 }
 
 impl Written {
-    /// Checks what is left, and puts it into the study.
-    fn complete(self, mut study: Study) -> Result<Study> {
-        study.set = flat("set", &self.set)?.into_iter().collect();
+    /// The study, on its base.
+    fn study(self, base: Scenario, written: Table) -> Result<Study> {
         let samples = samples(&self)?;
-        study.columns = columns(self.columns.as_deref())?;
-        check_stop(study.stop)?;
-        if let Some(table) = &self.sensitivity {
-            study.sensitivity = sensitivity(table)?;
-        }
+        check_stop(self.stop)?;
+        let varied = self.sensitivity.as_ref().map(sensitivity).transpose()?;
+        let mut study = Study {
+            title: self.title.as_deref().map(printable),
+            base_name: self.base,
+            base,
+            set: flat("set", &self.set)?.into_iter().collect(),
+            axes: Vec::new(),
+            design: self.design,
+            columns: columns(self.columns.as_deref())?,
+            stop: self.stop,
+            sensitivity: varied.unwrap_or_default(),
+            written,
+        };
         if self.axis.is_empty() && self.sensitivity.is_none() {
             return error(
                 "there is no axis: add [[axis]] with key and values, linspace or logspace",

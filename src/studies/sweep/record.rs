@@ -180,10 +180,8 @@ impl Record {
     pub fn study(&self) -> Result<Study, Refusal> {
         let part = |key: &str| -> String {
             let prefix = format!("# {key}: ");
-            let lines = self
-                .header
-                .lines()
-                .filter_map(|line| line.strip_prefix(&prefix));
+            let lines = self.header.lines();
+            let lines = lines.filter_map(|line| line.strip_prefix(&prefix));
             lines.fold(String::new(), |text, line| text + line + "\n")
         };
         Study::read_with_base(&part("study"), &self.name, &part("base"))
@@ -199,10 +197,8 @@ impl Record {
         if self.header == expected {
             return Ok(());
         }
-        let longest = expected.lines().count().max(self.header.lines().count());
-        let nothing = || std::iter::repeat("nothing");
-        let ours = expected.lines().chain(nothing()).take(longest);
-        let theirs = self.header.lines().chain(nothing());
+        let ours = expected.lines().chain(["nothing"]);
+        let theirs = self.header.lines().chain(["nothing"]);
         let differing = ours.zip(theirs).find(|(our, their)| our != their);
         let (our, their) = differing.unwrap_or_default();
         let [our, their] = [our, their].map(|line| line.trim_start_matches("# "));

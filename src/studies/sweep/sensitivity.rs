@@ -169,15 +169,10 @@ fn around(
     }
     let columns = study.columns.iter().zip(&results[0]).zip(spreads);
     for ((scalar, &result), spread) in columns.filter(|(_, spread)| spread.is_some()) {
-        let mut row = vec![
-            "all".into(),
-            Value::Missing,
-            scalar.name.into(),
-            result.into(),
-        ];
-        row.resize(7, Value::Missing);
-        row.push(spread.into());
-        table.push(row);
+        let [key, column] = ["all", scalar.name].map(Value::from);
+        let row = [key, Value::Missing, column, result.into()].into_iter();
+        let unknown = [Value::Missing, Value::Missing, Value::Missing];
+        table.push(row.chain(unknown).chain([spread.into()]).collect());
     }
     let setup = fixed.setup();
     Ok(Some(Sensitivity {

@@ -55,10 +55,10 @@ impl Line {
         (at.len() > 1).then_some(Self { letter, name, at })
     }
 
-    /// Its pieces from crossing to crossing; it ends where a column is not crossed.
-    pub fn pieces(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
-        let pairs = self.at.windows(2).map(|pair| [pair[0], pair[1]]);
-        pairs.filter(|[from, to]| to[0] - from[0] <= 1.0)
+    /// Its parts; one ends where a column is not crossed.
+    pub fn parts(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        let parts = self.at.chunk_by(|from, to| to[0] - from[0] <= 1.0);
+        parts.filter(|part| part.len() > 1)
     }
 }
 

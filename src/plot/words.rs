@@ -1,0 +1,134 @@
+//! The words of a chart in a terminal: legend, title row, labels of marks, names at the ends of curves.
+
+use std::ops::Range;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+use super::axis::titled;
+use super::legend::{self, Legend, cells};
+use super::raster::Raster;
+use super::theme::Role;
+use super::widget::Frame;
+
+impl Frame<'_> {
+    /// The legend, the title row, and the labels of the marks; the dots below them go.
+    pub(super) fn words(&self, raster: &mut Raster, buf: &mut Buffer) {
+        let (plot, area, inner) = (self.plot, self.area, self.inner);
+        let (theme, units) = (plot.theme, [&self.x.unit, &self.y.unit]);
+        let quiet = theme.style(Role::Quiet);
+        let legend = Legend::arrange(plot, units, raster);
+        // Rather than over a curve, its name stands at its end.
+        let covers = |legend: &Legend| legend.covered > 0 && plot.cursor.is_none();
+        let covers = legend.as_ref().is_some_and(covers);
+        let at_ends = covers.then(|| self.names_at_ends(raster)).flatten();
+        let legend = legend.filter(|_| at_ends.is_none());
+        for (place, name, style) in at_ends.into_iter().flatten() {
+            self.write(buf, place.x, place.y, &name, style);
+        }
+        if let Some(legend) = &legend {
+            raster.blank(legend.area);
+            legend.render(buf);
+        }
+
+        let title = theme.printable(&plot.chart.y.label);
+        let title = titled(&title, &self.y.unit.text, ['[', ']']);
+        self.write(buf, area.x, area.y, &title, quiet);
+        let left = (area.x + cells(&title)).min(area.right());
+        let mut free = left + u16::from(left > area.x)..area.right();
+        free.end -= self.x_title(free.clone(), buf);
+
+        let room = free.end.saturating_sub(free.start + 1);
+        let reading = match &legend {
+            None => legend::short_reading(plot, units, room),
+            Some(_) => None,
+        };
+        let note = reading.unwrap_or_else(|| theme.printable(&plot.chart.note));
+        if !note.is_empty() && cells(&note) <= room {
+            free.end -= cells(&note);
+            self.write(buf, free.end, area.y, &note, quiet);
+            free.end -= 1;
+        }
+
+        // From left to right: a label takes the room of the title row up to its own end.
+        let mut marks: Vec<_> = plot.chart.marks.iter().collect();
+        marks.sort_by(|a, b| a.x.total_cmp(&b.x));
+        for mark in marks {
+            let (label, style) = (theme.printable(mark.label), theme.style(mark.role));
+            let Some(cell) = self.x.window.cell(mark.x).filter(|_| !label.is_empty()) else {
+                continue;
+            };
+            let (column, width) = (inner.x + cell, cells(&label));
+            let x = column.saturating_sub(width / 2);
+            if x >= free.start && x + width <= free.end {
+                self.write(buf, x, area.y, &label, style);
+                free.start = x + width + 1;
+                continue;
+            }
+            // No place above the line: beside its upper end, unless a curve passes there.
+            let beside = [Some(column + 1), column.checked_sub(width)];
+            let mut spots = beside.into_iter().flatten();
+            let spot = spots.find_map(|x| {
+                let around = Rect::new(x.saturating_sub(1), inner.y, width + 2, 1);
+                let is_taken = legend.as_ref().is_some_and(|it| it.area.intersects(around));
+                let spot = Rect::new(x, inner.y, width, 1);
+                (!is_taken && raster.is_free(spot)).then_some(spot)
+            });
+            if let Some(spot) = spot {
+                raster.blank(spot);
+                self.write(buf, spot.x, spot.y, &label, style);
+            }
+        }
+    }
+
+    /// Writes what the abscissa is into the rule above the plot, where there is one with room for it, else to the
+    /// right end of the `free` part of the title row; returns the cells that it takes there. In the row of the ticks
+    /// it would stand where the last of them is.
+    fn x_title(&self, free: Range<u16>, buf: &mut Buffer) -> u16 {
+        let theme = self.plot.theme;
+        let arrow = if theme.ascii() { '>' } else { '→' };
+        let label = theme.printable(&self.plot.chart.x.label);
+        let title = |label: &str| match titled(label, &self.x.unit.text, ['[', ']']) {
+            title if title.is_empty() => title,
+            title => format!(" {title} {arrow}"),
+        };
+        let quiet = theme.style(Role::Quiet);
+        let whole = title(&label);
+        if let Some(rule) = self.plot.rule.filter(|rule| cells(&whole) <= rule.width) {
+            // The rule is dim; what stands in it is not.
+            let style = Style::reset().patch(quiet);
+            buf.set_string(rule.right() - cells(&whole), rule.y, whole, style);
+            return 0;
+        }
+        let room = free.end.saturating_sub(free.start);
+        let fitting = [whole, title("")];
+        let Some(title) = fitting.iter().find(|title| cells(title) <= room) else {
+            return 0;
+        };
+        self.write(buf, free.end - cells(title), self.area.y, title, quiet);
+        cells(title)
+    }
+
+    /// The names of the curves above or below their last points, where no curve is; `None` unless each has its place.
+    fn names_at_ends(&self, raster: &Raster) -> Option<Vec<(Rect, String, Style)>> {
+        let (theme, inner) = (self.plot.theme, self.inner);
+        let mut placed: Vec<(Rect, String, Style)> = Vec::new();
+        let named = self.plot.chart.curves.iter();
+        for curve in named.filter(|curve| !curve.name.is_empty()) {
+            let name = theme.printable(&curve.name);
+            let width = cells(&name);
+            let cell = |(x, y)| Some((self.x.window.cell(x)?, self.y.window.cell(y)?));
+            let (column, row) = curve.points().filter_map(cell).last()?;
+            let start = inner.x + (column + 1).saturating_sub(width);
+            let row = inner.bottom() - 1 - row;
+            let spots = [row - 1, row + 1].map(|row| Rect::new(start, row, width, 1));
+            let spot = spots.into_iter().find(|spot| raster.is_free(*spot))?;
+            if placed.iter().any(|(other, ..)| other.intersects(spot)) {
+                return None;
+            }
+            placed.push((spot, name, theme.style(curve.role)));
+        }
+        Some(placed)
+    }
+}

@@ -16,7 +16,7 @@ use crate::scenario::session::Session;
 use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, preset, printable};
 use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
-use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
+use crate::tui::{self, Options, Script, Stroke, command, snapshot};
 
 /// The largest number of frames per second.
 const DEFAULT_FPS: u16 = 10;
@@ -64,11 +64,7 @@ pub fn explore(options: &Explore) -> Result<()> {
         colored: color.and_then(ColorChoice::is_colored),
         look: options.theme.or(config.theme),
         present: options.present,
-        mouse: if options.mouse || config.mouse == Some(true) {
-            Capture::Clicks
-        } else {
-            Capture::None
-        },
+        mouse: options.mouse || config.mouse == Some(true),
         script: options.print.map(|size| Script {
             strokes,
             size,

@@ -16,7 +16,7 @@ use signal_hook::iterator::Signals;
 
 use super::flow::When;
 use super::input::{self, Waiting};
-use super::terminal::{self, Capture, Screen};
+use super::terminal::{self, Screen};
 use super::theme::Theme;
 use super::{Event, Input, catch, suspend};
 
@@ -31,10 +31,8 @@ pub trait Scene {
     fn resize(&mut self, _: Size) {}
     /// Draws it.
     fn draw(&self, area: Rect, buffer: &mut Buffer);
-    /// Answers what is not the terminal's own.
+    /// Answers what is not the terminal's own; a notice is shown until the next key.
     fn handle(&mut self, event: Event) -> Next;
-    /// Tells the user something until the next key.
-    fn say(&mut self, notice: &str);
 }
 
 /// What follows an event.
@@ -44,8 +42,10 @@ pub enum Next {
     Stay,
     /// The user asks for the shell.
     Suspend,
-    /// The user leaves the scene.
+    /// The user leaves the scene, and the terminal is as it was.
     Leave,
+    /// The user leaves the scene, and its last screen stays.
+    LeaveScreen,
 }
 
 /// There is no usable terminal.
@@ -73,7 +73,7 @@ pub fn require_terminal() -> Result<(), NoTerminal> {
 /// If the terminal cannot be taken over or drawn on.
 pub fn run(
     scene: &mut dyn Scene,
-    mouse: Capture,
+    mouse: bool,
     events: &Sender<Event>,
     inbox: &Receiver<Event>,
     ending: impl FnOnce(),
@@ -161,13 +161,14 @@ fn handle_events(
                     match scene.handle(event) {
                         Next::Stay => {}
                         Next::Suspend => suspends = true,
-                        Next::Leave => return Ok(()),
+                        Next::Leave | Next::LeaveScreen => return Ok(()),
                     }
                 }
             }
         }
         if waiting.has_dropped() {
-            scene.say("keys came faster than they could be handled; some were dropped");
+            let word = "keys came faster than they could be handled; some were dropped";
+            scene.handle(Event::Notice(word.into()));
         }
         if suspends && !is_away {
             held = drain_replies(screen, inbox);
@@ -177,7 +178,7 @@ fn handle_events(
             screen.give_back();
             is_away = suspend::stop();
             if !is_away {
-                scene.say("there is no shell to return to");
+                scene.handle(Event::Notice("there is no shell to return to".into()));
                 screen.take_back()?;
             }
         }

@@ -13,7 +13,7 @@ const CONTACT_FROM: u16 = 100;
 const CONTACT_ROWS: u16 = 22;
 
 /// The panels' stage.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Stage {
     /// The panel with the focus.
     pub focus: Panel,
@@ -31,21 +31,6 @@ pub struct Stage {
     pub area: Rect,
     /// Whether the last click has zoomed, or the opposite.
     click_has_zoomed: bool,
-}
-
-impl Default for Stage {
-    fn default() -> Self {
-        Self {
-            focus: Panel::Profile,
-            zoomed: false,
-            before_contact: None,
-            presents: false,
-            tour: None,
-            before_tour: Panel::Profile,
-            area: Rect::new(0, 0, 80, 24),
-            click_has_zoomed: false,
-        }
-    }
 }
 
 impl Stage {

@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use ratatui::prelude::*;
 use ratatui::widgets::Clear;
 use rayon::ThreadPoolBuilder;
 
@@ -16,10 +15,10 @@ use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::{Shard, Study};
 use crate::tui::app::App;
+use crate::tui::canvas::Canvas;
 use crate::tui::keys::Key;
 use crate::tui::locked;
 use crate::tui::overlays::Answer;
-use crate::tui::theme::Theme;
 
 /// The points of the study.
 pub const POINTS: usize = 25;
@@ -171,10 +170,10 @@ impl Live {
         Answer::Close
     }
 
-    /// Draws it over the whole of `area`.
-    pub fn draw(&self, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-        Clear.render(area, buffer);
-        self.with(|view| draw::draw(view, theme, area, buffer));
+    /// Draws it over everything.
+    pub fn draw(&self, mut canvas: Canvas) {
+        canvas.show(Clear);
+        self.with(|view| draw::draw(view, canvas));
     }
 
     /// Waits for the last point.

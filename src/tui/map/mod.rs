@@ -12,10 +12,10 @@ use std::time::Duration;
 use anyhow::Result;
 use ratatui::prelude::*;
 
+use super::canvas::Canvas;
 use super::command::{self, Command};
 use super::event_loop::{self, Next, Scene};
 use super::keys::Key;
-use super::terminal::Capture;
 use super::theme::Theme;
 use super::{Event, Input, script};
 
@@ -42,7 +42,7 @@ impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
     }
 
     fn draw(&self, area: Rect, buffer: &mut Buffer) {
-        draw::draw(self.view, &self.theme, area, buffer);
+        draw::draw(self.view, Canvas::new(&self.theme, area, buffer));
     }
 
     fn handle(&mut self, event: Event) -> Next {
@@ -52,13 +52,10 @@ impl<F: FnMut(&mut View)> Scene for Shown<'_, F> {
             }
             Event::Input(Input::Key(key)) => self.leave = self.view.press(key),
             Event::News => (self.renew)(self.view),
+            Event::Notice(text) => self.view.notice = Some(text),
             _ => {}
         }
         self.leave.map_or(Next::Stay, |_| Next::Leave)
-    }
-
-    fn say(&mut self, notice: &str) {
-        self.view.notice = Some(notice.to_owned());
     }
 }
 
@@ -83,7 +80,7 @@ pub fn run(view: &mut View, theme: &Theme, renew: impl FnMut(&mut View)) -> Resu
         renew,
         leave: None,
     };
-    event_loop::run(&mut shown, Capture::None, &events, &inbox, || {})?;
+    event_loop::run(&mut shown, false, &events, &inbox, || {})?;
     Ok(shown.leave.unwrap_or(Leave::Quit))
 }
 
@@ -95,12 +92,10 @@ pub fn run(view: &mut View, theme: &Theme, renew: impl FnMut(&mut View)) -> Resu
 pub fn play(view: &mut View, theme: &Theme, keys: &[Key], size: Size) -> Result<Leave> {
     let leave = keys.iter().find_map(|key| view.press(*key));
     let leave = leave.unwrap_or(Leave::Quit);
-    let area = Rect::from(size);
-    let mut buffer = Buffer::empty(area);
-    draw::draw(view, theme, area, &mut buffer);
     if leave == Leave::Quit {
-        let mut out = io::stdout().lock();
-        out.write_all(script::lines(&buffer).as_bytes())?;
+        let draw = |area, buffer: &mut _| draw::draw(view, Canvas::new(theme, area, buffer));
+        let drawn = script::drawn(size, draw);
+        io::stdout().write_all(script::lines(&drawn).as_bytes())?;
     }
     Ok(leave)
 }

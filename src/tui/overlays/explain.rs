@@ -2,9 +2,8 @@
 
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
-use ratatui::widgets::{Paragraph, Wrap};
 
-use super::{App, Command, popup};
+use super::{App, Canvas, Command};
 use crate::tui::theme::Role;
 use crate::tui::{layout, panels, tour};
 
@@ -29,8 +28,8 @@ fn beside(app: &App, area: Rect) -> Rect {
     larger.filter(|part| !part.is_empty()).unwrap_or(area)
 }
 
-pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+pub(super) fn draw(app: &App, mut canvas: Canvas) {
+    let (theme, area) = (canvas.theme, canvas.area);
     let is_compared = app.compares();
     // In a comparison there are other panels than the focused one.
     let focus = app.stage.focus;
@@ -82,9 +81,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         }
     }
     let title = format!("{title} ({keys})");
-    let inside = popup(&app.theme, &title, (width, height), place, buffer);
-    let inside = inside.inner(Margin::new(1, 0));
-    Paragraph::new(lines)
-        .wrap(Wrap { trim: false })
-        .render(inside, buffer);
+    let mut canvas = canvas.at(place);
+    let mut inside = canvas.popup(&title, (width, height));
+    inside.indented().write(lines);
 }

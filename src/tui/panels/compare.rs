@@ -3,7 +3,7 @@
 
 use ratatui::prelude::*;
 
-use super::{App, Frame, clip_spikes, edge, nothing, plot, titled};
+use super::{App, Canvas, Frame, clip_spikes, edge};
 use crate::charts::{A, C, Live, Symbols, ghosts};
 use crate::math::scan::largest;
 use crate::plot::units::{format_number, format_value};
@@ -31,10 +31,10 @@ pub const WORDS: (&str, Symbols) = (
 );
 
 /// Draws the comparison over the whole area of the panels.
-pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
-    let look = (&app.theme, app.cursor.radius(frame));
-    let (theme, _) = look;
-    let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
+pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canvas) {
+    let cursor = app.cursor.radius(frame);
+    let parts = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]);
+    let [top, bottom] = parts.areas(canvas.area);
     let halves = Layout::horizontal([Constraint::Fill(1); 2]);
     let [left, right] = halves.spacing(1).areas(top);
     let (seen, other) = (&frame.observation, &comparison.observation);
@@ -52,9 +52,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         false => columns.spacing(1).areas(bottom),
     };
     let names = (this_name(frame), comparison.name.as_str());
-    let inside = |title, place, buffer: &mut _| titled(title, Role::Title, theme, place, buffer);
-    let render =
-        |chart: &Chart, place, buffer: &mut _| plot(chart, Role::Title, look, place, buffer);
+    let mut render = |chart: &Chart, place| canvas.at(place).plot(chart, Role::Title, cursor);
     let pair = |there: &[f64], here: &[f64], role| {
         [
             Curve::new(&*names.0, &seen.radii[..], here, role),
@@ -66,7 +64,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         .curves(ghosts::worn(run, Some(1.0)))
         .curves(pair(&other.profile, &seen.profile, Role::Profile));
     profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
-    render(&profiles, left, buffer);
+    render(&profiles, left);
     // A spike at a border of stick must not flatten all the rest.
     let mut values = [&seen.pressure[..], &other.pressure].concat();
     clip_spikes(&mut values);
@@ -76,7 +74,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     let pressures = Chart::new("pressure", Axis::new("r", "m"), ordinate)
         .curves(ghosts::on(run, Axes::PRESSURE))
         .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
-    render(&pressures, right, buffer);
+    render(&pressures, right);
     let mut of_ghosts = ghosts::worn(run, None);
     for ghost in &mut of_ghosts {
         let points = ghost.xs.iter().zip(&mut ghost.ys);
@@ -87,9 +85,10 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     let highest = highest.fold(largest(&difference), f64::max);
     if highest == 0.0 {
         let words = ["equal so far", "C: from the start"];
-        let inside = inside(DIFFERENCE, below, buffer);
-        for (text, row) in words.iter().zip(inside.rows()) {
-            nothing(text, theme, row, buffer);
+        let mut canvas = canvas.at(below);
+        let mut inside = canvas.titled(DIFFERENCE, Role::Title);
+        for (text, row) in words.iter().zip(inside.area.rows()) {
+            inside.at(row).say(text, Role::Quiet);
         }
     } else {
         // Six decades: what lies below is rounding.
@@ -100,15 +99,16 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         let chart = Chart::new(DIFFERENCE, abscissa, ordinate.bounds(bounds))
             .curves(of_ghosts)
             .curve(Curve::new("", &*other.radii, &*difference, Role::Slip));
-        render(&chart, below, buffer);
+        render(&chart, below);
     }
-    let inside = inside("side by side", numbers, buffer);
+    let mut canvas = canvas.at(numbers);
+    let mut inside = canvas.titled("side by side", Role::Title);
     let lines = rows
         .iter()
-        .map(|(name, here, there)| format!(" {name:14} {here:>column$} {there:>column$}"));
-    let stopped = comparison.stopped.iter().map(|why| format!(" {why}"));
-    for (line, row) in lines.chain(stopped).zip(inside.rows()) {
-        Line::raw(theme.printable(&line)).render(row, buffer);
+        .map(|(name, here, there)| format!("{name:14} {here:>column$} {there:>column$}"));
+    let lines = lines.chain(comparison.stopped.clone());
+    for (line, row) in lines.zip(inside.area.rows()) {
+        inside.at(row).say(&line, Role::Quiet);
     }
 }
 

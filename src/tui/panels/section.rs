@@ -18,11 +18,12 @@
 use ratatui::prelude::*;
 
 use super::stress_map::Shades;
-use super::{App, Frame, Panel, Picture, Recipe, caption, edge, titled};
+use super::{App, Canvas, Frame, Panel, Picture, Recipe, caption, edge};
 use crate::charts::{U_X, magnification};
 use crate::math::grid::interpolate;
 use crate::math::scan::largest;
 use crate::plot::shades::{self, has_blocks};
+use crate::plot::units::format_number;
 use crate::reading::{Curves, Zone};
 use crate::tui::theme::{Depth, Look, Role, Theme};
 
@@ -264,7 +265,7 @@ impl<'a> Section<'a> {
         ];
         let mut title = PICTURE.recipe.title.to_owned();
         for (name, factor, _) in factors.into_iter().filter(|factor| factor.2) {
-            let more = format!(", {name} ×{}", caption::plain(factor));
+            let more = format!(", {name} ×{}", format_number(factor, 2));
             if title.chars().count() + more.chars().count() <= room {
                 title.push_str(&more);
             }
@@ -290,7 +291,7 @@ impl<'a> Section<'a> {
     }
 
     /// Draws the bodies.
-    fn bodies(&self, buffer: &mut Buffer) {
+    fn bodies(&self, canvas: &mut Canvas) {
         let area = self.area;
         for column in 0..area.width {
             let middle = f64::from(column) + 0.5 - f64::from(area.width) / 2.0;
@@ -298,7 +299,7 @@ impl<'a> Section<'a> {
             for row in 0..area.height {
                 let top = self.high - 2.0 * f64::from(row) * self.half;
                 let (glyph, style) = self.cell(&cut, usize::from(column), top);
-                if let Some(cell) = buffer.cell_mut((area.x + column, area.y + row)) {
+                if let Some(cell) = canvas.cell(column, row) {
                     cell.set_char(glyph).set_style(style);
                 }
             }
@@ -306,7 +307,7 @@ impl<'a> Section<'a> {
     }
 
     /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
-    fn lines(&self, buffer: &mut Buffer) {
+    fn lines(&self, canvas: &mut Canvas) {
         let (seen, area) = (&self.frame.observation, self.area);
         if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.app.theme) {
             return;
@@ -327,7 +328,7 @@ impl<'a> Section<'a> {
                     continue;
                 };
                 for row in rows.filter(|&row| row < area.bottom()) {
-                    let cell = &mut buffer[(column, row)];
+                    let cell = &mut canvas.buffer[(column, row)];
                     caption::take_ground(cell);
                     cell.set_char('┃').set_style(caption::ink(&self.app.theme));
                 }
@@ -452,19 +453,20 @@ fn amplitude(frame: &Frame) -> f64 {
     given.unwrap_or_else(|| shifts.fold(0.0, |most, shift| shift.abs().max(most)))
 }
 
-fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
-    let (theme, room) = (&app.theme, usize::from(area.width.saturating_sub(2)));
-    let inner = titled(PICTURE.recipe.title, role, theme, area, buffer);
+fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
+    let room = usize::from(canvas.area.width.saturating_sub(2));
+    let inner = canvas.titled(PICTURE.recipe.title, role).area;
     let [picture, below] = caption::beside(inner);
     let Some(section) = Section::of(frame, app, picture) else {
         return;
     };
-    titled(&section.title(room), role, theme, area, buffer);
-    section.bodies(buffer);
+    canvas.titled(&section.title(room), role);
+    let mut canvas = canvas.at(picture);
+    section.bodies(&mut canvas);
     if picture.height >= LARGE {
-        section.lines(buffer);
+        section.lines(&mut canvas);
     }
-    caption::draw(&section, below, buffer);
+    caption::draw(&section, canvas, below);
 }
 
 /// A colour of the cube of 256 for a dark and for a light background, or the one of sixteen.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::Worker;
+use crate::studies::refinement::Difference;
 use crate::tui::beside::{Beside, ComparisonRun, From, Twin};
 use crate::tui::frame::Activity;
 use crate::tui::ghosts::{MOST, Source};
@@ -58,6 +59,24 @@ impl Worker {
         self.companions.follow_with_twin(cycle, CATCH_UP);
         if self.screen.is_due() || !self.is_awaited() {
             self.publish();
+        }
+    }
+
+    /// Has the twin tell the errors of the present moment.
+    pub fn estimate_errors(&mut self) {
+        let twin = self.companions.twin.as_mut();
+        if let Some(twin) = twin.filter(|_| self.past.present().is_none()) {
+            twin.look_at(&self.run.session, true);
+        }
+    }
+
+    /// The cycle up to which the errors of the run are known, and what they are; else why they are not.
+    pub(super) fn errors(&self) -> Result<(f64, Difference), String> {
+        match &self.companions.twin {
+            // The twin has looked at the present.
+            _ if self.past.present().is_some() => Err("of the present: ] leads there".into()),
+            Some(twin) => twin.told(self.run.cycle()),
+            None => Err("this run is too coarse to be halved".into()),
         }
     }
 

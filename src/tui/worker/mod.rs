@@ -32,7 +32,7 @@ mod travel;
 use companions::Companions;
 use outlet::Outlet;
 pub(super) use thread::WorkerThread;
-use travel::ends_cycle;
+pub(super) use travel::ends_cycle;
 
 /// What the worker is to do next.
 pub type Order = Box<dyn FnOnce(&mut Worker) + Send>;
@@ -80,7 +80,7 @@ pub struct Worker {
     told_of_end: bool,
     clock: Clock,
     /// What frames hold.
-    curves: Curves,
+    pub(super) curves: Curves,
     screen: Outlet,
     /// Shared with whoever ends the program while a step takes long.
     keeping: Option<Arc<Mutex<ScreenAutosave>>>,
@@ -199,19 +199,9 @@ impl Worker {
         self.step_by_hand(|_, _| true);
     }
 
-    /// Steps to the end of the cycle, paused.
-    pub fn step_to_end_of_cycle(&mut self) {
-        self.step_by_hand(ends_cycle);
-    }
-
     /// Changes the pace by this many rungs.
     pub fn change_pace(&mut self, rungs: i32) {
         self.clock.change(rungs);
-    }
-
-    /// Computes these curves from now on.
-    pub fn compute(&mut self, curves: Curves) {
-        self.curves = curves;
     }
 
     /// Ends the worker.

@@ -14,7 +14,7 @@ use crate::reading::subsurface::Stress;
 use crate::reading::{Curves, CycleFigures, Observation};
 use crate::traces::Table;
 use crate::tui::Event;
-use crate::tui::beside::{ComparisonRun, Twin};
+use crate::tui::beside::ComparisonRun;
 use crate::tui::frame::{Activity, Facts, Frame, Slot};
 use crate::tui::line::one_line;
 
@@ -93,7 +93,8 @@ impl Worker {
         Arc::new(self.frame())
     }
 
-    fn frame(&mut self) -> Frame {
+    /// The present frame.
+    pub fn frame(&mut self) -> Frame {
         // The pressure may pass the hardness in any step, and has not yet in an earlier state.
         if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
             self.facts = Facts::of(&self.run.session);
@@ -119,9 +120,6 @@ impl Worker {
         };
         let is_running = self.activity == Activity::Running;
         let changes = self.past.line(&self.run).session.changes().iter();
-        // The twin has looked at the present.
-        let twin = self.companions.twin.as_ref();
-        let twin = twin.filter(|_| self.past.present().is_none());
         let figures = self.run.session.cycle_figures();
         Frame {
             run: self.charted(&observation, figures.as_ref()),
@@ -139,7 +137,7 @@ impl Worker {
             present: self.past.present(),
             changes: (changes.map(|change| (change.at_cycle, change.set.clone()))).collect(),
             snapshots: self.snapshots.clone(),
-            error: twin.and_then(Twin::error),
+            errors: self.errors(),
             checks,
             comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
         }

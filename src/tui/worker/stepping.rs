@@ -157,7 +157,7 @@ impl Worker {
     }
 
     /// Pauses and steps until `done`, which is given the cycles before and now, is true.
-    pub(super) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
+    pub(in crate::tui) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
         if matches!(self.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);
         }

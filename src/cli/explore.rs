@@ -16,13 +16,14 @@ use crate::scenario::session::Session;
 use crate::scenario::{Refusal, Scenario, ScenarioError, checkpoint, preset, printable};
 use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
+use crate::tui::map::live::Live;
 use crate::tui::{self, Options, Script, Stroke, command, snapshot};
 
 /// The largest number of frames per second.
 const DEFAULT_FPS: u16 = 10;
 
-/// Opens the explorer.
-pub fn explore(options: &Explore) -> Result<()> {
+/// Opens the explorer, on a map if there is one.
+pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
     let color = options.color.or(config.color);
@@ -54,8 +55,9 @@ pub fn explore(options: &Explore) -> Result<()> {
     }
     let keep_in = autosave::state_directory();
     let farewell = tui::run(Options {
-        running: options.resume.is_none() && !directory.is_dir(),
+        running: options.resume.is_none() && !directory.is_dir() && map.is_none(),
         run,
+        map,
         ghosts,
         keep_in,
         keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),

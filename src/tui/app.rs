@@ -9,11 +9,12 @@ use std::sync::Arc;
 use ratatui::prelude::*;
 
 use super::command::{Act, Command};
-use super::event_loop::{Next, Scene};
+use super::event_loop::Next;
 use super::frame::Frame;
 use super::keys::Key;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
+use super::map::live::Live;
 use super::overlays::{Answer, Overlay, Palette};
 use super::panels::StressMap;
 use super::present::SpeedUp;
@@ -22,7 +23,7 @@ use super::snapshot;
 use super::stage::Stage;
 use super::theme::Theme;
 use super::worker::{Orders, Worker};
-use super::{Event, Input, screen};
+use super::{Event, Input};
 use crate::reading::Curves;
 use crate::scenario::Scenario;
 
@@ -44,6 +45,8 @@ pub struct App {
     speed_up: SpeedUp,
     /// The overlay on the panels.
     pub overlay: Overlay,
+    /// The map that the run was opened from, if it leads back there.
+    pub(super) map: Option<Live>,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
     /// Why a file that a script asked for could not be written: the first one.
@@ -59,20 +62,9 @@ pub struct App {
     orders: Orders,
 }
 
-impl Scene for App {
-    fn theme(&mut self) -> &mut Theme {
-        &mut self.theme
-    }
-
-    fn resize(&mut self, size: Size) {
-        self.resize(size.width, size.height);
-    }
-
-    fn draw(&self, area: Rect, buffer: &mut Buffer) {
-        screen::draw(self, area, buffer);
-    }
-
-    fn handle(&mut self, event: Event) -> Next {
+impl App {
+    /// Answers what is not the terminal's own; a notice is shown until the next key.
+    pub(super) fn handle(&mut self, event: Event) {
         match event {
             Event::Input(Input::Key(key)) => self.press(key),
             Event::Input(Input::Paste(text)) => self.paste(&text),
@@ -90,14 +82,8 @@ impl Scene for App {
             Event::Sweep(live) => self.overlay = Overlay::Sweep(live),
             _ => {}
         }
-        match self.next {
-            Next::Suspend => std::mem::replace(&mut self.next, Next::Stay),
-            next => next,
-        }
     }
-}
 
-impl App {
     /// An app that shows the first frame of a worker, and sends its orders to it.
     pub fn new(theme: Theme, orders: Orders, frame: Arc<Frame>) -> Self {
         let mut app = Self {
@@ -109,6 +95,7 @@ impl App {
             cursor: Cursor::default(),
             speed_up: SpeedUp::default(),
             overlay: Overlay::None,
+            map: None,
             notice: None,
             unwritten: None,
             is_new: true,
@@ -188,6 +175,14 @@ impl App {
             Act::Screen(act) => act(self),
             Act::Worker(act) => self.order(act),
             Act::Palette(_) => self.overlay = Overlay::Palette(Palette::begun(row.name)),
+        }
+    }
+
+    /// Ends the program, or leads back to the map that the run was opened from.
+    pub(super) fn quit(&mut self) {
+        match self.map.take() {
+            Some(map) => self.overlay = Overlay::Sweep(map),
+            None => self.next = Next::Leave,
         }
     }
 

@@ -145,8 +145,7 @@ commands! {
             Screen(|app| app.overlay = Overlay::Palette(Default::default()));
         Help [Char('?')] "help", "show or hide this help", Screen(|app| app.overlay = Overlay::Help(Help::default()));
         Search [Char('/')] "search", "search in the help", Screen(|app| app.overlay = Overlay::Palette(Default::default()));
-        Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere",
-            Screen(|app| app.next = Next::Leave);
+        Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere", Screen(App::quit);
         QuitKeepingScreen [Char('Q')] "quit, keep", "quit, and leave the last screen in the terminal",
             Screen(|app| app.next = Next::LeaveScreen);
         Suspend [Ctrl('z')] "suspend", "suspend to the shell; fg returns", Screen(|app| app.next = Next::Suspend);

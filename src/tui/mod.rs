@@ -70,6 +70,7 @@ use autosave::ScreenAutosave;
 use event_loop::Next;
 pub use event_loop::NoTerminal;
 use frame::Slot;
+use overlays::Overlay;
 pub use reader::Input;
 pub use script::{Format, Script, Stroke, parse_size, rehearse};
 use theme::{Depth, Look, Theme};
@@ -128,6 +129,8 @@ pub struct Options {
     pub colored: Option<bool>,
     /// The colours; by default from the background that the terminal reports.
     pub look: Option<Look>,
+    /// The map of a study to begin with.
+    pub map: Option<map::live::Live>,
     /// Whether it is for a projector.
     pub present: bool,
     /// Whether clicks and the wheel are for the explorer; else the terminal selects text with them.
@@ -166,7 +169,10 @@ pub fn run(options: Options) -> Result<Farewell> {
     let worker = Worker::new(options.run, events.clone(), interval, running);
     let mut worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
-    if options.present {
+    if let Some(map) = options.map {
+        map.watch(events.clone());
+        app.overlay = Overlay::Sweep(map);
+    } else if options.present {
         app.stage.present();
     } else if is_first && let Ok(size) = terminal::size() {
         app.resize(size.width, size.height);

@@ -27,6 +27,9 @@ use crate::reading::verdict;
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut canvas = Canvas::new(&app.theme, area, buffer);
+    if let Overlay::Sweep(live) = &app.overlay {
+        return live.draw(app.notice.as_deref(), canvas);
+    }
     let Some([top, whole, bottom]) = layout::bands(area) else {
         let (columns, rows) = layout::SMALLEST;
         let text = format!("mdr-tui needs {columns} by {rows} characters; q quits");

@@ -10,7 +10,7 @@ use ratatui::prelude::*;
 
 use super::Event;
 use super::app::App;
-use super::event_loop::{Next, Scene};
+use super::event_loop::Next;
 use super::keys::{self, Key};
 use super::screen;
 use super::theme::{Look, Theme};

@@ -41,8 +41,8 @@ const QUIT: [&str; 2] = ["q", "quit"];
 /// Significant digits of what is read.
 const DIGITS: usize = 4;
 
-/// Draws the whole screen.
-pub fn draw(view: &View, mut canvas: Canvas) {
+/// Draws the whole screen; what the user is `told` stands in place of the keys.
+pub fn draw(view: &View, told: Option<&str>, mut canvas: Canvas) {
     let (area, theme) = (canvas.area, &canvas.theme.clone());
     if area.width < 20 || area.height < 10 {
         return canvas.show(Line::raw("too small: needs 20x10 or more"));
@@ -83,7 +83,7 @@ pub fn draw(view: &View, mut canvas: Canvas) {
     let along = view.slice.x().number(place).unwrap_or(place as f64);
     let along = Some(along).filter(|_| chart.map.is_none());
     canvas.at(body).show(Plot::new(&chart, theme).cursor(along));
-    let told = view.notice.as_deref().map(|text| (text, Role::Notice));
+    let told = told.map(|text| (text, Role::Notice));
     let last = row(area.height - 1);
     footer::draw_line(told, &KEYS, &[QUIT], canvas.at(last));
 }

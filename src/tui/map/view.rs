@@ -35,8 +35,6 @@ pub struct View {
     /// Whether the scale of the column is the other one than what its values ask for.
     is_flipped: bool,
     borders: RefCell<HashMap<Vec<usize>, Vec<Line>>>,
-    /// A notice, shown until the next key.
-    pub notice: Option<String>,
 }
 
 impl View {
@@ -64,7 +62,6 @@ impl View {
             with_overlays: true,
             is_flipped: false,
             borders: RefCell::default(),
-            notice: None,
         })
     }
 
@@ -79,7 +76,6 @@ impl View {
 
     /// Answers a key.
     pub fn press(&mut self, key: Key) -> Option<Leave> {
-        self.notice = None;
         match key {
             Key::Char('q') | Key::Ctrl('c') | Key::Named(Named::Esc) => return Some(Leave::Quit),
             Key::Named(Named::Enter) => return Some(Leave::Open(self.point())),

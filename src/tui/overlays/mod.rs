@@ -43,7 +43,7 @@ pub enum Overlay {
     Palette(Palette),
     /// The parameters.
     Form(Form),
-    /// A study of one key.
+    /// A study, on the whole screen.
     Sweep(Live),
 }
 
@@ -87,10 +87,10 @@ impl Overlay {
         }
     }
 
-    /// Draws it over the panels.
+    /// Draws it over the panels, unless it has the whole screen.
     pub fn draw(&self, app: &App, canvas: Canvas) {
         match self {
-            Self::None => {}
+            Self::None | Self::Sweep(_) => {}
             Self::Help(help) => help.draw(canvas),
             Self::Library(library) => library.draw(canvas),
             Self::Accuracy { explains: false } => accuracy::draw(&app.frame, canvas),
@@ -98,7 +98,6 @@ impl Overlay {
             Self::Explain => explain::draw(app, canvas),
             Self::Palette(palette) => palette.draw(app, canvas),
             Self::Form(form) => form.draw(app, canvas),
-            Self::Sweep(live) => live.draw(canvas),
         }
     }
 }

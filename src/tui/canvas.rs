@@ -123,6 +123,12 @@ impl<'a> Canvas<'a> {
         self.popup(title, (100, rows))
     }
 
+    /// Draws a box of running text in the middle, about as high as that.
+    pub fn page(&mut self, title: &str, width: u16, lines: Vec<Line>) {
+        let size = (width, rows(&lines, width));
+        self.popup(title, size).indented().write(lines);
+    }
+
     /// Draws the entries around the one `at`, which has a style of its own, and a few that follow it.
     pub fn list<'t>(
         &mut self,
@@ -150,4 +156,11 @@ impl<'a> Canvas<'a> {
         let plot = Plot::new(chart, &theme).cursor(cursor).rule(rule);
         self.titled(&chart.title, role).show(plot);
     }
+}
+
+/// About how many rows a box of this width needs for running text.
+pub fn rows(lines: &[Line], width: u16) -> u16 {
+    let inner = usize::from(width.saturating_sub(10).max(1));
+    let rows = lines.iter().map(|line| line.width().div_ceil(inner).max(1));
+    2 + rows.sum::<usize>() as u16
 }

@@ -1,12 +1,8 @@
 //! The checks of the run, what each means, and the errors that the same run on half the cells tells.
 
-use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
-
-use super::{Canvas, Command, Frame};
+use super::*;
 use crate::studies::refinement::Level;
 use crate::tui::beside::NOTHING_YET;
-use crate::tui::theme::Role;
 
 /// What closes the panel, and what is done while it is open: the run can be watched from here.
 pub(super) const CLOSING: &[Command] = &[Command::Back, Command::Accuracy, Command::Accept];
@@ -16,7 +12,7 @@ pub(super) const WATCHED: &[Command] = &[
 ];
 
 /// The checks of the run and its errors.
-pub(super) fn draw(frame: &Frame, canvas: Canvas) {
+pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
     let [title, alarm] = [Role::Title, Role::Alarm].map(|role| canvas.style(role));
     let text = |text: &str| Line::raw(format!("   {text}"));
     let error = |value: f64, meaning: &str| text(&format!("{value:9.1e}  {meaning}"));
@@ -50,12 +46,16 @@ pub(super) fn draw(frame: &Frame, canvas: Canvas) {
             lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
         }
     }
-    page("accuracy (Esc closes, Tab explains)", 76, lines, canvas);
+    let (title, size) = (
+        "accuracy (Esc closes, Tab explains)",
+        (76, lines.len() as u16 + 2),
+    );
+    canvas.popup(title, size).show(Paragraph::new(lines));
 }
 
 /// What each check of the moment compares, and what a difference means; what lies outside the
 /// theory.
-pub(super) fn draw_explanations(frame: &Frame, canvas: Canvas) {
+pub(super) fn draw_explanations(frame: &Frame, mut canvas: Canvas) {
     let warnings = frame.facts.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {warning}"));
     let checks = frame.checks.iter().map(|check| {
@@ -66,38 +66,9 @@ pub(super) fn draw_explanations(frame: &Frame, canvas: Canvas) {
         };
         format!("{verdict}. {}", check.subject.explanation())
     });
-    let paragraphs = warnings.chain(checks);
-    let lines = paragraphs.flat_map(|text| wrapped(&text, usize::from(WIDTH - 4)));
-    let mut lines: Vec<Line> = lines.map(Line::raw).collect();
+    let mut lines: Vec<Line> = warnings.chain(checks).map(Line::raw).collect();
     if lines.is_empty() {
         lines.push(Line::raw(NOTHING_YET));
     }
-    page("checks (Esc closes, Tab goes back)", WIDTH, lines, canvas);
-}
-
-/// A page of text.
-fn page(title: &str, width: u16, lines: Vec<Line>, mut canvas: Canvas) {
-    let size = (width, lines.len() as u16 + 2);
-    canvas.popup(title, size).show(Paragraph::new(lines));
-}
-
-/// The width of the page that explains, cells.
-const WIDTH: u16 = 78;
-
-/// A text in lines of at most `width` characters, those behind the first one indented.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::from(" ")];
-    for word in text.split_whitespace() {
-        let line = lines.last().map_or(0, |line| line.chars().count());
-        if line + word.chars().count() + 1 > width {
-            lines.push(String::from("   "));
-        }
-        if let Some(line) = lines.last_mut() {
-            if !line.ends_with(' ') {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-    }
-    lines
+    canvas.page("checks (Esc closes, Tab goes back)", 78, lines);
 }

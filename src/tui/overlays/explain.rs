@@ -1,10 +1,7 @@
 //! What the focused panel shows: a few sentences, its symbols, and what to look for in this scenario.
 
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-
-use super::{App, Canvas, Command};
-use crate::tui::theme::Role;
+use super::*;
+use crate::tui::canvas::rows;
 use crate::tui::{layout, panels, tour};
 
 /// What closes the explanation, and what is done while it is open: it follows the focus, and the run can continue.
@@ -61,27 +58,19 @@ pub(super) fn draw(app: &App, mut canvas: Canvas) {
         lines.extend(here.map(|caption| Line::raw(spelled(&caption.text))));
     }
     let width = area.width.min(80);
-    let inner = usize::from(width.saturating_sub(10).max(1));
-    let rows = |lines: &[Line]| -> u16 {
-        let rows = lines.iter().map(|line| line.width().div_ceil(inner).max(1));
-        2 + rows.sum::<usize>() as u16
-    };
     // Where the whole would cover the panel, it is told in running text, without what can be done without.
-    let (mut place, mut height) = (beside(app, area), rows(&lines));
-    if height > place.height {
+    let mut place = beside(app, area);
+    if rows(&lines, width) > place.height {
         let symbols = symbols
             .iter()
             .map(|(symbol, meaning)| format!("{symbol}: {meaning}"));
         let symbols = symbols.collect::<Vec<_>>().join("; ");
         let brief = vec![Line::raw(spelled(text)), Line::raw(spelled(&symbols))];
-        if rows(&brief) <= place.height {
-            (height, lines) = (rows(&brief), brief);
-        } else {
-            place = area;
+        match rows(&brief, width) <= place.height {
+            true => lines = brief,
+            false => place = area,
         }
     }
     let title = format!("{title} ({keys})");
-    let mut canvas = canvas.at(place);
-    let mut inside = canvas.popup(&title, (width, height));
-    inside.indented().write(lines);
+    canvas.at(place).page(&title, width, lines);
 }

@@ -2,17 +2,7 @@
 
 use std::sync::Arc;
 
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
-
-use super::{
-    Answer, App, Canvas, Command, Key, LineEdit, Overlay, Palette, leave_for, select, typing, watch,
-};
-use crate::tui::command;
-use crate::tui::keys::Named;
-use crate::tui::settings::Setting;
-use crate::tui::theme::Role;
+use super::*;
 
 /// The selected parameter, and its value while that is typed.
 #[derive(Debug, Default)]

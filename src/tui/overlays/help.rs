@@ -1,13 +1,8 @@
 //! The help: keys and what they do, one per row, in groups. The palette searches in it.
 
-use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
-
-use super::{Answer, App, Canvas, Command, Key, Overlay, PAGE, Palette, leave_for};
-use crate::tui::command::{self, Row, with_keys};
-use crate::tui::keys::Named;
+use super::*;
+use crate::tui::command::with_keys;
 use crate::tui::manual::groups;
-use crate::tui::theme::Role;
 
 /// The help, scrolled down by some lines.
 #[derive(Debug, Default)]

@@ -1,17 +1,12 @@
 //! Scenarios to choose from: the presets, and the user's own files, with what they show.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-
-use super::{Answer, App, Canvas, Command, Key, leave_for, select};
+use super::*;
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
-use crate::tui::command;
 use crate::tui::line::one_line;
 use crate::tui::snapshot;
-use crate::tui::theme::Role;
 
 /// The most entries of a directory that are listed.
 const LONGEST: usize = 1000;

@@ -1,14 +1,21 @@
-//! Overlays, one per file: each has its own state, handles keys and draws itself.
+//! Overlays, one per file: each has its own state, handles keys and draws itself. What they have in common is imported
+//! here; each of them begins with `use super::*`.
 
+use std::path::Path;
+
+use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
+use ratatui::widgets::Paragraph;
 
 use super::app::App;
 use super::canvas::Canvas;
-use super::command::{self, Command};
+use super::command::{self, Command, Row};
 use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
+use super::settings::Setting;
+use super::theme::Role;
 
 mod accuracy;
 mod explain;

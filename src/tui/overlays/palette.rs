@@ -1,18 +1,10 @@
 //! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
-use std::path::Path;
-
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-
-use super::{Answer, App, Canvas, Command, Frame, Key, LineEdit, Overlay, select, typing};
+use super::*;
 use crate::scenario::preset;
 use crate::scenario::schema::Kind;
-use crate::tui::command::{Act, COMMANDS, Row};
-use crate::tui::keys::Named;
+use crate::tui::command::{Act, COMMANDS};
 use crate::tui::map::live::{POINTS, Range};
-use crate::tui::settings::Setting;
-use crate::tui::theme::Role;
 
 /// The line being typed, which of its completions is selected, and what it leads back to.
 #[derive(Debug, Default)]

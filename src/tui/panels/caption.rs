@@ -2,15 +2,10 @@
 //! what the colours mean. A small picture has the load and the scale of the stress alone.
 
 use ratatui::buffer::Cell;
-use ratatui::prelude::*;
 
-use super::section::Section;
-use super::{App, Canvas, Frame};
-use crate::math::scan::largest;
-use crate::plot::shades::{self, SHADES, has_blocks};
-use crate::plot::units::format_value;
-use crate::reading::Moment;
-use crate::tui::theme::{Depth, Look, Role, Theme};
+use super::cut::Section;
+use super::*;
+use crate::plot::shades::SHADES;
 
 /// The size from which the picture has captions below it, and their rows.
 const ROOMY: [u16; 2] = [60, 16];

@@ -1,4 +1,5 @@
-//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file.
+//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
+//! imported here; each of them begins with `use super::*`.
 
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
@@ -8,12 +9,19 @@ use super::canvas::Canvas;
 use super::frame::Frame;
 use super::live_charts::Made;
 use super::shifted;
-use super::theme::{Role, Theme};
+use super::theme::{Depth, Look, Role, Theme};
 use crate::charts::{self, Recipe};
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::units::{format_number, format_value};
 use crate::plot::{Chart, Plot, Scale};
+use crate::reading::{Curves, Moment};
 
 mod caption;
 pub mod compare;
+mod cut;
 mod numbers;
 mod scar;
 mod section;

@@ -1,11 +1,7 @@
 //! The numbers of the moment, most important first: a small panel shows fewer.
 
-use ratatui::prelude::*;
-
-use super::{App, Canvas, Frame, Picture, Recipe};
-use crate::plot::units::{format_number, format_value};
+use super::*;
 use crate::reading::CycleFigures;
-use crate::tui::theme::Role;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {

@@ -9,17 +9,10 @@
 //!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
 //! ```
 
-use ratatui::prelude::*;
-
-use super::{App, Canvas, Frame, Panel, Picture, Recipe, edge};
+use super::*;
 use crate::charts::look_of;
-use crate::math::grid::interpolate;
-use crate::math::scan::largest;
-use crate::plot::colormap::ColorMap;
-use crate::plot::shades::{self, has_blocks, paint_halves};
-use crate::plot::units::format_value;
-use crate::reading::Curves;
-use crate::tui::theme::{Role, Theme};
+use crate::plot::shades::paint_halves;
+use crate::plot::step::Step;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -124,10 +117,7 @@ fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
     let value = |value| format_value(value, "m", 3);
     // A round length near a fifth of the disc.
-    let decade = 10f64.powf((10.0 * size).log10().floor());
-    let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * decade);
-    let reach = rounds.into_iter().find(|&reach| reach >= 8.0 * size);
-    let reach = reach.unwrap_or(10.0 * decade);
+    let reach = Step::above(8.0 * size).value();
     let middle = (reach / size).round().max(2.0) as usize - 2;
     let bar = format!("├{:─<middle$}┤", "");
     let slip = match slip_direction(frame) {

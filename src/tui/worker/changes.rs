@@ -1,15 +1,12 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
-use super::Worker;
+use super::*;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level};
-use crate::tui::beside::Twin;
-use crate::tui::frame::{Activity, Facts};
-use crate::tui::trend::Recorded;
-use crate::tui::{locked, shifted};
+use crate::tui::shifted;
 
 /// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;

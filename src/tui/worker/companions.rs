@@ -1,12 +1,9 @@
 //! What accompanies the run: a comparison, ghosts over the plots, and the twin that tells its error.
 
-use std::time::Duration;
-
-use super::Worker;
+use super::*;
 use crate::studies::refinement::Difference;
-use crate::tui::beside::{Beside, ComparisonRun, From, Twin};
-use crate::tui::frame::Activity;
-use crate::tui::ghosts::{MOST, Source};
+use crate::tui::beside::{Beside, From};
+use crate::tui::ghosts::MOST;
 
 /// How long each catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);

@@ -1,10 +1,8 @@
 //! What the user asks for beside the run: files, and a study.
 
-use std::path::Path;
-
-use super::Worker;
+use super::*;
 use crate::tui::map::live::{Live, Range};
-use crate::tui::{Event, figure, snapshot};
+use crate::tui::{figure, snapshot};
 
 impl Worker {
     /// Starts a study around the present scenario, up to the present cycle.

@@ -3,15 +3,18 @@
 //!
 //! It steps no further ahead than the pace allows, and publishes a frame only after the previous
 //! one has been taken, so that a slow terminal does not slow the simulation.
+//!
+//! What it does is told by what it is about, one file each, which begins with `use super::*`.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::autosave::ScreenAutosave;
-use super::beside::Twin;
+use super::beside::{ComparisonRun, Twin};
 use super::frame::{Activity, Facts, Frame};
 use super::ghosts::Source;
 use super::loops::CycleLoads;
@@ -20,6 +23,8 @@ use super::trend::Recorded;
 use super::undo::Past;
 use super::{Event, locked};
 use crate::reading::Curves;
+use companions::Companions;
+use outlet::Outlet;
 
 mod changes;
 mod companions;
@@ -29,8 +34,6 @@ mod stepping;
 mod thread;
 mod travel;
 
-use companions::Companions;
-use outlet::Outlet;
 pub(super) use thread::WorkerThread;
 pub(super) use travel::ends_cycle;
 

@@ -1,21 +1,15 @@
 //! What the worker tells the screen: frames of the present state, and notices.
 
 use std::fmt::Display;
-use std::path::Path;
-use std::sync::Arc;
-use std::sync::mpsc::Sender;
-use std::time::{Duration, Instant};
 
-use super::Worker;
+use super::*;
 use crate::charts::{Live, Run};
 use crate::export::state;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
-use crate::reading::{Curves, CycleFigures, Observation};
+use crate::reading::{CycleFigures, Observation};
 use crate::traces::Table;
-use crate::tui::Event;
-use crate::tui::beside::ComparisonRun;
-use crate::tui::frame::{Activity, Facts, Frame, Slot};
+use crate::tui::frame::Slot;
 use crate::tui::line::one_line;
 
 /// Frames go into a slot, at most one an interval; all else is an event.

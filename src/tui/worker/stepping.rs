@@ -1,12 +1,7 @@
 //! Stepping: as far as the pace allows while it runs, or by hand.
 
-use std::time::{Duration, Instant};
-
-use super::Worker;
 use super::travel::ends_cycle;
-use crate::reading::Curves;
-use crate::tui::frame::Activity;
-use crate::tui::locked;
+use super::*;
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);

@@ -1,12 +1,7 @@
 //! Time travel: back to earlier states, and on from there.
 
-use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-use super::Worker;
-use crate::tui::frame::{Activity, Facts};
-use crate::tui::locked;
-use crate::tui::undo::{Kept, Past};
+use super::*;
+use crate::tui::undo::Kept;
 
 /// Minimum time between stored states while running.
 const APART: Duration = Duration::from_millis(50);

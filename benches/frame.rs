@@ -55,7 +55,7 @@ impl Stage {
         thread::spawn(move || worker.serve(&to_worker));
         let (theme, frame) = (Theme::new(Look::Dark, Marker::Braille), orders.frame());
         let mut app = App::new(theme, orders.clone(), frame.expect("a worker"));
-        app.resize(size.width, size.height);
+        app.resize(size);
         Self {
             app,
             orders,

@@ -135,8 +135,8 @@ impl App {
     }
 
     /// Notes the terminal's size: hidden panels are not computed.
-    pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.stage.area = Rect::new(0, 0, columns, rows);
+    pub fn resize(&mut self, size: Size) {
+        self.stage.area = size.into();
         self.show();
     }
 
@@ -174,7 +174,10 @@ impl App {
         match row.act {
             Act::Screen(act) => act(self),
             Act::Worker(act) => self.order(act),
-            Act::Palette(_) => self.overlay = Overlay::Palette(Palette::begun(row.name)),
+            Act::Palette(_) => {
+                let begun = Palette::begun(&format!("{} ", row.name), Overlay::None);
+                self.overlay = Overlay::Palette(begun);
+            }
         }
     }
 

@@ -7,7 +7,6 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
-use ratatui::prelude::*;
 use signal_hook::consts::{
     SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
     SIGWINCH, SIGXCPU,
@@ -87,20 +86,13 @@ pub fn run(
     }
 }
 
-/// Has the app take the size of the terminal.
-fn resize(app: &mut App) -> io::Result<()> {
-    let Size { width, height } = terminal::size()?;
-    app.resize(width, height);
-    Ok(())
-}
-
 fn handle_events(
     app: &mut App,
     screen: &mut Screen,
     inbox: &Receiver<Event>,
     waiting: &Waiting,
 ) -> Result<()> {
-    resize(app)?;
+    app.resize(terminal::size()?);
     let mut is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
     // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
@@ -138,11 +130,11 @@ fn handle_events(
                 Event::Resize if is_away => {}
                 Event::Resize => {
                     screen.start_afresh();
-                    resize(app)?;
+                    app.resize(terminal::size()?);
                 }
                 Event::Continue => {
                     screen.take_back()?;
-                    resize(app)?;
+                    app.resize(terminal::size()?);
                     is_away = false;
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),

@@ -175,7 +175,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     } else if options.present {
         app.stage.present();
     } else if is_first && let Ok(size) = terminal::size() {
-        app.resize(size.width, size.height);
+        app.resize(size);
         app.stage.welcome(&origin);
     }
     crate::panics::capture();

@@ -138,7 +138,7 @@ fn press(
     orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<Size> {
-    app.resize(size.width, size.height);
+    app.resize(size);
     catch_up(app, orders, events)?;
     for stroke in strokes {
         match stroke {
@@ -146,7 +146,7 @@ fn press(
             Stroke::Paste(text) => app.paste(text),
             Stroke::Resize(other) => {
                 size = *other;
-                app.resize(size.width, size.height);
+                app.resize(size);
             }
         }
         catch_up(app, orders, events)?;

@@ -25,7 +25,7 @@ use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use mdr_tui::tui::{Event, screen, tour};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::text::Line;
 
 /// Small to large screens.
@@ -62,7 +62,7 @@ fn a_cut_through_the_bodies() {
 #[test]
 fn a_click_on_the_timeline_travels_there() {
     let mut stage = explorer("li2019-fig3");
-    stage.app.resize(100, 30);
+    stage.app.resize(Size::new(100, 30));
     stage.press(",,,,,,,,");
     // 89 columns for 199.24 cycles.
     for (column, cycle, present) in [(4, 3.0, Some(8.0)), (60, 8.0, None)] {

@@ -11,7 +11,7 @@ use std::{fmt, fs, thread};
 use rayon::ThreadPoolBuilder;
 
 use super::draw;
-use super::view::{Leave, View};
+use super::view::View;
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::record::Record;
@@ -20,7 +20,7 @@ use crate::tui::app::App;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{self, Command};
 use crate::tui::event_loop::Next;
-use crate::tui::keys::Key;
+use crate::tui::keys::{Key, Named};
 use crate::tui::overlays::Answer;
 use crate::tui::{Event, locked};
 
@@ -206,30 +206,29 @@ impl Live {
 
     /// Answers a key; leaving ends the study, or the explorer that was opened for it.
     pub fn press(&self, key: Key, app: &mut App) -> Answer {
-        if command::of_key(key) == Some(Command::Suspend) {
-            app.run(Command::Suspend);
-            return Answer::Stay;
-        }
-        match self.with(|view| view.press(key)) {
-            None => return Answer::Stay,
-            Some(Leave::Open(point)) => {
-                match self.with(|view| view.slice.study.scenario(point)) {
-                    Ok(scenario) => app.order_anew(|run| run.load(scenario)),
-                    Err(error) => {
-                        app.notice = Some(error.to_string());
-                        return Answer::Stay;
-                    }
-                }
-                app.map = Some(self.clone()).filter(|_| self.file.is_some());
-            }
-            Some(Leave::Quit) if self.file.is_some() => {
+        match (key, command::of_key(key)) {
+            (_, Some(Command::Suspend)) => app.run(Command::Suspend),
+            (Key::Char('q') | Key::Named(Named::Esc), _) if self.file.is_some() => {
                 app.next = Next::Leave;
-                return Answer::Stay;
             }
-            Some(Leave::Quit) => {}
+            (Key::Char('q') | Key::Named(Named::Esc), _) => {
+                self.halt.store(true, Ordering::Relaxed);
+                return Answer::Close;
+            }
+            (Key::Named(Named::Enter), _) => {
+                match self.with(|view| view.slice.study.scenario(view.point())) {
+                    Ok(scenario) => {
+                        self.halt.store(true, Ordering::Relaxed);
+                        app.map = Some(self.clone()).filter(|_| self.file.is_some());
+                        app.order_anew(|run| run.load(scenario));
+                        return Answer::Close;
+                    }
+                    Err(error) => app.notice = Some(error.to_string()),
+                }
+            }
+            _ => self.with(|view| view.press(key)),
         }
-        self.halt.store(true, Ordering::Relaxed);
-        Answer::Close
+        Answer::Stay
     }
 
     /// Draws it on the whole screen, and what the user is told.

@@ -168,7 +168,10 @@ fn about_it(setting: &Setting, app: &App) -> Vec<Line<'static>> {
     let told = match (&app.notice, setting.fixed()) {
         (Some(text), _) => Span::styled(app.theme.printable(text), app.theme.style(Role::Notice)),
         (None, Some(because)) => Span::styled(because, quiet),
-        (None, None) => Span::styled(format!("must be {}", setting.rule()), quiet),
+        (None, None) => {
+            let (kind, allowed) = (setting.parameter.kind, setting.parameter.allowed());
+            Span::styled(format!("must be {}{allowed}", kind.wanted()), quiet)
+        }
     };
     vec![
         Line::raw(format!(" {}", setting.parameter.meaning)),

@@ -23,7 +23,7 @@ impl Help {
             (_, Some(Command::Back | Command::Help | Command::Accept)) => return Answer::Close,
             (_, Some(Command::Search)) => {
                 let back = Overlay::Help(std::mem::take(self));
-                app.overlay = Overlay::Palette(Palette::over(back));
+                app.overlay = Overlay::Palette(Palette::begun("", back));
                 return Answer::Close;
             }
             (_, other) => return leave_for(other, app),

@@ -233,32 +233,26 @@ fn argument(command: &str, given: &str, help: &str, act: fn(&mut App, String)) -
 }
 
 impl Palette {
-    /// The palette with a command typed, its argument still missing.
-    pub fn begun(name: &str) -> Self {
+    /// The palette with the beginning of a line, over what it leads back to.
+    pub fn begun(line: &str, back: Overlay) -> Self {
         Self {
-            line: LineEdit::new(&format!("{name} ")),
-            ..Self::default()
-        }
-    }
-
-    /// The palette that leads back to what it lies over.
-    pub fn over(back: Overlay) -> Self {
-        Self {
+            line: LineEdit::new(line),
+            at: 0,
             back: Box::new(back),
-            ..Self::default()
         }
     }
 
     /// The words of a setting, the present one selected, or those that begin with what was typed.
     pub fn choosing(setting: &Setting, typed: Option<char>, back: Overlay) -> Self {
+        let line = format!("set {}=", setting.parameter.path);
+        if let Some(typed) = typed {
+            return Self::begun(&format!("{line}{typed}"), back);
+        }
         let mut words = setting.words().unwrap_or_default().into_iter();
         let now = words.position(|word| setting.value.as_deref() == Some(word));
-        let at = now.filter(|_| typed.is_none()).unwrap_or(0);
-        let typed = typed.map_or_else(String::new, String::from);
         Self {
-            line: LineEdit::new(&format!("set {}={typed}", setting.parameter.path)),
-            at,
-            ..Self::over(back)
+            at: now.unwrap_or(0),
+            ..Self::begun(&line, back)
         }
     }
 

@@ -4,11 +4,9 @@ use std::fmt::Display;
 
 use super::*;
 use crate::charts::{Live, Run};
-use crate::export::state;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
 use crate::reading::{CycleFigures, Observation};
-use crate::traces::Table;
 use crate::tui::frame::Slot;
 use crate::tui::line::one_line;
 
@@ -145,14 +143,7 @@ impl Worker {
         let material = &setup.material;
         let ghosts = self.companions.ghosts.iter();
         Run {
-            states: vec![Table::of_columns(
-                vec![("cycle".to_owned(), moment.cycle.to_string())],
-                state::columns(seen),
-            )],
-            history: Some(trend.history()),
-            loops: vec![trend.loops.last(moment.cycle)],
             ghosts: ghosts.map(|ghost| ghost.seen(self.curves)).collect(),
-            field: None,
             theory: Some(Arc::clone(&facts.theory)),
             indenter: Some(setup.indenter.clone()),
             live: Some(Live {
@@ -167,6 +158,7 @@ impl Worker {
                     .then(|| largest(load) / (material.normal_modulus() * material.stick_ratio())),
                 log: trend.loops.kept.clone(),
             }),
+            ..self.run.charted(seen)
         }
     }
 }

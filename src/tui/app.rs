@@ -14,7 +14,7 @@ use super::frame::Frame;
 use super::keys::Key;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
-use super::map::live::Live;
+use super::map::live::{Live, OPENING};
 use super::overlays::{Answer, Overlay, Palette};
 use super::panels::StressMap;
 use super::present::SpeedUp;
@@ -80,6 +80,10 @@ impl App {
             }
             Event::Notice(text) => self.notice = Some(text),
             Event::Sweep(live) => self.overlay = Overlay::Sweep(live),
+            Event::Opened => {
+                self.overlay = Overlay::None;
+                self.notice.take_if(|told| told == OPENING);
+            }
             _ => {}
         }
     }
@@ -255,7 +259,7 @@ impl App {
             false => {
                 let scenario = Scenario::load(name, &[]);
                 let scenario = scenario.map_err(|error| one_line(&error.to_string()));
-                scenario.map(|scenario| self.order_anew(|run| run.load(scenario)))
+                scenario.map(|scenario| self.order_anew(|run| _ = run.load(scenario)))
             }
         };
         self.notice = loaded.err();

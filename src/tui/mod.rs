@@ -99,6 +99,8 @@ pub enum Event {
     Unwritten(String),
     /// A study has begun.
     Sweep(map::live::Live),
+    /// A point of it has been opened.
+    Opened,
     /// The process is asked to suspend.
     Suspend,
     /// The process continues after a suspension.

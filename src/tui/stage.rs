@@ -40,11 +40,6 @@ impl Stage {
         places.into_iter().map(|(panel, _)| panel).collect()
     }
 
-    /// How many panels the terminal has room for.
-    fn room(&self) -> usize {
-        layout::room(layout::middle(self.area))
-    }
-
     /// The panels beside the focused one where `room` of them fit.
     pub fn page(&self, room: usize) -> &'static [Panel] {
         let at = self.focus as usize / room.max(1) * room;
@@ -53,7 +48,8 @@ impl Stage {
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
-        let room = self.room().max(1);
+        let (across, down) = layout::grid(layout::middle(self.area));
+        let room = across * down;
         let next = (self.focus as usize / room + 1) * room;
         self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);
     }

@@ -27,6 +27,9 @@ use crate::tui::{Event, locked};
 /// The points of the study.
 pub const POINTS: usize = 25;
 
+/// What is told until a point is open.
+pub const OPENING: &str = "opening the point ...";
+
 /// How often a table is looked at.
 const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 
@@ -220,8 +223,8 @@ impl Live {
                     Ok(scenario) => {
                         self.halt.store(true, Ordering::Relaxed);
                         app.map = Some(self.clone()).filter(|_| self.file.is_some());
-                        app.order_anew(|run| run.load(scenario));
-                        return Answer::Close;
+                        app.notice = Some(OPENING.to_owned());
+                        app.order_anew(|run| run.open_point(scenario));
                     }
                     Err(error) => app.notice = Some(error.to_string()),
                 }

@@ -61,6 +61,10 @@ fn completions(typed: &str, frame: &Frame) -> Vec<Completion> {
         ) {
             continue;
         }
+        let key = row
+            .keys
+            .first()
+            .map_or_else(String::new, ToString::to_string);
         let completion = match row.act {
             Act::Palette(complete) => {
                 let argument = typed.strip_prefix(row.name);
@@ -69,11 +73,10 @@ fn completions(typed: &str, frame: &Frame) -> Vec<Completion> {
                 }
                 Completion::new(format!("{} ", row.name), row.help)
             }
-            _ => Completion::new(row.name, row.help)
-                .with_right(row.keys[0].to_string())
-                .doing(|app| app.run(row.command)),
+            _ => Completion::new(row.name, row.help).doing(|app| app.run(row.command)),
         };
-        list.extend(rank(typed, row).map(|rank| (rank, completion)));
+        let rank = rank(typed, row);
+        list.extend(rank.map(|rank| (rank, completion.with_right(key))));
     }
     // A key of the scenario is found without `set` as well.
     if typed.len() >= 2 {

@@ -112,14 +112,13 @@ impl Worker {
     }
 
     fn add_ghost(&mut self, ghost: Source) {
-        let is_full = self.companions.ghosts.len() >= MOST;
-        self.screen.notice(&match is_full {
-            true => format!("{MOST} ghosts are there already; G removes them"),
-            false => format!("{} is over the plots now; G removes it", ghost.name()),
-        });
-        self.companions
-            .ghosts
-            .extend(Some(ghost).filter(|_| !is_full));
+        if self.companions.ghosts.len() >= MOST {
+            let told = format!("{MOST} ghosts are there already; G removes them");
+            return self.screen.notice(&told);
+        }
+        let told = format!("{} is over the plots now; G removes it", ghost.name());
+        self.screen.notice(&told);
+        self.companions.ghosts.push(ghost);
     }
 
     /// Takes all of them away.

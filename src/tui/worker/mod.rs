@@ -4,7 +4,7 @@
 //! It steps no further ahead than the pace allows, and publishes a frame only after the previous
 //! one has been taken, so that a slow terminal does not slow the simulation.
 //!
-//! What it does is told by what it is about, one file each, which begins with `use super::*`.
+//! Its orders are grouped by subject, one file each; these begin with `use super::*`.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

@@ -53,8 +53,9 @@ impl Stage {
         let interval = Duration::from_millis(100);
         let worker = Worker::new(session, sender, interval, false);
         thread::spawn(move || worker.serve(&to_worker));
-        let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders.clone());
-        app.resize(size.width, size.height);
+        let (theme, frame) = (Theme::new(Look::Dark, Marker::Braille), orders.frame());
+        let mut app = App::new(theme, orders.clone(), frame.expect("a worker"));
+        app.resize(size);
         Self {
             app,
             orders,
@@ -90,7 +91,7 @@ fn frame(bencher: Bencher, size: &str) {
     let mut stage = Stage::new(if size == "80x24" { SMALL } else { LARGE });
     let moments = [",,,", "......"].map(|keys| {
         stage.press(keys);
-        stage.app.frame.clone().expect("a frame")
+        stage.app.frame.clone()
     });
     let mut turn = 0;
     bencher.bench_local(|| {

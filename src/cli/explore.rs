@@ -14,13 +14,14 @@ use crate::scenario::session::Session;
 use crate::scenario::{Refusal, Scenario, checkpoint};
 use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
-use crate::tui::{self, Capture, Options, Script, Stroke, command, snapshot};
+use crate::tui::map::live::Live;
+use crate::tui::{self, Options, Script, Stroke, command, snapshot};
 
 /// The largest number of frames per second.
 const DEFAULT_FPS: u16 = 10;
 
-/// Opens the explorer.
-pub fn explore(options: &Explore) -> Result<()> {
+/// Opens the explorer, on a map if there is one.
+pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
     let color = options.color.or(config.color);
@@ -55,8 +56,9 @@ pub fn explore(options: &Explore) -> Result<()> {
         bail!(Refusal::new("--overlay", rule));
     }
     let farewell = tui::run(Options {
-        running: options.resume.is_none() && !directory.is_dir(),
+        running: options.resume.is_none() && !directory.is_dir() && map.is_none(),
         run,
+        map,
         ghosts,
         keep_in: autosave::state_directory(),
         keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
@@ -65,11 +67,7 @@ pub fn explore(options: &Explore) -> Result<()> {
         colored: color.and_then(ColorChoice::is_colored),
         look: options.theme.or(config.theme),
         present: options.present,
-        mouse: if options.mouse || config.mouse == Some(true) {
-            Capture::Clicks
-        } else {
-            Capture::None
-        },
+        mouse: options.mouse || config.mouse == Some(true),
         script: options.print.map(|size| Script {
             strokes,
             size,

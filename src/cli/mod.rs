@@ -91,7 +91,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     #[cfg(debug_assertions)]
     crate::failpoint::hit("command");
     match arguments.command {
-        None => explore::explore(&arguments.explore)?,
+        None => explore::explore(&arguments.explore, None)?,
         Some(Command::New(options)) => new::new(&options)?,
         Some(Command::Presets(options)) => presets::presets(&options)?,
         Some(Command::Verify(options)) => verify::verify(&options)?,

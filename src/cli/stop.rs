@@ -23,11 +23,6 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
     set_by(&ENDING, &ENDING)
 }
 
-/// Set by every signal that asks to end, and nothing else.
-pub fn noted() -> Result<Arc<AtomicBool>> {
-    set_by(&ENDING, &[])
-}
-
 /// Like [`signal`], but only a second Ctrl-C ends the process at once: a scheduler may send SIGTERM
 /// twice.
 pub fn patient_signal() -> Result<Arc<AtomicBool>> {

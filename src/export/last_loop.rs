@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::header::{field, table};
+use crate::reading::Moment;
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
@@ -24,7 +25,7 @@ impl LastLoop {
         }
         // A run continued beyond an earlier end leaves steps behind.
         self.rows.retain(|row| row[0] < now && row[0] >= end - 1.5);
-        self.rows.push(row(simulation));
+        self.rows.push(row(&simulation.moment()));
     }
 
     /// The steps of the cycle that ends now. Where cycles were jumped over, the steps of a cycle on the present
@@ -49,8 +50,8 @@ impl LastLoop {
     }
 }
 
-fn row(simulation: &Simulation) -> [f64; 4] {
-    let moment = simulation.moment();
+/// The row of a moment.
+pub fn row(moment: &Moment) -> [f64; 4] {
     let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
     [moment.cycle, moment.shift, moment.tangential_force, sensed]
 }
@@ -62,10 +63,10 @@ fn stepped(simulation: &Simulation) -> Option<Vec<[f64; 4]>> {
     }
     let mut probe = simulation.without_wear()?;
     let end = probe.cycle() + 1.0;
-    let mut rows = vec![row(&probe)];
+    let mut rows = vec![row(&probe.moment())];
     while probe.cycle() < end {
         probe.step_until(end).ok()?;
-        rows.push(row(&probe));
+        rows.push(row(&probe.moment()));
     }
     for row in &mut rows {
         row[0] -= 1.0;

@@ -6,7 +6,7 @@ use ratatui::style::Color;
 pub type Rgb = [u8; 3];
 
 /// The colours of a terminal that have names, by their numbers, and what they look like where that is not known.
-pub(super) const NAMED: [(Color, Rgb); 16] = [
+pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::Black, [0, 0, 0]),
     (Color::Red, [0xcd, 0x31, 0x31]),
     (Color::Green, [0x0d, 0xbc, 0x79]),

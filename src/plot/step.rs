@@ -2,7 +2,7 @@
 
 /// A step of the grid, 1, 2 or 5 times a power of ten, by its number: 0 is 1, 1 is 2, 2 is 5, 3 is 10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Step(pub(super) i32);
+pub(crate) struct Step(pub(crate) i32);
 
 impl Step {
     /// The largest step that is not above `size` (positive and finite).
@@ -13,6 +13,11 @@ impl Step {
         let mut steps = (decade..=decade + 3).rev().map(Step);
         let found = steps.find(|step| step.value() <= bound);
         found.unwrap_or(Step(decade - 1))
+    }
+
+    /// The smallest step above `size` (positive and finite).
+    pub(crate) fn above(size: f64) -> Step {
+        Step(Self::at_most(size).0 + 1)
     }
 
     /// 1, 2 or 5.

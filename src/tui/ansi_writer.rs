@@ -8,34 +8,7 @@
 use ratatui::buffer::Cell;
 use ratatui::prelude::*;
 
-/// The modifiers that the screen uses, and the codes that set them.
-const MODIFIERS: [(Modifier, &str); 5] = [
-    (Modifier::BOLD, "1"),
-    (Modifier::DIM, "2"),
-    (Modifier::ITALIC, "3"),
-    (Modifier::UNDERLINED, "4"),
-    (Modifier::REVERSED, "7"),
-];
-
-/// The colours that have short codes, in the order of these.
-const BASIC: [Color; 16] = [
-    Color::Black,
-    Color::Red,
-    Color::Green,
-    Color::Yellow,
-    Color::Blue,
-    Color::Magenta,
-    Color::Cyan,
-    Color::Gray,
-    Color::DarkGray,
-    Color::LightRed,
-    Color::LightGreen,
-    Color::LightYellow,
-    Color::LightBlue,
-    Color::LightMagenta,
-    Color::LightCyan,
-    Color::White,
-];
+use crate::plot::colormap::NAMED;
 
 /// The modifiers that are seen on a blank.
 const ON_BLANKS: Modifier = Modifier::REVERSED.union(Modifier::UNDERLINED);
@@ -66,11 +39,10 @@ impl Pen {
         if !self.modifier.contains(now.modifier) {
             return None;
         }
-        let added = self.modifier - now.modifier;
-        let added = MODIFIERS
-            .iter()
-            .filter(|(modifier, _)| added.contains(*modifier));
-        let mut codes: Vec<String> = added.map(|(_, code)| (*code).to_owned()).collect();
+        // Modifiers stand in the order of their codes, from 1 on.
+        let added = (self.modifier - now.modifier).iter();
+        let added = added.map(|modifier| (modifier.bits().trailing_zeros() + 1).to_string());
+        let mut codes: Vec<String> = added.collect();
         codes.extend((now.fg != self.fg).then(|| code(self.fg, 30)));
         codes.extend((now.bg != self.bg).then(|| code(self.bg, 40)));
         Some(codes)
@@ -102,7 +74,7 @@ fn code(color: Color, base: usize) -> String {
     match color {
         Color::Indexed(index) => format!("{};5;{index}", base + 8),
         Color::Rgb(red, green, blue) => format!("{};2;{red};{green};{blue}", base + 8),
-        color => match BASIC.iter().position(|basic| *basic == color) {
+        color => match NAMED.iter().position(|(name, _)| *name == color) {
             Some(at) => (base + at % 8 + at / 8 * 60).to_string(),
             None => (base + 9).to_string(),
         },

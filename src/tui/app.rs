@@ -9,37 +9,28 @@ use std::sync::Arc;
 use ratatui::prelude::*;
 
 use super::command::{Act, Command};
-use super::event_loop::{Next, Scene};
+use super::event_loop::Next;
 use super::frame::Frame;
 use super::keys::Key;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
-use super::overlays::{Answer, Form, Overlay, Palette};
+use super::map::live::{Live, OPENING};
+use super::overlays::{Answer, Overlay, Palette};
 use super::panels::StressMap;
 use super::present::SpeedUp;
 use super::readout::Cursor;
-use super::refinement_check::RefinementCheck;
 use super::snapshot;
 use super::stage::Stage;
 use super::theme::Theme;
 use super::worker::{Orders, Worker};
-use super::{Event, Input, screen};
+use super::{Event, Input};
 use crate::reading::Curves;
 use crate::scenario::Scenario;
 
-/// How the program is left.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Leave {
-    /// The terminal as it was.
-    Clean,
-    /// The last screen left behind.
-    KeepScreen,
-}
-
 /// The state of the screen.
 pub struct App {
-    /// The latest frame; none before the worker's first.
-    pub frame: Option<Arc<Frame>>,
+    /// The latest frame.
+    pub frame: Arc<Frame>,
     /// The frame of calm panels.
     pub(super) calm: Calm,
     /// Which panels there are.
@@ -54,6 +45,8 @@ pub struct App {
     speed_up: SpeedUp,
     /// The overlay on the panels.
     pub overlay: Overlay,
+    /// The map that the run was opened from, if it leads back there.
+    pub(super) map: Option<Live>,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
     /// Why a file that a script asked for could not be written: the first one.
@@ -62,31 +55,16 @@ pub struct App {
     pub is_new: bool,
     /// The theme.
     pub theme: Theme,
-    /// Set to end the program.
-    pub leave: Option<Leave>,
-    /// Set to suspend the program to its shell.
-    pub suspend: bool,
-    /// The result of the refinement check; `None` until it has finished.
-    pub refinement_check: Option<Result<RefinementCheck, String>>,
+    /// Set to end the program, or to suspend it to its shell.
+    pub next: Next,
     /// What the worker computes.
     computed: Curves,
     orders: Orders,
 }
 
-impl Scene for App {
-    fn theme(&mut self) -> &mut Theme {
-        &mut self.theme
-    }
-
-    fn resize(&mut self, size: Size) {
-        self.resize(size.width, size.height);
-    }
-
-    fn draw(&self, area: Rect, buffer: &mut Buffer) {
-        screen::draw(self, area, buffer);
-    }
-
-    fn handle(&mut self, event: Event) -> Next {
+impl App {
+    /// Answers what is not the terminal's own; a notice is shown until the next key.
+    pub(super) fn handle(&mut self, event: Event) {
         match event {
             Event::Input(Input::Key(key)) => self.press(key),
             Event::Input(Input::Paste(text)) => self.paste(&text),
@@ -101,27 +79,19 @@ impl Scene for App {
                 self.notice = Some(text);
             }
             Event::Notice(text) => self.notice = Some(text),
-            Event::RefinementCheck(answer) => self.refinement_check = Some(answer),
             Event::Sweep(live) => self.overlay = Overlay::Sweep(live),
+            Event::Opened => {
+                self.overlay = Overlay::None;
+                self.notice.take_if(|told| told == OPENING);
+            }
             _ => {}
         }
-        match (self.leave, std::mem::take(&mut self.suspend)) {
-            (Some(_), _) => Next::Leave,
-            (None, true) => Next::Suspend,
-            (None, false) => Next::Stay,
-        }
     }
 
-    fn say(&mut self, notice: &str) {
-        self.notice = Some(notice.to_owned());
-    }
-}
-
-impl App {
-    /// An app that sends its orders to a worker.
-    pub fn new(theme: Theme, orders: Orders) -> Self {
-        Self {
-            frame: None,
+    /// An app that shows the first frame of a worker, and sends its orders to it.
+    pub fn new(theme: Theme, orders: Orders, frame: Arc<Frame>) -> Self {
+        let mut app = Self {
+            frame: Arc::clone(&frame),
             calm: Calm::default(),
             stage: Stage::default(),
             charts: LiveCharts::default(),
@@ -129,23 +99,24 @@ impl App {
             cursor: Cursor::default(),
             speed_up: SpeedUp::default(),
             overlay: Overlay::None,
+            map: None,
             notice: None,
             unwritten: None,
             is_new: true,
             theme,
-            leave: None,
-            suspend: false,
-            refinement_check: None,
+            next: Next::Stay,
             computed: Curves::all(),
             orders,
-        }
+        };
+        app.stage.area = Rect::new(0, 0, 80, 24);
+        app.take_frame(frame);
+        app
     }
 
     /// Takes a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let (before, origin) = (self.origin(), frame.facts.scenario.origin());
-        let differs = self.frame.is_none() || before != origin;
-        self.charts.begin(origin, differs);
+        let origin = frame.facts.scenario.origin();
+        self.charts.begin(origin);
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
         self.stress.follow(&frame);
@@ -153,25 +124,23 @@ impl App {
         if self.speed_up.is_due(&frame, self.stage.presents) {
             self.order(|run| run.change_pace(1));
         }
-        self.frame = Some(frame);
+        self.frame = frame;
         self.show();
     }
 
-    /// The preset or the file on the screen; empty before the first frame.
+    /// The preset or the file on the screen.
     pub(super) fn origin(&self) -> &str {
-        let frame = self.frame.as_ref();
-        frame.map_or("", |frame| frame.facts.scenario.origin())
+        self.frame.facts.scenario.origin()
     }
 
     /// Whether a second run takes the place of all panels.
     pub(super) fn compares(&self) -> bool {
-        let frame = self.frame.as_ref();
-        frame.is_some_and(|frame| frame.comparison.is_some())
+        self.frame.comparison.is_some()
     }
 
     /// Notes the terminal's size: hidden panels are not computed.
-    pub fn resize(&mut self, columns: u16, rows: u16) {
-        self.stage.area = Rect::new(0, 0, columns, rows);
+    pub fn resize(&mut self, size: Size) {
+        self.stage.area = size.into();
         self.show();
     }
 
@@ -182,7 +151,7 @@ impl App {
         self.calm = Calm::default();
         self.is_new = false;
         if key == Key::Ctrl('c') {
-            self.leave = Some(Leave::Clean);
+            self.next = Next::Leave;
             return;
         }
         let mut overlay = std::mem::take(&mut self.overlay);
@@ -209,20 +178,25 @@ impl App {
         match row.act {
             Act::Screen(act) => act(self),
             Act::Worker(act) => self.order(act),
-            Act::Palette(_) => self.overlay = Overlay::Palette(Palette::begun(row.name)),
+            Act::Palette(_) => {
+                let begun = Palette::begun(&format!("{} ", row.name), Overlay::None);
+                self.overlay = Overlay::Palette(begun);
+            }
+        }
+    }
+
+    /// Ends the program, or leads back to the map that the run was opened from.
+    pub(super) fn quit(&mut self) {
+        match self.map.take() {
+            Some(map) => self.overlay = Overlay::Sweep(map),
+            None => self.next = Next::Leave,
         }
     }
 
     /// Opens the checks of the run, and has its errors estimated.
     pub(super) fn check_accuracy(&mut self) {
-        self.refinement_check = None;
         self.overlay = Overlay::Accuracy { explains: false };
-        self.order(|run| run.check_refinement());
-    }
-
-    /// Whether the accuracy panel waits for the refinement check.
-    pub fn awaits_refinement(&self) -> bool {
-        matches!(self.overlay, Overlay::Accuracy { .. }) && self.refinement_check.is_none()
+        self.order(Worker::estimate_errors);
     }
 
     pub(super) fn change_theme(&mut self) {
@@ -234,16 +208,18 @@ impl App {
     /// Changes the stress in the half-space.
     pub(super) fn change_stress(&mut self, change: fn(&mut StressMap)) {
         change(&mut self.stress);
-        if let Some(frame) = &self.frame {
-            self.stress.follow(frame);
-        }
+        self.stress.follow(&self.frame);
         self.notice = Some(format!("cross-section: {}", self.stress.names()[0]));
     }
 
     /// Opens the words of a key.
     pub(super) fn list_words(&mut self, path: &'static str) {
-        match Form::choosing(path, self.frame.as_deref()) {
-            Some(form) => self.overlay = Overlay::Form(form),
+        let mut settings = self.frame.facts.settings.iter();
+        match settings.find(|setting| setting.parameter.path == path) {
+            Some(setting) => {
+                let words = Palette::choosing(setting, None, Overlay::None);
+                self.overlay = Overlay::Palette(words);
+            }
             None => self.notice = Some(format!("this scenario has no {path}")),
         }
     }
@@ -283,7 +259,7 @@ impl App {
             false => {
                 let scenario = Scenario::load(name, &[]);
                 let scenario = scenario.map_err(|error| one_line(&error.to_string()));
-                scenario.map(|scenario| self.order_anew(|run| run.load(scenario)))
+                scenario.map(|scenario| self.order_anew(|run| _ = run.load(scenario)))
             }
         };
         self.notice = loaded.err();
@@ -299,10 +275,8 @@ impl App {
     /// Makes what shows, and tells the worker: hidden panels cost neither a chart nor a transform.
     pub(super) fn show(&mut self) {
         let visible = self.stage.visible();
-        if let Some(frame) = &self.frame {
-            let shown = |panel| self.calm.shown(panel, &self.stage, frame);
-            self.charts.make(&visible, frame, shown);
-        }
+        let shown = |panel| self.calm.shown(panel, &self.stage, &self.frame);
+        self.charts.make(&visible, &self.frame, shown);
         let needs = visible.iter().map(|panel| panel.recipe().needs);
         // The checks of the status line need the pressure, whatever panel shows it.
         let mut needed = needs.fold(Curves::PRESSURE, Curves::union);
@@ -315,7 +289,7 @@ impl App {
         }
         if needed != self.computed {
             self.computed = needed;
-            self.order(move |run| run.compute(needed));
+            self.order(move |run| run.curves = needed);
         }
     }
 

@@ -13,7 +13,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::MIN_CELLS;
 use crate::reading::Curves;
 use crate::scenario::session::{Session, SessionError};
-use crate::studies::refinement::{self, Outcome};
+use crate::studies::refinement::{self, Difference, Outcome};
 
 /// The second run, and what its steps have cost.
 #[derive(Debug, Clone)]
@@ -175,6 +175,9 @@ fn choices(session: &Session) -> Vec<(&'static str, String)> {
 /// The run is this many times longer at the next comparison.
 const NEXT: f64 = 1.25;
 
+/// What is said before anything can be compared.
+pub(super) const NOTHING_YET: &str = "nothing to compare yet: let it run for a cycle";
+
 /// The twin, and what it has told so far.
 #[derive(Debug)]
 pub(super) struct Twin {
@@ -183,7 +186,8 @@ pub(super) struct Twin {
     due: f64,
     /// The run at that cycle, once it has been there.
     run: Option<Outcome>,
-    error: Option<f64>,
+    /// The cycle of the last comparison, and the errors that it tells.
+    told: Option<(f64, Difference)>,
 }
 
 impl Twin {
@@ -195,15 +199,21 @@ impl Twin {
             beside: Beside::new(refinement::twin(session)?.ok()?.into()),
             due: 1.0,
             run: None,
-            error: None,
+            told: None,
         };
         twin.look_at(session, true);
         Some(twin)
     }
 
-    /// The last estimate of the run's error: of the worn depth or of the volume, whichever is larger, relative.
-    pub fn error(&self) -> Option<f64> {
-        self.error.filter(|error| error.is_finite())
+    /// The cycle of the last comparison and the errors of the run that it tells, or why there are none yet; the run is
+    /// at `cycle`.
+    pub fn told(&self, cycle: f64) -> Result<(f64, Difference), String> {
+        let waits = match self.lags(cycle) {
+            true => "running ...",
+            false => NOTHING_YET,
+        };
+        let stopped = self.beside.stopped.as_deref();
+        self.told.ok_or_else(|| stopped.unwrap_or(waits).to_owned())
     }
 
     /// Looks at the run if a comparison is due, or in any case if it `must`; a jump may have led the twin past it.
@@ -228,7 +238,7 @@ impl Twin {
         let is_there = self.beside.run.cycle() >= self.due;
         if let Some(run) = self.run.take_if(|_| is_there) {
             let twin = Outcome::of(&self.beside.run.session);
-            self.error = Some(refinement::by_twin(&twin, &run).promised());
+            self.told = Some((self.due, refinement::by_twin(&twin, &run)));
             self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
         }
     }

@@ -1,4 +1,4 @@
-//! Shows a scene on the terminal and gives it keys, until it is left: the explorer, or the map of a study.
+//! Shows the app on the terminal and gives it keys, until it is left.
 
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -7,45 +7,32 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
-use ratatui::prelude::*;
 use signal_hook::consts::{
     SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
     SIGWINCH, SIGXCPU,
 };
 use signal_hook::iterator::Signals;
 
+use super::app::App;
 use super::flow::When;
 use super::input::{self, Waiting};
-use super::terminal::{self, Capture, Screen};
-use super::theme::Theme;
-use super::{Event, Input, catch, suspend};
+use super::terminal::{self, Screen};
+use super::{Event, Input, catch, screen, suspend};
 
 /// How long outstanding answers of the terminal are waited for on exit.
 const LAST_ANSWERS: Duration = Duration::from_millis(500);
 
-/// What a terminal shows.
-pub trait Scene {
-    /// Its colours and signs.
-    fn theme(&mut self) -> &mut Theme;
-    /// Takes the size of the terminal.
-    fn resize(&mut self, _: Size) {}
-    /// Draws it.
-    fn draw(&self, area: Rect, buffer: &mut Buffer);
-    /// Answers what is not the terminal's own.
-    fn handle(&mut self, event: Event) -> Next;
-    /// Tells the user something until the next key.
-    fn say(&mut self, notice: &str);
-}
-
 /// What follows an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Next {
-    /// The scene goes on.
+    /// The app goes on.
     Stay,
     /// The user asks for the shell.
     Suspend,
-    /// The user leaves the scene.
+    /// The user leaves, and the terminal is as it was.
     Leave,
+    /// The user leaves, and the last screen stays.
+    LeaveScreen,
 }
 
 /// There is no usable terminal.
@@ -67,25 +54,25 @@ pub fn require_terminal() -> Result<(), NoTerminal> {
     Ok(())
 }
 
-/// Shows `scene` until it is left; calls `ending` before the terminal is restored. Returns whether that was restored.
+/// Shows `app` until it is left; calls `ending` before the terminal is restored. Returns whether that was restored.
 ///
 /// # Errors
 /// If the terminal cannot be taken over or drawn on.
 pub fn run(
-    scene: &mut dyn Scene,
-    mouse: Capture,
+    app: &mut App,
+    mouse: bool,
     events: &Sender<Event>,
     inbox: &Receiver<Event>,
     ending: impl FnOnce(),
 ) -> Result<bool> {
     let waiting = Arc::new(Waiting::default());
     listen_for_signals(events.clone(), Arc::clone(&waiting))?;
-    let asks = scene.theme().follows_background;
+    let asks = app.theme.follows_background;
     let screen = Screen::open(mouse, asks, events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
     let (keys, to_loop) = (Arc::clone(&waiting), events.clone());
     let listener = thread::spawn(move || input::listen(&to_loop, &keys, mouse));
-    let outcome = catch(|| handle_events(scene, &mut screen, inbox, &waiting));
+    let outcome = catch(|| handle_events(app, &mut screen, inbox, &waiting));
     ending();
     drain_replies(&mut screen, inbox);
     let is_restored = screen.give_back();
@@ -100,13 +87,13 @@ pub fn run(
 }
 
 fn handle_events(
-    scene: &mut dyn Scene,
+    app: &mut App,
     screen: &mut Screen,
     inbox: &Receiver<Event>,
     waiting: &Waiting,
 ) -> Result<()> {
-    scene.resize(terminal::size()?);
-    let mut is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
+    app.resize(terminal::size()?);
+    let mut is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
     // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
     // What came in while the terminal's answers were awaited.
@@ -138,16 +125,16 @@ fn handle_events(
             match event {
                 Event::Input(Input::Ready) => screen.flow.answered(Instant::now()),
                 Event::Written => screen.flow.written(),
-                Event::Input(Input::Background(color)) => scene.theme().follow(color),
+                Event::Input(Input::Background(color)) => app.theme.follow(color),
                 Event::Suspend => suspends = true,
                 Event::Resize if is_away => {}
                 Event::Resize => {
                     screen.start_afresh();
-                    scene.resize(terminal::size()?);
+                    app.resize(terminal::size()?);
                 }
                 Event::Continue => {
                     screen.take_back()?;
-                    scene.resize(terminal::size()?);
+                    app.resize(terminal::size()?);
                     is_away = false;
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
@@ -158,16 +145,18 @@ fn handle_events(
                         }
                         screen.flow.hurry(Instant::now());
                     }
-                    match scene.handle(event) {
+                    app.handle(event);
+                    match app.next {
                         Next::Stay => {}
-                        Next::Suspend => suspends = true,
-                        Next::Leave => return Ok(()),
+                        Next::Suspend => (suspends, app.next) = (true, Next::Stay),
+                        Next::Leave | Next::LeaveScreen => return Ok(()),
                     }
                 }
             }
         }
         if waiting.has_dropped() {
-            scene.say("keys came faster than they could be handled; some were dropped");
+            let word = "keys came faster than they could be handled; some were dropped";
+            app.handle(Event::Notice(word.into()));
         }
         if suspends && !is_away {
             held = drain_replies(screen, inbox);
@@ -177,12 +166,12 @@ fn handle_events(
             screen.give_back();
             is_away = suspend::stop();
             if !is_away {
-                scene.say("there is no shell to return to");
+                app.handle(Event::Notice("there is no shell to return to".into()));
                 screen.take_back()?;
             }
         }
         if !is_away && is_due && screen.flow.when(Instant::now()) == When::Now {
-            is_due = !screen.draw(|area, buffer| scene.draw(area, buffer))?;
+            is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
         }
     }
 }

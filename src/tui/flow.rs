@@ -168,7 +168,7 @@ impl Flow {
             // The next frames show what did not fit into this one.
             Some(rate) if rate >= FAST => None,
             Some(rate) => Some(((rate * FRAME_TIME) as usize).max(SMALLEST)),
-            None if self.opened.is_none() => None,
+            // Nothing is known of the line yet: the first frame measures it.
             None => Some(SMALLEST),
         }
     }

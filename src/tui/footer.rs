@@ -3,11 +3,12 @@
 use ratatui::prelude::*;
 
 use super::app::App;
+use super::canvas::Canvas;
 use super::command::Command::{self, self as C};
 use super::frame::Activity;
 use super::overlays::Overlay;
 use super::readout;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 
 /// The hint before the first key.
 const HINT: &str =
@@ -52,9 +53,9 @@ const ON_TOUR: Mode = &[
 ];
 
 fn mode(app: &App) -> Mode {
-    match app.frame.as_deref() {
-        Some(frame) if frame.comparison.is_some() => COMPARING,
-        Some(frame) if frame.present.is_some() => IN_THE_PAST,
+    match &*app.frame {
+        frame if frame.comparison.is_some() => COMPARING,
+        frame if frame.present.is_some() => IN_THE_PAST,
         _ if app.stage.tour.is_some() => ON_TOUR,
         _ if app.stage.shows_contact() => AT_THE_CONTACT,
         _ => USUAL,
@@ -62,27 +63,25 @@ fn mode(app: &App) -> Mode {
 }
 
 /// The notice if there is one, else the values at the cursor, else as many keys as fit.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (theme, frame) = (&app.theme, app.frame.as_deref());
+pub fn draw(app: &App, mut canvas: Canvas) {
+    let (frame, room) = (&*app.frame, usize::from(canvas.area.width));
     // The form shows its own notices.
     let notice = app.notice.as_deref();
     let notice = notice.filter(|_| !matches!(app.overlay, Overlay::Form(_)));
-    let stopped = frame.and_then(|frame| match &frame.activity {
+    let stopped = match &frame.activity {
         Activity::Stopped(reason) => Some((&**reason, Role::Alarm)),
         _ => None,
-    });
+    };
     let is_usual = app.stage.tour.is_none() && !app.stage.shows_contact();
-    let hints = app.is_new && is_usual && HINT.len() < usize::from(area.width);
+    let hints = app.is_new && is_usual && HINT.len() < room;
     let told = notice.map(|text| (text, Role::Notice)).or(stopped);
     let told = told.or(hints.then_some((HINT, Role::Notice)));
-    let at_cursor = frame.and_then(|frame| Some((frame, app.cursor.radius(frame)?)));
-    if let (Some((frame, r)), None) = (at_cursor, told) {
-        let room = usize::from(area.width);
-        let text = readout::line(frame, app.stage.focus, r, room, theme);
-        return Line::raw(text).render(area, buffer);
+    if let (Some(r), None) = (app.cursor.radius(frame), told) {
+        let text = readout::line(frame, app.stage.focus, r, room, &canvas.theme);
+        return canvas.show(Line::raw(text));
     }
     let [keys, always] = [mode(app), ALWAYS].map(texts);
-    draw_line(told, &keys, &always, theme, area, buffer);
+    draw_line(told, &keys, &always, canvas);
 }
 
 /// The keys of commands and what they are called.
@@ -100,28 +99,25 @@ pub fn draw_line<S: AsRef<str>>(
     told: Option<(&str, Role)>,
     keys: &[[S; 2]],
     always: &[[S; 2]],
-    theme: &Theme,
-    area: Rect,
-    buffer: &mut Buffer,
+    mut canvas: Canvas,
 ) {
     if let Some((text, role)) = told {
-        let text = format!(" {}", theme.printable(text));
-        return Line::styled(text, theme.style(role)).render(area, buffer);
+        return canvas.say(text, role);
     }
     let width = |texts: &[S; 2]| -> usize {
         let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
         widths.sum()
     };
-    let mut left = usize::from(area.width).saturating_sub(always.iter().map(width).sum());
+    let mut left = usize::from(canvas.area.width).saturating_sub(always.iter().map(width).sum());
     let shown = keys.iter().filter(|texts| {
         let fits = width(texts) <= left;
         left -= if fits { width(texts) } else { 0 };
         fits
     });
-    let styles = [Role::Title, Role::Quiet].map(|role| theme.style(role));
+    let styles = [Role::Title, Role::Quiet].map(|role| canvas.style(role));
     let spans = shown.chain(always).flat_map(|texts| {
         let parts = texts.iter().zip(styles);
         parts.map(|(text, style)| Span::styled(format!(" {}", text.as_ref()), style))
     });
-    Line::from_iter(spans).render(area, buffer);
+    canvas.show(Line::from_iter(spans));
 }

@@ -10,6 +10,7 @@ use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, CycleFigures, Observation, Passed};
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
+use crate::studies::refinement::Difference;
 use crate::studies::theory::Theory;
 
 /// What the worker is doing.
@@ -71,8 +72,8 @@ pub struct Frame {
     pub cycle_loads: Vec<Arc<SpringLoad>>,
     /// The largest von Mises and the largest principal stress in the half-space, where they are shown.
     pub peaks: Option<[Peak; 2]>,
-    /// The estimated error of the worn depth or of the volume, whichever is larger, relative, where it is known.
-    pub error: Option<f64>,
+    /// The cycle up to which the errors of the run are estimated, and what they are; else why they are not.
+    pub errors: Result<(f64, Difference), String>,
     /// The checks of the moment; `None` if p is not computed.
     pub checks: Vec<Check>,
     /// The comparison run.

@@ -5,13 +5,11 @@ use std::sync::Arc;
 
 use super::beside::Beside;
 use super::trend::Recorded;
-use crate::export::state;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
-use crate::traces::Table;
 
 /// The most ghosts at once: each has a stroke of its own.
 pub const MOST: usize = 4;
@@ -87,13 +85,5 @@ impl Source {
 
 fn ghost(name: &str, run: &Recorded, curves: Curves) -> Ghost {
     let seen = run.simulation().observe(curves);
-    let mut ghost = Ghost::new(name);
-    let columns = state::columns(&seen);
-    ghost.tables.push(Table::of_columns(Vec::new(), columns));
-    ghost.tables.push(run.trend.history());
-    if seen.moment.stick_radius.is_some() {
-        let last = run.trend.loops.last(seen.moment.cycle);
-        ghost.take_loop(last.shifts, last.forces);
-    }
-    ghost
+    run.charted(&seen).ghost(name)
 }

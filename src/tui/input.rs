@@ -13,7 +13,6 @@ use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 use super::Event;
 use super::mouse::Mouse;
 use super::reader::{Input, Reader};
-use super::terminal::Capture;
 
 /// Polling interval for the end of the session, milliseconds.
 const GLANCE: u16 = 100;
@@ -68,7 +67,7 @@ impl Waiting {
 }
 
 /// Reads the terminal until it closes or the session ends.
-pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) {
+pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) {
     let stdin = io::stdin();
     let (mut reader, mut mouse) = (Reader::default(), Mouse::default());
     let (mut bytes, mut inputs) = ([0; 4096], Vec::new());
@@ -95,7 +94,7 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, capture: Capture) 
                     Some(Event::HangUp)
                 }
                 Input::Key(_) | Input::Paste(_) if !waiting.enter() => None,
-                Input::Point(_) if capture == Capture::None => None,
+                Input::Point(_) if !with_mouse => None,
                 Input::Point(gesture) => {
                     let gesture = mouse.together(gesture, Instant::now());
                     gesture.map(|gesture| Event::Input(Input::Point(gesture)))

@@ -62,14 +62,8 @@ pub fn middle(screen: Rect) -> Rect {
     timeline(Rect { height, ..screen }).1
 }
 
-/// How many panels fit into an area.
-pub fn room(area: Rect) -> usize {
-    let (across, down) = grid(area);
-    across * down
-}
-
 /// Columns and rows of panels in an area.
-fn grid(area: Rect) -> (usize, usize) {
+pub fn grid(area: Rect) -> (usize, usize) {
     let down = if area.height >= TALL { 3 } else { 2 };
     match area.width {
         VERY_WIDE.. => (4, down),

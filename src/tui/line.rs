@@ -1,5 +1,7 @@
 //! One line of text being typed.
 
+use std::mem::take;
+
 use super::keys::{Key, Named};
 
 /// The longest line, in characters: a path fits, and a pasted document does not.
@@ -15,11 +17,11 @@ pub fn one_line(text: &str) -> String {
     }
 }
 
-/// The text and where the next character goes.
+/// The text before the cursor, and the text from it on.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LineEdit {
-    text: Vec<char>,
-    at: usize,
+    before: String,
+    after: String,
 }
 
 impl LineEdit {
@@ -34,72 +36,49 @@ impl LineEdit {
     /// it did not fit.
     pub fn paste(&mut self, text: &str) -> bool {
         let mut characters = text.chars().filter(|c| !c.is_control());
-        let room = LONGEST.saturating_sub(self.text.len());
-        let fitting: Vec<char> = characters.by_ref().take(room).collect();
-        let end = self.at + fitting.len();
-        self.text.splice(self.at..self.at, fitting);
-        self.at = end;
+        let room = LONGEST.saturating_sub(self.text().chars().count());
+        self.before.extend(characters.by_ref().take(room));
         characters.next().is_none()
     }
 
     /// The whole line.
     pub fn text(&self) -> String {
-        self.text.iter().collect()
+        [&*self.before, &self.after].concat()
     }
 
     /// Whether nothing has been typed.
     pub fn is_empty(&self) -> bool {
-        self.text.is_empty()
+        self.text().is_empty()
     }
 
     /// The text before the cursor, and the text from it on.
-    pub fn halves(&self) -> (String, String) {
-        let (before, after) = self.text.split_at(self.at);
-        (before.iter().collect(), after.iter().collect())
+    pub fn halves(&self) -> [&str; 2] {
+        [&self.before, &self.after]
     }
 
     /// Takes a key as a shell's line does: characters, arrows, Home, End, Backspace, Delete, Ctrl-U
     /// for all before the cursor and Ctrl-W for the word before it. Returns false for other keys.
     pub fn press(&mut self, key: Key) -> bool {
+        let (before, after) = (&mut self.before, &mut self.after);
         match key {
-            Key::Char(_) if self.text.len() >= LONGEST => {}
-            Key::Char(character) => {
-                self.text.insert(self.at, character);
-                self.at += 1;
+            Key::Char(character) => _ = self.paste(&character.to_string()),
+            Key::Named(Named::Backspace) => _ = before.pop(),
+            Key::Named(Named::Left) => {
+                after.insert_str(0, &before.pop().map_or_else(String::new, String::from))
             }
-            Key::Named(Named::Backspace) if self.at > 0 => {
-                self.at -= 1;
-                self.text.remove(self.at);
-            }
-            Key::Named(Named::Delete) if self.at < self.text.len() => {
-                self.text.remove(self.at);
-            }
-            Key::Named(Named::Backspace | Named::Delete) => {}
-            Key::Named(Named::Left) => self.at = self.at.saturating_sub(1),
-            Key::Named(Named::Right) => self.at = (self.at + 1).min(self.text.len()),
-            Key::Named(Named::Home) | Key::Ctrl('a') => self.at = 0,
-            Key::Named(Named::End) | Key::Ctrl('e') => self.at = self.text.len(),
-            Key::Ctrl('u') => self.cut_to(0),
+            Key::Named(Named::Delete) if !after.is_empty() => _ = after.remove(0),
+            Key::Named(Named::Right) if !after.is_empty() => before.push(after.remove(0)),
+            Key::Named(Named::Delete | Named::Right) => {}
+            Key::Named(Named::Home) | Key::Ctrl('a') => after.insert_str(0, &take(before)),
+            Key::Named(Named::End) | Key::Ctrl('e') => before.push_str(&take(after)),
+            Key::Ctrl('u') => before.clear(),
             Key::Ctrl('w') => {
-                let before = &self.text[..self.at];
-                let word = before.iter().rposition(|c| *c != ' ');
-                let start = word.map_or(0, |end| {
-                    before[..end]
-                        .iter()
-                        .rposition(|c| *c == ' ')
-                        .map_or(0, |space| space + 1)
-                });
-                self.cut_to(start);
+                let word = before.trim_end_matches(' ').rfind(' ');
+                before.truncate(word.map_or(0, |space| space + 1));
             }
             _ => return false,
         }
         true
-    }
-
-    /// Removes what stands from `start` to the cursor.
-    fn cut_to(&mut self, start: usize) {
-        self.text.drain(start..self.at);
-        self.at = start;
     }
 }
 
@@ -113,7 +92,8 @@ mod tests {
         for key in parse_script(script).expect("a script") {
             line.press(key);
         }
-        line.halves()
+        let [before, after] = line.halves().map(str::to_owned);
+        (before, after)
     }
 
     #[test]
@@ -121,7 +101,7 @@ mod tests {
         let mut line = LineEdit::new("ab");
         line.press(Key::Named(Named::Left));
         assert!(line.paste("1\n2\x1b3"));
-        assert_eq!(line.halves(), ("a123".into(), "b".into()));
+        assert_eq!(line.halves(), ["a123", "b"]);
         assert!(!line.paste(&"x".repeat(1_000_000)));
         assert_eq!(line.text().len(), LONGEST);
         line.press(Key::Char('y'));

@@ -19,6 +19,8 @@ pub(super) type Made = Result<Chart, &'static str>;
 /// The charts and their scales.
 #[derive(Debug, Default)]
 pub struct LiveCharts {
+    /// The scenario whose charts they are.
+    origin: String,
     charts: HashMap<Panel, Made>,
     /// The panels with a logarithmic ordinate.
     logarithmic: HashSet<Panel>,
@@ -31,9 +33,10 @@ pub struct LiveCharts {
 }
 
 impl LiveCharts {
-    /// The next frame is one of the scenario `origin`, another one than before if it `differs`.
-    pub fn begin(&mut self, origin: &str, differs: bool) {
-        if differs {
+    /// The next frame is one of the scenario `origin`.
+    pub fn begin(&mut self, origin: &str) {
+        if self.origin != origin {
+            self.origin = origin.to_owned();
             self.logarithmic = tour::logarithmic(origin).collect();
         }
         self.is_outdated = false;

@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use crate::export::last_loop;
 use crate::reading::subsurface::SpringLoad;
 use crate::reading::{Curves, Moment};
 use crate::simulation::Simulation;
@@ -42,9 +43,7 @@ impl Loops {
 
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
-        let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
-        let (shift, force) = (moment.shift, moment.tangential_force);
-        self.steps.push_back([moment.cycle, shift, force, sensed]);
+        self.steps.push_back(last_loop::row(moment));
         while self.steps.len() > 1
             && (self.steps[0][0] < moment.cycle - 1.0 - 1e-9 || self.steps.len() > CAPACITY)
         {

@@ -25,6 +25,7 @@ pub mod app;
 mod appearance;
 pub mod autosave;
 mod beside;
+mod canvas;
 pub mod command;
 mod event_loop;
 mod figure;
@@ -48,7 +49,6 @@ pub mod panels;
 mod present;
 mod reader;
 mod readout;
-pub mod refinement_check;
 pub mod screen;
 mod script;
 pub mod settings;
@@ -64,15 +64,15 @@ pub mod worker;
 
 use crate::plot::Marker;
 pub use crate::plot::theme;
-use app::{App, Leave};
+use app::App;
 pub use appearance::theme_of;
 use autosave::ScreenAutosave;
+use event_loop::Next;
 pub use event_loop::NoTerminal;
 use frame::Slot;
+use overlays::Overlay;
 pub use reader::Input;
-use refinement_check::RefinementCheck;
 pub use script::{Format, Script, Stroke, parse_size, rehearse};
-pub use terminal::Capture;
 use theme::{Depth, Look, Theme};
 use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
@@ -97,10 +97,10 @@ pub enum Event {
     Notice(String),
     /// A file that was asked for could not be written, and why: a notice, and a failure of a script.
     Unwritten(String),
-    /// The refinement check has finished.
-    RefinementCheck(Result<RefinementCheck, String>),
     /// A study has begun.
     Sweep(map::live::Live),
+    /// A point of it has been opened.
+    Opened,
     /// The process is asked to suspend.
     Suspend,
     /// The process continues after a suspension.
@@ -131,10 +131,12 @@ pub struct Options {
     pub colored: Option<bool>,
     /// The colours; by default from the background that the terminal reports.
     pub look: Option<Look>,
+    /// The map of a study to begin with.
+    pub map: Option<map::live::Live>,
     /// Whether it is for a projector.
     pub present: bool,
-    /// Who handles the mouse.
-    pub mouse: Capture,
+    /// Whether clicks and the wheel are for the explorer; else the terminal selects text with them.
+    pub mouse: bool,
     /// Keys to press instead of reading the keyboard, and the screen to print.
     pub script: Option<Script>,
 }
@@ -167,12 +169,15 @@ pub fn run(options: Options) -> Result<Farewell> {
     });
     let running = options.running && is_live;
     let worker = Worker::new(options.run, events.clone(), interval, running);
-    let worker = worker.with_ghosts(options.ghosts);
-    let mut app = App::new(theme, orders.clone());
-    if options.present {
+    let mut worker = worker.with_ghosts(options.ghosts);
+    let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
+    if let Some(map) = options.map {
+        map.watch(events.clone());
+        app.overlay = Overlay::Sweep(map);
+    } else if options.present {
         app.stage.present();
     } else if is_first && let Ok(size) = terminal::size() {
-        app.resize(size.width, size.height);
+        app.resize(size);
         app.stage.welcome(&origin);
     }
     crate::panics::capture();
@@ -215,7 +220,7 @@ fn is_first_time(options: &Options) -> bool {
 
 /// The last screen, if it should stay visible.
 fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
-    if app.leave != Some(Leave::KeepScreen) || !is_restored {
+    if app.next != Next::LeaveScreen || !is_restored {
         return Ok(None);
     }
     let mut size = terminal::size()?;

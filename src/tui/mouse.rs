@@ -1,6 +1,7 @@
 //! Mouse handling (`--mouse`): a click focuses a panel, moves the cursor or travels along the timeline, a double
 //! click zooms, the wheel scrolls overlays.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::layout::Position;
@@ -8,6 +9,7 @@ use ratatui::layout::Position;
 use super::app::App;
 use super::keys::{Key, Named};
 use super::overlays::Overlay;
+use super::undo::Past;
 use super::{layout, timeline};
 
 /// Longest time between the clicks of a double click.
@@ -69,19 +71,15 @@ impl App {
     fn click(&mut self, at: Position, is_second: bool) {
         self.notice = None;
         self.is_new = false;
-        let Some(frame) = self
-            .frame
-            .clone()
-            .filter(|frame| frame.comparison.is_none())
-        else {
-            return;
-        };
-        let Some([_, area, _]) = layout::bands(self.stage.area) else {
+        let frame = Arc::clone(&self.frame);
+        let bands = layout::bands(self.stage.area).filter(|_| !self.compares());
+        let Some([_, area, _]) = bands else {
             return;
         };
         let (line, area) = layout::timeline(area);
         if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
-            return self.order(move |run| run.go_to(cycle));
+            let visit = move |past: &mut Past| past.visit(cycle);
+            return self.order(move |run| run.travel(visit, "no state is stored"));
         }
         let mut places = layout::places(&self.stage, area).into_iter();
         let Some((panel, place)) = places.find(|(_, place)| place.contains(at)) else {

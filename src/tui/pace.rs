@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use crate::plot::step::Step;
 use crate::simulation::Simulation;
 
 /// The slowest rung of the ladder of speeds.
@@ -19,11 +20,10 @@ const BLURRED: f64 = 2.0;
 
 /// 1, 2, 5, 10, … cycles per second by rung; infinite at the last one.
 fn pace_of(rung: i32) -> f64 {
-    if rung >= UNLIMITED {
-        return f64::INFINITY;
+    match rung {
+        UNLIMITED.. => f64::INFINITY,
+        _ => Step(rung).value(),
     }
-    let mantissa = [1.0, 2.0, 5.0][rung.rem_euclid(3) as usize];
-    mantissa * 10f64.powi(rung.div_euclid(3))
 }
 
 /// The time between two jumps over cycles, unless the pace is without limit.

@@ -3,9 +3,10 @@
 
 use ratatui::prelude::*;
 
+use super::canvas::Canvas;
 use super::frame::{Activity, Frame};
 use super::panels::{Panel, contact_state};
-use super::theme::{Role, Theme};
+use super::theme::Role;
 
 /// The chart at first.
 pub const CHART: Panel = Panel::Loop;
@@ -58,18 +59,19 @@ impl SpeedUp {
 }
 
 /// Draws what the contact does and the cycle in large letters.
-pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+pub fn draw(frame: &Frame, mut canvas: Canvas) {
+    let area = canvas.area;
     if area.height < WORDS {
         return;
     }
     let below = Rect::new(area.x + 1, area.y + 1, area.width - 1, area.height - 1);
     let (_, words, role) = contact_state(&frame.observation.moment);
-    let used = large(words, theme.style(role), below, buffer);
+    let used = large(words, role, canvas.at(below));
     let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;
     if used + width + 4 < below.width {
         let right = Rect::new(below.right() - width, below.y, width, below.height);
-        large(&cycle, theme.style(Role::Quiet), right, buffer);
+        large(&cycle, Role::Quiet, canvas.at(right));
     }
 }
 
@@ -89,10 +91,10 @@ fn has_dot(letter: char, column: u16, row: u16) -> bool {
 }
 
 /// Writes `words` in letters that are four cells wide and three high; returns the cells that they take.
-fn large(words: &str, style: Style, area: Rect, buffer: &mut Buffer) -> u16 {
-    let mut x = area.x;
+fn large(words: &str, role: Role, mut canvas: Canvas) -> u16 {
+    let (mut x, style) = (0, canvas.style(role));
     for letter in words.chars() {
-        if x + 4 > area.right() + 1 {
+        if x + 4 > canvas.area.width + 1 {
             break;
         }
         for (column, row) in (0..3).flat_map(|column| (0..3).map(move |row| (column, row))) {
@@ -103,13 +105,13 @@ fn large(words: &str, style: Style, area: Rect, buffer: &mut Buffer) -> u16 {
                 [true, false] => '▀',
                 [false, true] => '▄',
             };
-            if let Some(cell) = buffer.cell_mut((x + column, area.y + row)) {
+            if let Some(cell) = canvas.cell(x + column, row) {
                 cell.set_char(sign).set_style(style);
             }
         }
         x += 4;
     }
-    x - area.x
+    x
 }
 
 #[cfg(test)]

@@ -13,69 +13,64 @@
 //! ```
 
 use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
 
 use super::app::App;
+use super::canvas::Canvas;
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
 use super::panels::compare;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 use super::{footer, present, timeline};
 use crate::reading::verdict;
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some([top, middle, bottom]) = layout::bands(area) else {
+    let mut canvas = Canvas::new(&app.theme, area, buffer);
+    if let Overlay::Sweep(live) = &app.overlay {
+        return live.draw(app.notice.as_deref(), canvas);
+    }
+    let Some([top, whole, bottom]) = layout::bands(area) else {
         let (columns, rows) = layout::SMALLEST;
         let text = format!("mdr-tui needs {columns} by {rows} characters; q quits");
-        Paragraph::new(text)
-            .wrap(ratatui::widgets::Wrap { trim: true })
-            .render(area, buffer);
-        return;
+        return canvas.write(text);
     };
-    let whole = middle;
     let (line, middle) = layout::timeline(whole);
-    match &app.frame {
-        Some(frame) => {
-            status(frame, &app.theme, top, buffer);
-            if let Some(line) = line {
-                timeline::draw(frame, &app.theme, line, buffer);
-            }
-            panels(frame, app, middle, buffer);
-        }
-        None => Line::raw("starting ...").render(middle, buffer),
+    status(&app.frame, canvas.at(top));
+    if let Some(line) = line {
+        timeline::draw(&app.frame, canvas.at(line));
     }
-    footer::draw(app, bottom, buffer);
+    panels(app, canvas.at(middle));
+    footer::draw(app, canvas.at(bottom));
     // An explanation stands beside its panel; lists need every row.
     let under = match app.overlay {
         Overlay::Explain => middle,
         _ => whole,
     };
-    app.overlay.draw(app, under, buffer);
+    app.overlay.draw(app, canvas.at(under));
 }
 
-fn panels(frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
+fn panels(app: &App, mut canvas: Canvas) {
+    let (frame, area) = (&*app.frame, canvas.area);
     if let Some(comparison) = &frame.comparison {
-        return compare::draw(frame, comparison, app, area, buffer);
+        return compare::draw(frame, comparison, app, canvas);
     }
     for (panel, place) in layout::places(&app.stage, area) {
-        panel.draw(frame, app, place, buffer);
+        panel.draw(app, canvas.at(place));
     }
+    let (above, caption) = layout::with_tour(&app.stage, area);
     if app.stage.presents {
-        let (above, _) = layout::with_tour(&app.stage, area);
-        present::draw(frame, &app.theme, present::areas(above)[2], buffer);
+        present::draw(frame, canvas.at(present::areas(above)[2]));
     }
-    if let (Some(tour), (_, Some(place))) = (&app.stage.tour, layout::with_tour(&app.stage, area)) {
-        tour.draw(&app.theme, place, buffer);
+    if let (Some(tour), Some(place)) = (&app.stage.tour, caption) {
+        tour.draw(canvas.at(place));
     }
 }
 
 /// The state of the run on the left, in slots of fixed width, and the title on the right. A narrow
 /// screen drops the title first, then the least important parts.
-fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    let bar = theme.style(Role::Bar);
-    buffer.set_style(area, bar);
+fn status(frame: &Frame, mut canvas: Canvas) {
+    let (theme, area, bar) = (canvas.theme, canvas.area, canvas.style(Role::Bar));
     let mut parts = status_parts(frame, area.width >= WITH_WORDS);
     let text = |parts: &[Part]| {
         let slots = parts.iter();
@@ -90,9 +85,8 @@ fn status(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     }
     let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
     let title = shortened(theme.printable(frame.facts.scenario.title()), room);
-    let title = Line::styled(title, bar).right_aligned();
-    title.render(area, buffer);
-    buffer.set_string(area.x, area.y, format!(" {left}"), bar);
+    canvas.show(Line::styled(title, bar).right_aligned());
+    canvas.show(Line::styled(format!(" {left}"), bar));
 }
 
 /// Columns from which on the status line says what the method's name is.
@@ -157,8 +151,10 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
         let fails = verdict != "checks ok";
         (if fails { 3 } else { 2 }, verdict, 12)
     }));
-    let error = frame.error.map(wear_error);
-    parts.extend(error.map(|error| (2, error, 12)));
+    let errors = frame.errors.as_ref().ok();
+    let error = errors.map(|(_, errors)| errors.promised());
+    let error = error.filter(|error| error.is_finite());
+    parts.extend(error.map(|error| (2, wear_error(error), 12)));
     let outside = |warning: &String| warning.starts_with("outside");
     if frame.facts.warnings.iter().any(outside) {
         parts.push((2, "! outside the theory".into(), 0));

@@ -10,7 +10,7 @@ use ratatui::prelude::*;
 
 use super::Event;
 use super::app::App;
-use super::event_loop::Scene;
+use super::event_loop::Next;
 use super::keys::{self, Key};
 use super::screen;
 use super::theme::{Look, Theme};
@@ -84,13 +84,18 @@ pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) 
     let (events, inbox) = channel();
     let worker = Worker::new(session, events, Duration::MAX, false);
     let thread = std::thread::spawn(move || worker.serve(&to_worker));
-    let mut app = App::new(theme, orders.clone());
-    let outcome = press(&mut app, strokes, size, &orders, &inbox);
+    let played = || {
+        let first = orders.frame().context("the simulation has ended")?;
+        let mut app = App::new(theme, orders.clone(), first);
+        let size = press(&mut app, strokes, size, &orders, &inbox)?;
+        Ok(text(&app, size))
+    };
+    let outcome = played();
     orders.send(Worker::quit);
     if let Err(panic) = thread.join() {
         std::panic::resume_unwind(panic);
     }
-    outcome.map(|size| text(&app, size))
+    outcome
 }
 
 /// Presses the keys one by one, each after the simulation has answered the one before, and prints
@@ -113,7 +118,8 @@ pub fn play(
             } else {
                 Ground::DARK
             };
-            screen_svg::picture(&drawn(app, size), ground)
+            let drawn = drawn(size, |area, buffer| screen::draw(app, area, buffer));
+            screen_svg::picture(&drawn, ground)
         }
     };
     io::stdout().lock().write_all(screen.as_bytes())?;
@@ -132,7 +138,7 @@ fn press(
     orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<Size> {
-    app.resize(size.width, size.height);
+    app.resize(size);
     catch_up(app, orders, events)?;
     for stroke in strokes {
         match stroke {
@@ -140,11 +146,11 @@ fn press(
             Stroke::Paste(text) => app.paste(text),
             Stroke::Resize(other) => {
                 size = *other;
-                app.resize(size.width, size.height);
+                app.resize(size);
             }
         }
         catch_up(app, orders, events)?;
-        if app.leave.is_some() {
+        if matches!(app.next, Next::Leave | Next::LeaveScreen) {
             break;
         }
         text(app, size);
@@ -154,12 +160,6 @@ fn press(
 
 fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<()> {
     app.take_frame(orders.frame().context("the simulation has ended")?);
-    // Waits for the refinement check, so that a script always sees its result.
-    while app.awaits_refinement() {
-        if let Event::RefinementCheck(answer) = events.recv().context("the simulation has ended")? {
-            app.refinement_check = Some(answer);
-        }
-    }
     while let Ok(event) = events.try_recv() {
         // A script sees all points; the frame that it sees is the one that it has waited for.
         match &event {
@@ -172,17 +172,16 @@ fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<
     Ok(())
 }
 
-/// The screen as it is drawn.
-fn drawn(app: &App, size: Size) -> Buffer {
-    let area = Rect::from(size);
-    let mut buffer = Buffer::empty(area);
-    screen::draw(app, area, &mut buffer);
+/// A screen of a size as it is drawn.
+pub fn drawn(size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Buffer {
+    let mut buffer = Buffer::empty(size.into());
+    draw(buffer.area, &mut buffer);
     buffer
 }
 
 /// The screen as lines of text, trailing blanks cut.
 pub fn text(app: &App, size: Size) -> String {
-    lines(&drawn(app, size))
+    lines(&drawn(size, |area, buffer| screen::draw(app, area, buffer)))
 }
 
 /// The sign of a cell in text: a blank that a colour fills is a half block, as it is where two colours do. A blank

@@ -73,19 +73,6 @@ impl Setting {
         }
     }
 
-    /// The rule for a value, in one line.
-    pub fn rule(&self) -> String {
-        match self.parameter.kind {
-            Kind::Whole => format!("a whole number{}", self.parameter.allowed()),
-            Kind::Number => match self.parameter.allowed().as_str() {
-                "" => Kind::Number.wanted(),
-                allowed => format!("a number{allowed}"),
-            },
-            Kind::Choice(_) => self.words().unwrap_or_default().join(", "),
-            kind => kind.wanted(),
-        }
-    }
-
     /// Why the value cannot change during a run, in a sentence; `None` where it can.
     pub fn fixed(&self) -> Option<String> {
         let because = self.parameter.fixed?;

@@ -13,7 +13,7 @@ const CONTACT_FROM: u16 = 100;
 const CONTACT_ROWS: u16 = 22;
 
 /// The panels' stage.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Stage {
     /// The panel with the focus.
     pub focus: Panel,
@@ -33,31 +33,11 @@ pub struct Stage {
     click_has_zoomed: bool,
 }
 
-impl Default for Stage {
-    fn default() -> Self {
-        Self {
-            focus: Panel::Profile,
-            zoomed: false,
-            before_contact: None,
-            presents: false,
-            tour: None,
-            before_tour: Panel::Profile,
-            area: Rect::new(0, 0, 80, 24),
-            click_has_zoomed: false,
-        }
-    }
-}
-
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
         let places = layout::places(self, layout::middle(self.area));
         places.into_iter().map(|(panel, _)| panel).collect()
-    }
-
-    /// How many panels the terminal has room for.
-    fn room(&self) -> usize {
-        layout::room(layout::middle(self.area))
     }
 
     /// The panels beside the focused one where `room` of them fit.
@@ -68,7 +48,8 @@ impl Stage {
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
-        let room = self.room().max(1);
+        let (across, down) = layout::grid(layout::middle(self.area));
+        let room = across * down;
         let next = (self.focus as usize / room + 1) * room;
         self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);
     }

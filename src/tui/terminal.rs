@@ -31,20 +31,11 @@ const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1000l";
 /// none.
 const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 
-/// Who handles the mouse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Capture {
-    /// The terminal, which selects text with it.
-    None,
-    /// The explorer, which is told of clicks and the wheel.
-    Clicks,
-}
-
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
     output: Output,
     writer: AnsiWriter,
-    mouse: Capture,
+    mouse: bool,
     /// What is known of the line to the terminal.
     pub flow: Flow,
     /// Whether the terminal was restored successfully.
@@ -80,7 +71,7 @@ pub fn size() -> io::Result<Size> {
 impl Screen {
     /// Takes the terminal over, and the mouse as well if it was asked for. `events` is told when the
     /// terminal has taken what was drawn, and when it is gone; with `asks`, also what the background is.
-    pub fn open(mouse: Capture, asks: bool, events: Sender<Event>) -> io::Result<Self> {
+    pub fn open(mouse: bool, asks: bool, events: Sender<Event>) -> io::Result<Self> {
         let mut screen = Self {
             output: Output::open(events)?,
             writer: AnsiWriter::default(),
@@ -103,10 +94,7 @@ impl Screen {
 
     /// Gives the terminal back, for a while or for good. True if it has taken that.
     pub fn give_back(&mut self) -> bool {
-        let mouse = match self.mouse {
-            Capture::Clicks => MOUSE_OFF,
-            Capture::None => "",
-        };
+        let mouse = if self.mouse { MOUSE_OFF } else { "" };
         self.is_restored = self.output.finish(&format!("{mouse}{GIVE_BACK}"));
         let _ = disable_raw_mode();
         self.is_restored
@@ -117,7 +105,7 @@ impl Screen {
         enable_raw_mode()?;
         self.is_restored = false;
         self.output.send(TAKE_OVER);
-        if self.mouse == Capture::Clicks {
+        if self.mouse {
             self.output.send(MOUSE_ON);
         }
         self.flow.forget();

@@ -7,8 +7,9 @@
 
 use ratatui::prelude::*;
 
+use super::canvas::Canvas;
 use super::frame::Frame;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 use crate::charts::round_end;
 
 /// The cells that words leave to the line, where half of the row is not enough for them.
@@ -63,9 +64,9 @@ pub fn cycle_at(frame: &Frame, area: Rect, at: Position) -> Option<f64> {
 }
 
 /// Draws the timeline.
-pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    let ascii = theme.ascii();
-    let ([now, end], (words, line)) = (ends(frame), parts(frame, area));
+pub fn draw(frame: &Frame, mut canvas: Canvas) {
+    let (theme, ascii) = (canvas.theme, canvas.theme.ascii());
+    let ([now, end], (words, line)) = (ends(frame), parts(frame, canvas.area));
     let place = |cycle: f64| {
         let share = (cycle / end).clamp(0.0, 1.0) * f64::from(line.width);
         (share as u16).min(line.width.saturating_sub(1))
@@ -89,5 +90,5 @@ pub fn draw(frame: &Frame, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     }
     signs.insert(0, Span::raw(" 0 "));
     signs.push(Span::raw(theme.printable(&words)));
-    Line::from(signs).render(area, buffer);
+    canvas.show(Line::from(signs));
 }

@@ -3,11 +3,9 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use ratatui::prelude::*;
-use ratatui::widgets::{Paragraph, Wrap};
-
-use super::panels::{self, Panel};
-use super::theme::{Role, Theme};
+use super::canvas::Canvas;
+use super::panels::Panel;
+use super::theme::Role;
 
 /// A caption.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Deserialize)]
@@ -72,18 +70,16 @@ impl Tour {
         captions(&self.origin).get(self.at)
     }
 
-    /// Draws the caption into `area`.
-    pub fn draw(&self, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+    /// Draws the caption.
+    pub fn draw(&self, mut canvas: Canvas) {
         let Some(caption) = self.caption() else {
             return;
         };
         let (at, count) = (self.at + 1, captions(&self.origin).len());
         let title = format!("tour {at}/{count} (n next, Esc closes)");
-        let inside = panels::titled(&title, Role::Notice, theme, area, buffer);
-        let inside = inside.inner(Margin::new(1, 0));
-        Paragraph::new(theme.printable(&caption.text))
-            .wrap(Wrap { trim: true })
-            .render(inside, buffer);
+        let text = canvas.printable(&caption.text);
+        let mut inside = canvas.titled(&title, Role::Notice);
+        inside.indented().write(text);
     }
 }
 

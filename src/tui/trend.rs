@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::loops::Loops;
-use crate::export::history;
+use crate::charts::Run;
+use crate::export::{history, state};
 use crate::math::scan::largest;
-use crate::reading::Moment;
+use crate::reading::{Moment, Observation};
 use crate::scenario::scalars::{Reading, scar_radius};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
@@ -38,6 +39,20 @@ impl Recorded {
     /// Where it stands.
     pub fn cycle(&self) -> f64 {
         self.simulation().cycle()
+    }
+
+    /// What charts are made of: what is `seen` of the present moment, and the past.
+    pub fn charted(&self, seen: &Observation) -> Run {
+        let moment = &seen.moment;
+        let header = vec![("cycle".to_owned(), moment.cycle.to_string())];
+        let moves = moment.stick_radius.is_some();
+        let last = moves.then(|| self.trend.loops.last(moment.cycle));
+        Run {
+            states: vec![Table::of_columns(header, state::columns(seen))],
+            history: Some(self.trend.history()),
+            loops: last.into_iter().collect(),
+            ..Run::default()
+        }
     }
 
     /// One step or jump that ends at `goal` at the latest, and is recorded.

@@ -13,7 +13,7 @@ use mdr_tui::tui::theme::{Depth, Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 use vt100::Parser;
 
@@ -30,7 +30,7 @@ impl Counted {
         // The longest names of colours.
         let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
         let mut explorer = Explorer::on("li2019-fig3", theme);
-        explorer.app.resize(columns, rows);
+        explorer.app.resize(Size::new(columns, rows));
         let line = AnsiWriter::default();
         Self { line, explorer }
     }

@@ -94,7 +94,9 @@ fn typing_in_the_parameter_list_loses_no_run() {
     }
     // One by one, and the list stays open.
     for letter in letters.chars().filter(|c| !"jk".contains(*c)) {
-        has(&shot(&format!(",e{letter}")), "cancels)");
+        has(&shot(&format!(",e<Down>{letter}")), "Esc cancels)");
+        has(&shot(&format!(",e{letter}")), "Esc closes)");
+        has(&shot(&format!(",e{letter}<Esc>")), "Esc: close)");
     }
     // What is applied may change the run, and never leaves it.
     let words: Vec<char> = letters

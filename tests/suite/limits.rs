@@ -76,6 +76,8 @@ fn a_signal_ends_the_map_and_the_explorer_that_it_has_opened() {
         let mut terminal = Terminal::start(command, 100, 30);
         terminal.wait_for("mean depth d");
         terminal.press("\r");
+        terminal.wait_for("paused");
+        terminal.press(" ");
         terminal.wait_until("the explorer", |screen| {
             crate::pty::cycle(screen).is_some_and(|cycle| cycle > 0.1)
         });

@@ -25,7 +25,7 @@ use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use mdr_tui::tui::{Event, screen, tour};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::text::Line;
 
 /// Small to large screens.
@@ -62,13 +62,13 @@ fn a_cut_through_the_bodies() {
 #[test]
 fn a_click_on_the_timeline_travels_there() {
     let mut stage = explorer("li2019-fig3");
-    stage.app.resize(100, 30);
+    stage.app.resize(Size::new(100, 30));
     stage.press(",,,,,,,,");
     // 89 columns for 199.24 cycles.
     for (column, cycle, present) in [(4, 3.0, Some(8.0)), (60, 8.0, None)] {
         stage.app.point(Gesture::Click(Position::new(column, 1)));
         stage.press("<Esc>");
-        let frame = stage.app.frame.clone().expect("a frame");
+        let frame = stage.app.frame.clone();
         let seen = (frame.observation.moment.cycle, frame.present);
         assert_eq!(seen, (cycle, present));
     }
@@ -80,7 +80,7 @@ fn a_lecture_speeds_up_by_itself() {
     let stage = explorer("li2019-fig3");
     let mut frame = Frame::clone(&stage.frame());
     let theme = Theme::new(Look::Dark, Marker::Braille);
-    let mut app = App::new(theme, stage.worker.orders.clone());
+    let mut app = App::new(theme, stage.worker.orders.clone(), stage.frame());
     app.stage.present();
     let (running, paused) = (Activity::Running, Activity::Paused);
     for (at, cycle, activity, rises) in [
@@ -430,7 +430,7 @@ fn a_screen_can_be_printed_as_a_picture() {
 }
 
 #[test]
-fn the_accuracy_panel_waits_for_the_companion_and_shows_what_it_found() {
+fn the_accuracy_panel_waits_for_the_twin_and_shows_what_it_tells() {
     let text = shot("li2019-fig3", ",,,a", (80, 24));
     for (meaning, largest) in [
         ("V of the profile against k E_d since the start", 5e-3),

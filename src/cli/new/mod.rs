@@ -60,7 +60,10 @@ pub fn new(options: &New) -> Result<()> {
     };
     match opens {
         // A name that begins with a dash is not an option.
-        true => explore::explore(&Arguments::parse_from(["mdr-tui", "--", &options.file]).explore),
+        true => {
+            let explorer = Arguments::parse_from(["mdr-tui", "--", &options.file]).explore;
+            explore::explore(&explorer, None)
+        }
         false => Ok(()),
     }
 }

@@ -22,6 +22,7 @@ use crate::plot::shades::{self, has_blocks};
 use crate::plot::units::{format_value, range_ends};
 use crate::plot::{Axis, Chart, Plot, Point, Scale};
 use crate::studies::sweep::slice::REGIMES;
+use crate::tui::canvas::Canvas;
 use crate::tui::footer;
 use crate::tui::theme::{Role, Theme};
 
@@ -40,10 +41,11 @@ const QUIT: [&str; 2] = ["q", "quit"];
 /// Significant digits of what is read.
 const DIGITS: usize = 4;
 
-/// Draws the whole screen.
-pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
+/// Draws the whole screen; what the user is `told` stands in place of the keys.
+pub fn draw(view: &View, told: Option<&str>, mut canvas: Canvas) {
+    let (area, theme) = (canvas.area, &canvas.theme.clone());
     if area.width < 20 || area.height < 10 {
-        return Line::raw("too small: needs 20x10 or more").render(area, buffer);
+        return canvas.show(Line::raw("too small: needs 20x10 or more"));
     }
     let ((there, failed), points) = (view.slice.count(), view.slice.study.points());
     let failed = match failed {
@@ -60,34 +62,30 @@ pub fn draw(view: &View, theme: &Theme, area: Rect, buffer: &mut Buffer) {
     let mut names: Vec<String> = names.collect();
     let here = view.here();
     names.extend(here.map(|_| format!("{} you are here", here_sign(theme))));
-    let (point, quiet) = (view.point(), theme.style(Role::Quiet));
-    let below = area.height - 4;
-    let mut write = |row: u16, column: u16, text: &str, style: Style| {
-        let room = usize::from(area.width - column);
-        let text = theme.printable(text);
-        buffer.set_stringn(area.x + column, area.y + row, text, room, style);
-    };
-    write(0, 0, &view.name, theme.style(Role::Title));
-    write(0, behind, &count, quiet);
-    write(below, 0, &names.join("   "), quiet);
-    write(below + 1, 0, &place(view, point), Style::new());
-    write(
-        below + 2,
-        0,
-        &reading(view, point),
-        theme.style(Role::Notice),
-    );
+    let (point, below) = (view.point(), area.height - 4);
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
-    legend(view, theme, &chart).render(row(1), buffer);
+    let count_place = Rect::new(area.x + behind, area.y, area.width - behind, 1);
+    for (place, text, role) in [
+        (row(0), &view.name, Role::Title),
+        (count_place, &count, Role::Quiet),
+        (row(below), &names.join("   "), Role::Quiet),
+        (row(below + 1), &place(view, point), Role::Quiet),
+        (row(below + 2), &reading(view, point), Role::Notice),
+    ] {
+        let text = canvas.printable(text);
+        let style = canvas.style(role);
+        canvas.at(place).show(Line::styled(text, style));
+    }
+    canvas.at(row(1)).show(legend(view, theme, &chart));
     signs(view, theme, &mut chart);
     let body = Rect::new(area.x, area.y + 2, area.width, area.height - 6);
     let place = view.cursor()[0];
     let along = view.slice.x().number(place).unwrap_or(place as f64);
     let along = Some(along).filter(|_| chart.map.is_none());
-    Plot::new(&chart, theme).cursor(along).render(body, buffer);
-    let told = view.notice.as_deref().map(|text| (text, Role::Notice));
+    canvas.at(body).show(Plot::new(&chart, theme).cursor(along));
+    let told = told.map(|text| (text, Role::Notice));
     let last = row(area.height - 1);
-    footer::draw_line(told, &KEYS, &[QUIT], theme, last, buffer);
+    footer::draw_line(told, &KEYS, &[QUIT], canvas.at(last));
 }
 
 /// Puts the signs on the chart that belong to a screen: the base scenario, and on a map points without a value, the

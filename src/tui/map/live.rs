@@ -1,28 +1,37 @@
-//! `:sweep KEY A..B`: a study of one key around the present scenario, shown while it runs.
+//! Studies that are shown while they run: `:sweep KEY A..B`, one key around the present scenario, and the table of
+//! another program's, which is read again whenever it has grown.
 
-use std::fmt;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex};
-use std::thread;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
+use std::{fmt, fs, thread};
 
-use ratatui::prelude::*;
-use ratatui::widgets::Clear;
 use rayon::ThreadPoolBuilder;
 
 use super::draw;
-use super::view::{Leave, View};
+use super::view::View;
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::engine::{self, Check};
+use crate::studies::sweep::record::Record;
 use crate::studies::sweep::{Shard, Study};
 use crate::tui::app::App;
-use crate::tui::keys::Key;
-use crate::tui::locked;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command};
+use crate::tui::event_loop::Next;
+use crate::tui::keys::{Key, Named};
 use crate::tui::overlays::Answer;
-use crate::tui::theme::Theme;
+use crate::tui::{Event, locked};
 
 /// The points of the study.
 pub const POINTS: usize = 25;
+
+/// What is told until a point is open.
+pub const OPENING: &str = "opening the point ...";
+
+/// How often a table is looked at.
+const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 
 /// From this ratio of its ends on, the axis is logarithmic.
 const DECADES: f64 = 20.0;
@@ -108,9 +117,53 @@ pub struct Live {
     view: Arc<Mutex<View>>,
     halt: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
+    /// The table that it is read from, which the explorer was opened for; `None` if it runs here.
+    file: Option<Arc<Path>>,
+}
+
+/// When a file was changed last, and its length.
+fn changed(file: &Path) -> Option<(SystemTime, u64)> {
+    let about = fs::metadata(file).ok()?;
+    Some((about.modified().ok()?, about.len()))
 }
 
 impl Live {
+    /// The study in a table, as far as that goes.
+    ///
+    /// # Errors
+    ///
+    /// One line: a file that cannot be read, or is no table of a study.
+    pub fn of_file(file: &Path) -> Result<Self, Refusal> {
+        let view = View::new(Record::of_file(file)?, &file.display().to_string())?;
+        Ok(Self {
+            view: Arc::new(Mutex::new(view)),
+            halt: Arc::default(),
+            done: Arc::new(true.into()),
+            file: Some(file.into()),
+        })
+    }
+
+    /// Reads the table again whenever it has grown, and tells that there is something new to see.
+    pub fn watch(&self, events: Sender<Event>) {
+        let (shared, file) = (self.clone(), self.file.clone());
+        thread::spawn(move || {
+            let mut seen = None;
+            while let Some(file) = &file {
+                thread::sleep(LOOK_INTERVAL);
+                let now = changed(file);
+                if now == seen {
+                    continue;
+                }
+                seen = now;
+                // A file that is being replaced is read again the next time.
+                let _ = Record::of_file(file).map(|rows| shared.with(|view| view.renew(rows)));
+                if events.send(Event::News).is_err() {
+                    return;
+                }
+            }
+        });
+    }
+
     /// Starts the study in threads of its own; `tell` is called when there is something new to see.
     ///
     /// # Errors
@@ -132,6 +185,7 @@ impl Live {
             view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
             halt: Arc::default(),
             done: Arc::default(),
+            file: None,
         };
         let shared = live.clone();
         thread::spawn(move || {
@@ -153,28 +207,36 @@ impl Live {
         act(&mut locked(&self.view))
     }
 
-    /// Answers a key; leaving ends the study.
+    /// Answers a key; leaving ends the study, or the explorer that was opened for it.
     pub fn press(&self, key: Key, app: &mut App) -> Answer {
-        let Some(leave) = self.with(|view| view.press(key)) else {
-            return Answer::Stay;
-        };
-        self.halt.store(true, Ordering::Relaxed);
-        if let Leave::Open(point) = leave {
-            match self.with(|view| view.slice.study.scenario(point)) {
-                Ok(scenario) => app.order(|run| run.load(scenario)),
-                Err(error) => {
-                    app.notice = Some(error.to_string());
-                    return Answer::Stay;
+        match (key, command::of_key(key)) {
+            (_, Some(Command::Suspend)) => app.run(Command::Suspend),
+            (Key::Char('q') | Key::Named(Named::Esc), _) if self.file.is_some() => {
+                app.next = Next::Leave;
+            }
+            (Key::Char('q') | Key::Named(Named::Esc), _) => {
+                self.halt.store(true, Ordering::Relaxed);
+                return Answer::Close;
+            }
+            (Key::Named(Named::Enter), _) => {
+                match self.with(|view| view.slice.study.scenario(view.point())) {
+                    Ok(scenario) => {
+                        self.halt.store(true, Ordering::Relaxed);
+                        app.map = Some(self.clone()).filter(|_| self.file.is_some());
+                        app.notice = Some(OPENING.to_owned());
+                        app.order_anew(|run| run.open_point(scenario));
+                    }
+                    Err(error) => app.notice = Some(error.to_string()),
                 }
             }
+            _ => self.with(|view| view.press(key)),
         }
-        Answer::Close
+        Answer::Stay
     }
 
-    /// Draws it over the whole of `area`.
-    pub fn draw(&self, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-        Clear.render(area, buffer);
-        self.with(|view| draw::draw(view, theme, area, buffer));
+    /// Draws it on the whole screen, and what the user is told.
+    pub fn draw(&self, told: Option<&str>, canvas: Canvas) {
+        self.with(|view| draw::draw(view, told, canvas));
     }
 
     /// Waits for the last point.

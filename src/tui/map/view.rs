@@ -12,15 +12,6 @@ use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{Axis, Design, Study};
 use crate::tui::keys::{Key, Named};
 
-/// How the view is left.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Leave {
-    /// For good.
-    Quit,
-    /// To open this point in the explorer.
-    Open(usize),
-}
-
 /// A study, and what of it is shown.
 #[derive(Debug)]
 pub struct View {
@@ -35,8 +26,6 @@ pub struct View {
     /// Whether the scale of the column is the other one than what its values ask for.
     is_flipped: bool,
     borders: RefCell<HashMap<Vec<usize>, Vec<Line>>>,
-    /// A notice, shown until the next key.
-    pub notice: Option<String>,
 }
 
 impl View {
@@ -64,7 +53,6 @@ impl View {
             with_overlays: true,
             is_flipped: false,
             borders: RefCell::default(),
-            notice: None,
         })
     }
 
@@ -77,12 +65,9 @@ impl View {
         self.slice.renew(record, &self.name)
     }
 
-    /// Answers a key.
-    pub fn press(&mut self, key: Key) -> Option<Leave> {
-        self.notice = None;
+    /// Answers a key that changes what is shown.
+    pub fn press(&mut self, key: Key) {
         match key {
-            Key::Char('q') | Key::Ctrl('c') | Key::Named(Named::Esc) => return Some(Leave::Quit),
-            Key::Named(Named::Enter) => return Some(Leave::Open(self.point())),
             Key::Char('l') | Key::Named(Named::Right) => self.move_by(Some(self.slice.x), 1),
             Key::Char('h') | Key::Named(Named::Left) => self.move_by(Some(self.slice.x), -1),
             Key::Char('k') | Key::Named(Named::Up) => self.move_by(self.slice.y, 1),
@@ -101,7 +86,6 @@ impl View {
             Key::Char('[') => self.move_others(-1),
             _ => {}
         }
-        None
     }
 
     fn columns(&self) -> usize {

@@ -1,10 +1,8 @@
-//! The checks of the run, what each means, and the same run on half the cells.
+//! The checks of the run, what each means, and the errors that the same run on half the cells tells.
 
-use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
-
-use super::{App, Command, popup};
-use crate::tui::theme::Role;
+use super::*;
+use crate::studies::refinement::Level;
+use crate::tui::beside::NOTHING_YET;
 
 /// What closes the panel, and what is done while it is open: the run can be watched from here.
 pub(super) const CLOSING: &[Command] = &[Command::Back, Command::Accuracy, Command::Accept];
@@ -13,18 +11,14 @@ pub(super) const WATCHED: &[Command] = &[
     Command::RunPause, Command::Step, Command::Cycle, Command::Faster, Command::Slower,
 ];
 
-/// What both pages say before anything can be checked.
-const NOTHING: &str = "nothing to compare yet: let it run for a cycle";
-
-/// The checks of the run and the refinement check.
-pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(frame) = &app.frame else { return };
-    let [title, alarm] = [Role::Title, Role::Alarm].map(|role| app.theme.style(role));
+/// The checks of the run and its errors.
+pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
+    let [title, alarm] = [Role::Title, Role::Alarm].map(|role| canvas.style(role));
     let text = |text: &str| Line::raw(format!("   {text}"));
     let error = |value: f64, meaning: &str| text(&format!("{value:9.1e}  {meaning}"));
     let mut lines = vec![Line::styled(" two ways to the same number:", title)];
     if frame.checks.is_empty() {
-        lines.push(text(NOTHING));
+        lines.push(text(NOTHING_YET));
     }
     lines.extend(frame.checks.iter().map(|check| {
         let line = error(check.error, check.subject.meaning());
@@ -35,36 +29,33 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     }));
     let estimated = " estimated from the same run on fewer cells and steps:";
     lines.extend([Line::default(), Line::styled(estimated, title)]);
-    match &app.refinement_check {
-        None => lines.push(text("running ...")),
-        Some(Err(error)) => lines.push(text(error)),
-        Some(Ok(check)) => {
+    match &frame.errors {
+        _ if frame.observation.moment.wear_volume == 0.0 => lines.push(text("nothing has worn")),
+        Err(why) => lines.push(text(why)),
+        Ok((cycle, of)) => {
+            let Level { points, steps, .. } = Level::of(&frame.facts.scenario);
             lines.push(text(&format!(
-                "{} cells, {} steps per cycle, to cycle {:.2}, in {:.2} s",
-                check.level.points, check.level.steps, check.cycle, check.seconds
+                "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));
-            match &check.error {
-                None => lines.push(text("nothing has worn")),
-                Some(of) => {
-                    let rows = [
-                        (of.worn_depth, "the worn depth, rms, of its largest"),
-                        (of.volume, "the worn volume"),
-                        (of.force, "F_x"),
-                        (of.pressure, "p away from borders, rms"),
-                    ];
-                    lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
-                }
-            }
+            let rows = [
+                (of.worn_depth, "the worn depth, rms, of its largest"),
+                (of.volume, "the worn volume"),
+                (of.force, "F_x"),
+                (of.pressure, "p away from borders, rms"),
+            ];
+            lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
         }
     }
-    let title = "accuracy (Esc closes, Tab explains)";
-    page((title, 76), lines, app, area, buffer);
+    let (title, size) = (
+        "accuracy (Esc closes, Tab explains)",
+        (76, lines.len() as u16 + 2),
+    );
+    canvas.popup(title, size).show(Paragraph::new(lines));
 }
 
 /// What each check of the moment compares, and what a difference means; what lies outside the
 /// theory.
-pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(frame) = &app.frame else { return };
+pub(super) fn draw_explanations(frame: &Frame, mut canvas: Canvas) {
     let warnings = frame.facts.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {warning}"));
     let checks = frame.checks.iter().map(|check| {
@@ -75,40 +66,9 @@ pub(super) fn draw_explanations(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         format!("{verdict}. {}", check.subject.explanation())
     });
-    let paragraphs = warnings.chain(checks);
-    let lines = paragraphs.flat_map(|text| wrapped(&text, usize::from(WIDTH - 4)));
-    let mut lines: Vec<Line> = lines.map(Line::raw).collect();
+    let mut lines: Vec<Line> = warnings.chain(checks).map(Line::raw).collect();
     if lines.is_empty() {
-        lines.push(Line::raw(NOTHING));
+        lines.push(Line::raw(NOTHING_YET));
     }
-    let title = "checks (Esc closes, Tab goes back)";
-    page((title, WIDTH), lines, app, area, buffer);
-}
-
-/// A page of text.
-fn page((title, width): (&str, u16), lines: Vec<Line>, app: &App, area: Rect, buffer: &mut Buffer) {
-    let size = (width, lines.len() as u16 + 2);
-    let inside = popup(&app.theme, title, size, area, buffer);
-    Paragraph::new(lines).render(inside, buffer);
-}
-
-/// The width of the page that explains, cells.
-const WIDTH: u16 = 78;
-
-/// A text in lines of at most `width` characters, those behind the first one indented.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::from(" ")];
-    for word in text.split_whitespace() {
-        let line = lines.last().map_or(0, |line| line.chars().count());
-        if line + word.chars().count() + 1 > width {
-            lines.push(String::from("   "));
-        }
-        if let Some(line) = lines.last_mut() {
-            if !line.ends_with(' ') {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-    }
-    lines
+    canvas.page("checks (Esc closes, Tab goes back)", 78, lines);
 }

@@ -1,11 +1,7 @@
 //! What the focused panel shows: a few sentences, its symbols, and what to look for in this scenario.
 
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-use ratatui::widgets::{Paragraph, Wrap};
-
-use super::{App, Command, popup};
-use crate::tui::theme::Role;
+use super::*;
+use crate::tui::canvas::rows;
 use crate::tui::{layout, panels, tour};
 
 /// What closes the explanation, and what is done while it is open: it follows the focus, and the run can continue.
@@ -29,8 +25,8 @@ fn beside(app: &App, area: Rect) -> Rect {
     larger.filter(|part| !part.is_empty()).unwrap_or(area)
 }
 
-pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
+pub(super) fn draw(app: &App, mut canvas: Canvas) {
+    let (theme, area) = (canvas.theme, canvas.area);
     let is_compared = app.compares();
     // In a comparison there are other panels than the focused one.
     let focus = app.stage.focus;
@@ -62,29 +58,19 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         lines.extend(here.map(|caption| Line::raw(spelled(&caption.text))));
     }
     let width = area.width.min(80);
-    let inner = usize::from(width.saturating_sub(10).max(1));
-    let rows = |lines: &[Line]| -> u16 {
-        let rows = lines.iter().map(|line| line.width().div_ceil(inner).max(1));
-        2 + rows.sum::<usize>() as u16
-    };
     // Where the whole would cover the panel, it is told in running text, without what can be done without.
-    let (mut place, mut height) = (beside(app, area), rows(&lines));
-    if height > place.height {
+    let mut place = beside(app, area);
+    if rows(&lines, width) > place.height {
         let symbols = symbols
             .iter()
             .map(|(symbol, meaning)| format!("{symbol}: {meaning}"));
         let symbols = symbols.collect::<Vec<_>>().join("; ");
         let brief = vec![Line::raw(spelled(text)), Line::raw(spelled(&symbols))];
-        if rows(&brief) <= place.height {
-            (height, lines) = (rows(&brief), brief);
-        } else {
-            place = area;
+        match rows(&brief, width) <= place.height {
+            true => lines = brief,
+            false => place = area,
         }
     }
     let title = format!("{title} ({keys})");
-    let inside = popup(&app.theme, &title, (width, height), place, buffer);
-    let inside = inside.inner(Margin::new(1, 0));
-    Paragraph::new(lines)
-        .wrap(Wrap { trim: false })
-        .render(inside, buffer);
+    canvas.at(place).page(&title, width, lines);
 }

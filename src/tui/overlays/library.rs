@@ -1,18 +1,12 @@
 //! Scenarios to choose from: the presets, and the user's own files, with what they show.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-use ratatui::widgets::{Paragraph, Wrap};
-
-use super::{Answer, App, Command, Key, leave_for, list, popup, select};
+use super::*;
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
-use crate::tui::command;
 use crate::tui::line::one_line;
 use crate::tui::snapshot;
-use crate::tui::theme::Role;
 
 /// The most entries of a directory that are listed.
 const LONGEST: usize = 1000;
@@ -168,23 +162,23 @@ impl Library {
         Answer::Stay
     }
 
-    pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+    pub(super) fn draw(&self, mut canvas: Canvas) {
         let names = preset::ALL.iter().map(|preset| preset.name.len());
         let width = names.max().unwrap_or(0);
         let height = self.entries.len() as u16 + WORDS + 2;
         let title = "presets and your own files (Enter starts, Esc closes)";
-        let inside = popup(&app.theme, title, (80, height), area, buffer);
-        let shown = inside.height.saturating_sub(WORDS);
-        let [above, _, below] = Layout::vertical([Length(shown), Length(1), Fill(1)]).areas(inside);
+        let mut inside = canvas.popup(title, (80, height));
+        let (theme, shown) = (inside.theme, inside.area.height.saturating_sub(WORDS));
+        let rows = Layout::vertical([Length(shown), Length(1), Fill(1)]);
+        let [above, _, below] = rows.areas(inside.area);
         let line = |entry: &Entry| {
-            let [name, title] = [&*entry.name, entry.title()].map(|text| app.theme.printable(text));
+            let [name, title] = [&*entry.name, entry.title()].map(|text| theme.printable(text));
             Line::raw(format!(" {name:width$}  {title} "))
         };
-        let (lines, focus) = (self.entries.iter().map(line), app.theme.style(Role::Focus));
-        list(lines, self.at, focus, above, buffer);
-        Paragraph::new(app.theme.printable(&self.about))
-            .style(app.theme.style(Role::Quiet))
-            .wrap(Wrap { trim: true })
-            .render(below.inner(Margin::new(1, 0)), buffer);
+        let focus = inside.style(Role::Focus);
+        let entries = self.entries.iter().map(line);
+        inside.at(above).list(entries, self.at, focus);
+        let about = theme.printable(&self.about);
+        inside.at(below).indented().write(about);
     }
 }

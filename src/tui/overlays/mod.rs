@@ -1,17 +1,21 @@
-//! Overlays, one per file: each has its own state, handles keys and draws itself.
+//! Overlays, one per file: each has its own state, handles keys and draws itself. What they have in common is imported
+//! here; each of them begins with `use super::*`.
 
+use std::path::Path;
+
+use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
-use ratatui::widgets::{Borders, Clear, List, ListState};
+use ratatui::widgets::Paragraph;
 
 use super::app::App;
-use super::command::{self, Command};
+use super::canvas::Canvas;
+use super::command::{self, Command, Row};
 use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
-use super::panels::framed;
 use super::settings::Setting;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 
 mod accuracy;
 mod explain;
@@ -46,9 +50,7 @@ pub enum Overlay {
     Palette(Palette),
     /// The parameters.
     Form(Form),
-    /// The note of a snapshot.
-    Note(LineEdit),
-    /// A study of one key.
+    /// A study, on the whole screen.
     Sweep(Live),
 }
 
@@ -79,7 +81,6 @@ impl Overlay {
             },
             Self::Palette(palette) => palette.press(key, app),
             Self::Form(form) => form.press(key, app),
-            Self::Note(line) => note(line, key, app),
             Self::Sweep(live) => live.press(key, app),
         }
     }
@@ -87,31 +88,23 @@ impl Overlay {
     /// The line being typed, if there is one.
     pub fn line(&mut self) -> Option<&mut LineEdit> {
         match self {
-            Self::Help(help) => help.search.as_mut(),
             Self::Palette(palette) => Some(&mut palette.line),
-            Self::Form(form) => form.line(),
-            Self::Note(line) => Some(line),
+            Self::Form(form) => form.typed.as_mut(),
             _ => None,
         }
     }
 
-    /// Draws it over `area`.
-    pub fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
+    /// Draws it over the panels, unless it has the whole screen.
+    pub fn draw(&self, app: &App, canvas: Canvas) {
         match self {
-            Self::None => {}
-            Self::Help(help) => help.draw(app, area, buffer),
-            Self::Library(library) => library.draw(app, area, buffer),
-            Self::Accuracy { explains: false } => accuracy::draw(app, area, buffer),
-            Self::Accuracy { explains: true } => accuracy::draw_explanations(app, area, buffer),
-            Self::Explain => explain::draw(app, area, buffer),
-            Self::Palette(palette) => palette.draw(app, area, buffer),
-            Self::Form(form) => form.draw(app, area, buffer),
-            Self::Sweep(live) => live.draw(&app.theme, area, buffer),
-            Self::Note(line) => {
-                let title = "snapshot with a note (Enter writes, Esc closes)";
-                let inside = docked(&app.theme, title, (100, 3), area, buffer);
-                typing(" ", line, Style::new()).render(inside, buffer);
-            }
+            Self::None | Self::Sweep(_) => {}
+            Self::Help(help) => help.draw(canvas),
+            Self::Library(library) => library.draw(canvas),
+            Self::Accuracy { explains: false } => accuracy::draw(&app.frame, canvas),
+            Self::Accuracy { explains: true } => accuracy::draw_explanations(&app.frame, canvas),
+            Self::Explain => explain::draw(app, canvas),
+            Self::Palette(palette) => palette.draw(app, canvas),
+            Self::Form(form) => form.draw(app, canvas),
         }
     }
 }
@@ -142,42 +135,6 @@ fn watch(
     }
 }
 
-/// The settings on the screen.
-fn settings(frame: Option<&Frame>) -> &[Setting] {
-    frame.map_or(&[], |frame| &frame.facts.settings)
-}
-
-/// A note is typed; Enter takes the snapshot.
-fn note(line: &mut LineEdit, key: Key, app: &mut App) -> Answer {
-    match key {
-        Key::Named(Named::Esc) => return Answer::Close,
-        Key::Named(Named::Enter) => {
-            let text = line.text().trim().to_owned();
-            let note = Some(text).filter(|text| !text.is_empty());
-            app.order(move |run| run.write_snapshot(note.as_deref()));
-            return Answer::Close;
-        }
-        key => line.press(key),
-    };
-    Answer::Stay
-}
-
-/// A cleared box in the middle of `area`, with a title; returns its inside.
-fn popup(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
-    let (width, height) = (size.0.min(area.width), size.1.min(area.height));
-    let (left, top) = ((area.width - width) / 2, (area.height - height) / 2);
-    let place = Rect::new(area.x + left, area.y + top, width, height);
-    Clear.render(place, buffer);
-    framed(title, Role::Title, Borders::ALL, theme, place, buffer)
-}
-
-/// The same at the lower end of `area`: what lies above can be watched.
-fn docked(theme: &Theme, title: &str, size: (u16, u16), area: Rect, buffer: &mut Buffer) -> Rect {
-    let height = size.1.min(area.height);
-    let place = Rect::new(area.x, area.bottom() - height, area.width, height);
-    popup(theme, title, size, place, buffer)
-}
-
 /// The keys that a page up and a page down pass in a list.
 const PAGE: usize = 10;
 
@@ -200,30 +157,15 @@ fn select(at: &mut usize, count: usize, key: Key) -> bool {
     true
 }
 
-/// Draws the entries around the one `at`, which has a style of its own, and a few that follow it.
-fn list<'a>(
-    entries: impl IntoIterator<Item = Line<'a>>,
-    at: usize,
-    style: Style,
-    area: Rect,
-    buffer: &mut Buffer,
-) {
-    let list = List::new(entries).highlight_style(style);
-    let rows = usize::from(area.height);
-    let first = (at + 1 + rows / 3).min(list.len()).saturating_sub(rows);
-    let selected = ListState::default().with_selected(Some(at));
-    StatefulWidget::render(list, area, buffer, &mut selected.with_offset(first));
-}
-
 /// A line being typed behind a prompt, its cursor shown.
 fn typing(prompt: &str, line: &LineEdit, style: Style) -> Line<'static> {
-    let (before, after) = line.halves();
+    let [before, after] = line.halves();
     let mut after = after.chars();
     let under = after.next().unwrap_or(' ');
     Line::from(vec![
         Span::styled(prompt.to_owned(), style),
-        Span::raw(before),
+        Span::raw(before.to_owned()),
         Span::styled(under.to_string(), Modifier::REVERSED),
-        Span::raw(after.collect::<String>()),
+        Span::raw(after.as_str().to_owned()),
     ])
 }

@@ -1,24 +1,17 @@
 //! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
-use std::path::Path;
-
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-
-use super::{Answer, App, Command, Frame, Key, LineEdit, docked, list, select, settings, typing};
-use crate::scenario::preset::{self, Preset};
+use super::*;
+use crate::scenario::preset;
 use crate::scenario::schema::Kind;
 use crate::tui::command::{Act, COMMANDS};
-use crate::tui::keys::Named;
 use crate::tui::map::live::{POINTS, Range};
-use crate::tui::settings::Setting;
-use crate::tui::theme::Role;
 
-/// The line being typed, and which of its completions is selected.
+/// The line being typed, which of its completions is selected, and what it leads back to.
 #[derive(Debug, Default)]
 pub struct Palette {
     pub(super) line: LineEdit,
     at: usize,
+    back: Box<Overlay>,
 }
 
 type Deed = Box<dyn FnOnce(&mut App)>;
@@ -57,7 +50,7 @@ impl Completion {
 }
 
 /// The completions, most likely first.
-fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
+fn completions(typed: &str, frame: &Frame) -> Vec<Completion> {
     let typed = typed.trim_start();
     let mut list: Vec<(usize, Completion)> = Vec::new();
     for row in COMMANDS {
@@ -68,6 +61,10 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
         ) {
             continue;
         }
+        let key = row
+            .keys
+            .first()
+            .map_or_else(String::new, ToString::to_string);
         let completion = match row.act {
             Act::Palette(complete) => {
                 let argument = typed.strip_prefix(row.name);
@@ -76,11 +73,10 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
                 }
                 Completion::new(format!("{} ", row.name), row.help)
             }
-            _ => Completion::new(row.name, row.help)
-                .with_right(row.keys[0].to_string())
-                .doing(|app| app.run(row.command)),
+            _ => Completion::new(row.name, row.help).doing(|app| app.run(row.command)),
         };
-        list.extend(rank(typed, row.name, row.help).map(|rank| (rank, completion)));
+        let rank = rank(typed, row);
+        list.extend(rank.map(|rank| (rank, completion.with_right(key))));
     }
     // A key of the scenario is found without `set` as well.
     if typed.len() >= 2 {
@@ -95,20 +91,21 @@ fn completions(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     list.into_iter().map(|(_, completion)| completion).collect()
 }
 
-/// How well `typed` matches: at the start of a name, within it, or within its help.
-fn rank(typed: &str, name: &str, help: &str) -> Option<usize> {
+/// How well `typed` matches: at the start of a name, within it, or by its words in keys, name and help.
+fn rank(typed: &str, row: &Row) -> Option<usize> {
     let typed = typed.trim_end().to_lowercase();
+    let all = format!("{} {} {}", row.key_names().join(" "), row.name, row.help).to_lowercase();
     let position = [
-        name.starts_with(&typed),
-        name.contains(&typed),
-        help.contains(&typed),
+        row.name.starts_with(&typed),
+        row.name.contains(&typed),
+        typed.split_whitespace().all(|word| all.contains(word)),
     ];
     position.into_iter().position(|fits| fits)
 }
 
 /// `KEY`, or `KEY=` with the values that the key takes.
-pub fn changes(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    let known = settings(frame);
+pub fn changes(typed: &str, frame: &Frame) -> Vec<Completion> {
+    let known = &frame.facts.settings;
     let Some((key, value)) = typed.split_once('=') else {
         return keys(known.iter(), typed.trim_end(), |setting| {
             let line = format!("set {}=", setting.parameter.path);
@@ -117,9 +114,12 @@ pub fn changes(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
     };
     let (key, value) = (key.trim(), value.trim());
     let found = known.iter().find(|setting| setting.parameter.path == key);
+    let now = found.map_or_else(String::new, |setting| setting.shown(true));
     let set = |value: &str, help: String| {
         let (key, given) = (key.to_owned(), value.to_owned());
+        let right = if value == now { "now" } else { "" };
         Completion::new(format!("set {key}={value}"), help)
+            .with_right(right)
             .doing(move |app| app.order(move |run| run.change(&key, &given)))
     };
     let words = found.and_then(Setting::words).unwrap_or_default();
@@ -132,15 +132,17 @@ pub fn changes(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
         return list;
     }
     let help = found.map(|setting| setting.parameter.described());
-    let now = found.map(|setting| format!("now {}", setting.shown(true)));
-    let mut typed = set(value, help.unwrap_or_default()).with_right(now.unwrap_or_default());
+    let now = found.map(|_| format!("now {now}")).unwrap_or_default();
+    let mut typed = set(value, help.unwrap_or_default()).with_right(now);
     typed.act = typed.act.filter(|_| !value.is_empty());
     vec![typed]
 }
 
 /// `KEY`, or `KEY FROM..TO`.
-pub fn sweeps(typed: &str, frame: Option<&Frame>) -> Vec<Completion> {
-    let numbers = settings(frame)
+pub fn sweeps(typed: &str, frame: &Frame) -> Vec<Completion> {
+    let numbers = frame
+        .facts
+        .settings
         .iter()
         .filter(|setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole));
     let units = numbers.clone();
@@ -180,39 +182,43 @@ fn keys<'a>(
 }
 
 /// A file to draw into.
-pub fn figures(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
+pub fn figures(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a figure of this state: a file that ends in .svg, .png or .pdf";
     vec![argument("figure", typed, help, |app, file| {
         app.order(move |run| run.write_figure(Path::new(&file)));
     })]
 }
 
-/// Presets by name; anything else is taken for a file.
-pub fn presets(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
-    let load = |name: &str, help| argument("load", name, help, |app, name| app.load(&name));
-    let fitting = named(typed).map(|preset| load(preset.name, preset.title()));
-    let mut list: Vec<_> = fitting.collect();
-    if list.is_empty() {
-        list.push(load(typed, "a preset's name, or a path to a .toml file"));
-    }
-    list
+/// A preset by its name, or a file.
+pub fn presets(typed: &str, _: &Frame) -> Vec<Completion> {
+    let help = "a preset's name, or a path to a .toml file";
+    preset_or(typed, "load", help, |app, name| app.load(&name))
 }
 
 /// Any file or directory; a preset by its name.
-pub fn overlays(typed: &str, _: Option<&Frame>) -> Vec<Completion> {
-    let overlay = |given: &str, help| {
-        argument("overlay", given, help, |app, given| {
-            app.order(move |run| run.overlay(&given));
-        })
-    };
+pub fn overlays(typed: &str, _: &Frame) -> Vec<Completion> {
+    let help = "a CSV file, a run's directory, or a scenario";
+    preset_or(typed, "overlay", help, |app, given| {
+        app.order(move |run| run.overlay(&given));
+    })
+}
+
+/// A note for a snapshot, which may be empty.
+pub fn notes(typed: &str, _: &Frame) -> Vec<Completion> {
+    let note = Some(typed.to_owned()).filter(|note| !note.is_empty());
+    let help = "writes state, history and loop with this note";
+    let written = Completion::new(format!("snapshot, note {typed}"), help);
+    vec![written.doing(|app| app.order(move |run| run.write_snapshot(note.as_deref())))]
+}
+
+/// A command with what is typed, or with a preset whose name has that.
+fn preset_or(typed: &str, command: &str, help: &str, act: fn(&mut App, String)) -> Vec<Completion> {
     let is_path = typed.contains(['/', '.']);
-    let presets = named(typed).filter(|_| !is_path);
-    let presets = presets.map(|preset| overlay(preset.name, preset.title()));
-    let mut list = vec![overlay(
-        typed,
-        "a CSV file, a run's directory, or a scenario",
-    )];
-    list.extend(presets);
+    let presets = preset::ALL
+        .iter()
+        .filter(|preset| !is_path && preset.name.contains(typed));
+    let mut list = vec![argument(command, typed, help, act)];
+    list.extend(presets.map(|preset| argument(command, preset.name, preset.title(), act)));
     // What is typed comes first, unless it can only be the beginning of a preset's name.
     let is_begun = list.len() > 1 && !Path::new(typed).exists();
     list.rotate_left(usize::from(is_begun && !typed.is_empty()));
@@ -229,29 +235,45 @@ fn argument(command: &str, given: &str, help: &str, act: fn(&mut App, String)) -
     }
 }
 
-/// The presets whose names have this text.
-fn named(text: &str) -> impl Iterator<Item = &'static Preset> {
-    preset::ALL
-        .iter()
-        .filter(move |preset| preset.name.contains(text))
-}
-
 impl Palette {
-    /// The palette with a command typed, its argument still missing.
-    pub fn begun(name: &str) -> Self {
+    /// The palette with the beginning of a line, over what it leads back to.
+    pub fn begun(line: &str, back: Overlay) -> Self {
         Self {
-            line: LineEdit::new(&format!("{name} ")),
+            line: LineEdit::new(line),
             at: 0,
+            back: Box::new(back),
         }
     }
 
+    /// The words of a setting, the present one selected, or those that begin with what was typed.
+    pub fn choosing(setting: &Setting, typed: Option<char>, back: Overlay) -> Self {
+        let line = format!("set {}=", setting.parameter.path);
+        if let Some(typed) = typed {
+            return Self::begun(&format!("{line}{typed}"), back);
+        }
+        let mut words = setting.words().unwrap_or_default().into_iter();
+        let now = words.position(|word| setting.value.as_deref() == Some(word));
+        Self {
+            at: now.unwrap_or(0),
+            ..Self::begun(&line, back)
+        }
+    }
+
+    /// Leads back, unless something else was opened.
+    fn leave(&mut self, app: &mut App) -> Answer {
+        if matches!(app.overlay, Overlay::None) {
+            app.overlay = std::mem::take(&mut *self.back);
+        }
+        Answer::Close
+    }
+
     pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
-        let mut list = completions(&self.line.text(), app.frame.as_deref());
+        let mut list = completions(&self.line.text(), &app.frame);
         let last = list.len().saturating_sub(1);
         let at = self.at.min(last);
         match (key, list.get_mut(at)) {
-            (Key::Named(Named::Esc), _) => return Answer::Close,
-            (Key::Named(Named::Backspace), _) if self.line.is_empty() => return Answer::Close,
+            (Key::Named(Named::Esc), _) => return self.leave(app),
+            (Key::Named(Named::Backspace), _) if self.line.is_empty() => return self.leave(app),
             (Key::Named(Named::Up | Named::BackTab) | Key::Ctrl('p'), _) => {
                 select(&mut self.at, list.len(), Key::Named(Named::Up));
             }
@@ -262,7 +284,11 @@ impl Palette {
             (Key::Named(Named::Enter), Some(selected)) => match selected.act.take() {
                 Some(act) => {
                     act(app);
-                    return Answer::Close;
+                    // What was found in the help is to be seen; the form waits for the next change.
+                    return match *self.back {
+                        Overlay::Form(_) => self.leave(app),
+                        _ => Answer::Close,
+                    };
                 }
                 None => self.take(&selected.line),
             },
@@ -281,26 +307,33 @@ impl Palette {
         self.at = 0;
     }
 
-    pub(super) fn draw(&self, app: &App, area: Rect, buffer: &mut Buffer) {
-        let found = completions(&self.line.text(), app.frame.as_deref());
-        let rows = (area.height / 2).clamp(6, 12);
+    pub(super) fn draw(&self, app: &App, mut canvas: Canvas) {
+        let found = completions(&self.line.text(), &app.frame);
+        let rows = (canvas.area.height / 2).clamp(6, 12);
         let title = "commands (Tab completes, Enter runs, Esc closes)";
-        let inside = docked(&app.theme, title, (100, rows + 3), area, buffer);
+        let mut inside = canvas.docked(title, rows + 3);
         let roles = [Role::Quiet, Role::Focus, Role::Title];
-        let [quiet, focus, title] = roles.map(|role| app.theme.style(role));
-        typing(" :", &self.line, title).render(inside, buffer);
-        let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside);
+        let [quiet, focus, title] = roles.map(|role| inside.style(role));
+        inside.show(typing(" :", &self.line, title));
+        let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside.area);
+        let mut below_line = inside.at(below);
         if found.is_empty() {
-            return Line::styled(" no such command", quiet).render(below, buffer);
+            return below_line.say("no such command", Role::Quiet);
         }
+        // Of values the key is seen above.
+        let typed = self.line.text();
+        let key = typed.rfind('=').map_or("", |at| &typed[..=at]);
+        let name = |of: &Completion| of.line.strip_prefix(key).unwrap_or(&of.line).to_owned();
+        let longest = found.iter().map(|of| name(of).len()).max().unwrap_or(0);
         let line = |completion: &Completion| {
-            let name = Span::raw(format!(" {:22} ", completion.line));
+            let name = format!(" {:1$} ", name(completion), longest.min(22));
+            let name = Span::raw(name);
             let right = Span::styled(format!(" {} ", completion.right), title);
             let room = usize::from(below.width).saturating_sub(name.width() + right.width());
             let help = Span::styled(format!("{:room$.room$}", completion.help), quiet);
             Line::from(vec![name, help, right])
         };
         let at = self.at.min(found.len() - 1);
-        list(found.iter().map(line), at, focus, below, buffer);
+        below_line.list(found.iter().map(line), at, focus);
     }
 }

@@ -2,15 +2,10 @@
 //! what the colours mean. A small picture has the load and the scale of the stress alone.
 
 use ratatui::buffer::Cell;
-use ratatui::prelude::*;
 
-use super::section::Section;
-use super::{App, Frame};
-use crate::math::scan::largest;
-use crate::plot::shades::{self, SHADES, has_blocks};
-use crate::plot::units::{format_number, format_value};
-use crate::reading::Moment;
-use crate::tui::theme::{Depth, Look, Role, Theme};
+use super::cut::Section;
+use super::*;
+use crate::plot::shades::SHADES;
 
 /// The size from which the picture has captions below it, and their rows.
 const ROOMY: [u16; 2] = [60, 16];
@@ -116,14 +111,6 @@ fn sticking(moment: &Moment) -> Option<f64> {
     c.filter(|c| *c > NOTHING * a && *c < (1.0 - NOTHING) * a)
 }
 
-/// A factor as a number without a point or an exponent where it is below a million.
-pub fn plain(factor: f64) -> String {
-    match factor {
-        factor if (10.0..1e6).contains(&factor) => format!("{factor:.0}"),
-        factor => format_number(factor, 2),
-    }
-}
-
 /// The ink of words and lines on the bodies.
 pub fn ink(theme: &Theme) -> Style {
     let color = match (theme.depth, theme.look) {
@@ -141,10 +128,10 @@ pub fn take_ground(cell: &mut Cell) {
 }
 
 /// Writes on what is drawn already: the ground stays.
-fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
-    let text = &*theme.printable(text);
-    let style = match has_blocks(theme) {
-        true => ink(theme).remove_modifier(Modifier::REVERSED),
+fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
+    let (text, buffer) = (&*canvas.theme.printable(text), &mut *canvas.buffer);
+    let style = match has_blocks(&canvas.theme) {
+        true => ink(&canvas.theme).remove_modifier(Modifier::REVERSED),
         false => Style::reset(),
     };
     let room = buffer.area.right().saturating_sub(x);
@@ -155,11 +142,11 @@ fn on(buffer: &mut Buffer, x: u16, y: u16, text: &str, theme: &Theme) {
 }
 
 /// Draws the words on the picture and below it.
-pub fn draw(section: &Section, below: Rect, buffer: &mut Buffer) {
-    let (frame, app, area) = (section.frame, section.app, section.area);
+pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
+    let (frame, app, area) = (section.frame, section.app, canvas.area);
     // Nobody reads numbers ten times a second.
     let seen = app.calm.of(frame);
-    let (calm, theme) = (&seen.observation.moment, &app.theme);
+    let calm = &seen.observation.moment;
     let value = |value, unit| format_value(value, unit, 3);
     if area.height < 5 || area.width < 30 {
         return;
@@ -179,53 +166,53 @@ pub fn draw(section: &Section, below: Rect, buffer: &mut Buffer) {
     if is_brief {
         let forces = format!(" {forces} ");
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
-            on(buffer, area.x + spare / 2, area.y, &forces, theme);
+            on(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
         let scale = Line::from(stress_key(app, area.width)).style(Style::reset());
         let width = scale.width() as u16;
         let left = area.x + area.width.saturating_sub(width) / 2;
-        return scale.render(Rect::new(left, area.bottom() - 1, width, 1), buffer);
+        let place = Rect::new(left, area.bottom() - 1, width, 1);
+        return canvas.at(place).show(scale);
     }
     let speed = speed(frame);
     let said = phase(&frame.observation.moment, speed);
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
-    on(buffer, start, area.y, &said, theme);
+    on(&mut canvas, start, area.y, &said);
     match speed {
         _ if area.width < LONGEST + 10 => {}
-        Some(speed) if speed >= TURNS => on(buffer, start + LONGEST + 2, area.y, "━━▶", theme),
-        Some(speed) if speed <= -TURNS => on(buffer, start - 5, area.y, "◀━━", theme),
+        Some(speed) if speed >= TURNS => on(&mut canvas, start + LONGEST + 2, area.y, "━━▶"),
+        Some(speed) if speed <= -TURNS => on(&mut canvas, start - 5, area.y, "◀━━"),
         _ => {}
     }
-    on(buffer, start, area.y + 1, &forces, theme);
-    radii(section, buffer);
+    on(&mut canvas, start, area.y + 1, &forces);
+    radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Constraint::Length(1); ROWS as usize]).areas(below);
-    let worn = theme.printable(&worn(seen, |depth| value(depth, "m")));
+    let worn = canvas.printable(&worn(seen, |depth| value(depth, "m")));
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
     let worn = match worn.rsplit_once(", ") {
         Some((brief, _)) if Line::raw(worn.as_str()).width() > room => brief,
         _ => worn.as_str(),
     };
-    buffer.set_stringn(first.x + 1, first.y, worn, room, Style::new());
-    let mut key = Line::from(body_key(theme));
+    canvas.at(first).show(Line::raw(format!(" {worn}")));
+    let mut key = Line::from(body_key(&canvas.theme));
     let room = second.width.saturating_sub(key.width() as u16);
     key.extend(stress_key(app, room));
-    key.render(second, buffer);
+    canvas.at(second).show(key);
 }
 
 /// c and a: a short line over the border of each, and its name.
-fn radii(section: &Section, buffer: &mut Buffer) {
-    let calm = section.app.calm.of(section.frame);
-    let (moment, theme) = (&calm.observation.moment, &section.app.theme);
+fn radii(section: &Section, canvas: &mut Canvas) {
+    let moment = &section.app.calm.of(section.frame).observation.moment;
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
     for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {
         for x in [-r, r] {
             if let (Some(column), Some([row, _])) = (section.column(x), section.rows_above(x)) {
                 let above = row.saturating_sub(1).max(section.area.y);
-                on(buffer, column, above, name, theme);
-                on(buffer, column, row, "┊", theme);
+                on(canvas, column, above, name);
+                on(canvas, column, row, "┊");
             }
         }
     }

@@ -1,17 +1,11 @@
 //! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts lie
 //! over each plot, in the difference as their own from this run.
 
-use ratatui::prelude::*;
-
-use super::{App, Frame, clip_spikes, edge, nothing, plot, titled};
+use super::*;
 use crate::charts::{A, C, Live, Symbols, ghosts};
-use crate::math::scan::largest;
-use crate::plot::units::{format_number, format_value};
-use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
-use crate::reading::{Moment, Observation};
+use crate::plot::{Axis, Curve, nice_bounds};
 use crate::traces::Axes;
 use crate::tui::frame::Comparison;
-use crate::tui::theme::Role;
 
 /// Least width of a column of numbers, cells.
 const COLUMN: usize = 11;
@@ -31,15 +25,23 @@ pub const WORDS: (&str, Symbols) = (
 );
 
 /// Draws the comparison over the whole area of the panels.
-pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffer: &mut Buffer) {
-    let look = (&app.theme, app.cursor.radius(frame));
-    let (theme, _) = look;
-    let [top, bottom] = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(area);
+pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canvas) {
+    let cursor = app.cursor.radius(frame);
+    let parts = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]);
+    let [top, bottom] = parts.areas(canvas.area);
     let halves = Layout::horizontal([Constraint::Fill(1); 2]);
     let [left, right] = halves.spacing(1).areas(top);
     let (seen, other) = (&frame.observation, &comparison.observation);
-    let difference: Vec<f64> = differences(other, seen).into_iter().map(f64::abs).collect();
-    let rows = rows(frame, comparison, &difference);
+    let run = &frame.run;
+    // What has worn in the second run, and in ghosts, less what has worn in this one.
+    let mut differences = ghosts::worn(run, None);
+    differences.push(Curve::new("", &*other.radii, &*other.wear, Role::Slip));
+    for curve in &mut differences {
+        let points = curve.xs.iter().zip(&mut curve.ys);
+        points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());
+        curve.errors.clear();
+    }
+    let rows = rows(frame, comparison, &differences[differences.len() - 1].ys);
     let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
     let widths = cells.map(|cell| cell.chars().count());
     let column = widths.fold(COLUMN, usize::max);
@@ -52,21 +54,18 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         false => columns.spacing(1).areas(bottom),
     };
     let names = (this_name(frame), comparison.name.as_str());
-    let inside = |title, place, buffer: &mut _| titled(title, Role::Title, theme, place, buffer);
-    let render =
-        |chart: &Chart, place, buffer: &mut _| plot(chart, Role::Title, look, place, buffer);
+    let mut render = |chart: &Chart, place| canvas.at(place).plot(chart, Role::Title, cursor);
     let pair = |there: &[f64], here: &[f64], role| {
         [
             Curve::new(&*names.0, &seen.radii[..], here, role),
             Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
         ]
     };
-    let run = &frame.run;
     let mut profiles = Chart::new("3D profile", Axis::new("r", "m"), Axis::new("f", "m"))
         .curves(ghosts::worn(run, Some(1.0)))
         .curves(pair(&other.profile, &seen.profile, Role::Profile));
     profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
-    render(&profiles, left, buffer);
+    render(&profiles, left);
     // A spike at a border of stick must not flatten all the rest.
     let mut values = [&seen.pressure[..], &other.pressure].concat();
     clip_spikes(&mut values);
@@ -76,20 +75,14 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
     let pressures = Chart::new("pressure", Axis::new("r", "m"), ordinate)
         .curves(ghosts::on(run, Axes::PRESSURE))
         .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
-    render(&pressures, right, buffer);
-    let mut of_ghosts = ghosts::worn(run, None);
-    for ghost in &mut of_ghosts {
-        let points = ghost.xs.iter().zip(&mut ghost.ys);
-        points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());
-        ghost.errors.clear();
-    }
-    let highest = of_ghosts.iter().map(Curve::highest);
-    let highest = highest.fold(largest(&difference), f64::max);
+    render(&pressures, right);
+    let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
     if highest == 0.0 {
         let words = ["equal so far", "C: from the start"];
-        let inside = inside(DIFFERENCE, below, buffer);
-        for (text, row) in words.iter().zip(inside.rows()) {
-            nothing(text, theme, row, buffer);
+        let mut canvas = canvas.at(below);
+        let mut inside = canvas.titled(DIFFERENCE, Role::Title);
+        for (text, row) in words.iter().zip(inside.area.rows()) {
+            inside.at(row).say(text, Role::Quiet);
         }
     } else {
         // Six decades: what lies below is rounding.
@@ -97,18 +90,18 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, area: Rect, buffe
         let bounds = [10f64.powf(decade - 6.0), 10f64.powf(decade)];
         let ordinate = Axis::new("|difference|", "m").scale(Scale::Log);
         let abscissa = Axis::new("r", "m").bounds([0.0, edge(frame)]);
-        let chart = Chart::new(DIFFERENCE, abscissa, ordinate.bounds(bounds))
-            .curves(of_ghosts)
-            .curve(Curve::new("", &*other.radii, &*difference, Role::Slip));
-        render(&chart, below, buffer);
+        let ordinate = ordinate.bounds(bounds);
+        let chart = Chart::new(DIFFERENCE, abscissa, ordinate).curves(differences);
+        render(&chart, below);
     }
-    let inside = inside("side by side", numbers, buffer);
+    let mut canvas = canvas.at(numbers);
+    let mut inside = canvas.titled("side by side", Role::Title);
     let lines = rows
         .iter()
-        .map(|(name, here, there)| format!(" {name:14} {here:>column$} {there:>column$}"));
-    let stopped = comparison.stopped.iter().map(|why| format!(" {why}"));
-    for (line, row) in lines.chain(stopped).zip(inside.rows()) {
-        Line::raw(theme.printable(&line)).render(row, buffer);
+        .map(|(name, here, there)| format!("{name:14} {here:>column$} {there:>column$}"));
+    let lines = lines.chain(comparison.stopped.clone());
+    for (line, row) in lines.zip(inside.area.rows()) {
+        inside.at(row).say(&line, Role::Quiet);
     }
 }
 
@@ -144,13 +137,6 @@ fn rows(
         row("time per step", costs.map(|cost| maybe(cost, "s"))),
         ("rms difference", value(rms(difference), "m"), String::new()),
     ]
-}
-
-/// The worn profile of `there` less that of `here`, m, at the nodes of `there`.
-fn differences(there: &Observation, here: &Observation) -> Vec<f64> {
-    let points = there.radii.iter().zip(&there.wear);
-    let differences = points.map(|(&r, wear)| wear - here.worn_depth_at(r));
-    differences.collect()
 }
 
 /// Root mean square of differences; 0 of none.

@@ -1,20 +1,27 @@
-//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file.
+//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
+//! imported here; each of them begins with `use super::*`.
 
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
-use ratatui::symbols::border;
-use ratatui::widgets::{Block, Borders};
 
 use super::app::App;
+use super::canvas::Canvas;
 use super::frame::Frame;
 use super::live_charts::Made;
 use super::shifted;
-use super::theme::{Role, Theme};
+use super::theme::{Depth, Look, Role, Theme};
 use crate::charts::{self, Recipe};
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::units::{format_number, format_value};
 use crate::plot::{Chart, Plot, Scale};
+use crate::reading::{Curves, Moment};
 
 mod caption;
 pub mod compare;
+mod cut;
 mod numbers;
 mod scar;
 mod section;
@@ -28,7 +35,7 @@ pub struct Picture {
     /// Its names and needs.
     recipe: Recipe,
     /// Draws a frame below a rule with the title, which has this role.
-    draw: fn(&Frame, &App, Role, Rect, &mut Buffer),
+    draw: fn(&Frame, &App, Role, Canvas),
     /// The values that it must hold.
     extent: fn(&Frame) -> Option<[f64; 2]>,
 }
@@ -40,6 +47,12 @@ macro_rules! panels {
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum Panel {
             $(#[doc = $what] $name,)*
+        }
+
+        impl Default for Panel {
+            fn default() -> Self {
+                Self::ALL[0]
+            }
         }
 
         impl Panel {
@@ -96,26 +109,23 @@ impl Panel {
         }
     }
 
-    /// Draws the panel where the screen is that of `frame`: its picture, or its chart.
-    pub fn draw(self, frame: &Frame, app: &App, area: Rect, buffer: &mut Buffer) {
-        let (recipe, theme) = (self.recipe(), &app.theme);
+    /// Draws the panel: its picture, or its chart.
+    pub fn draw(self, app: &App, mut canvas: Canvas) {
+        let (recipe, frame) = (self.recipe(), &*app.frame);
         let role = match app.stage.focus == self {
             true => Role::Focus,
             false => Role::Title,
         };
         if let Some(picture) = self.picture() {
             let shown = app.calm.shown(self, &app.stage, frame);
-            return (picture.draw)(shown, app, role, area, buffer);
+            return (picture.draw)(shown, app, role, canvas);
         }
         match &*app.charts.get(self, frame) {
             Ok(chart) => {
                 let cursor = app.cursor.radius(frame).filter(|_| recipe.is_over_r());
-                plot(chart, role, (theme, cursor), area, buffer);
+                canvas.plot(chart, role, cursor);
             }
-            Err(why) => {
-                let inner = titled(recipe.title, role, theme, area, buffer);
-                nothing(why, theme, inner, buffer);
-            }
+            Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
         }
     }
 
@@ -169,76 +179,6 @@ fn clip_spikes(values: &mut [f64]) {
             *value = 0.5 * most.copysign(*value);
         }
     }
-}
-
-/// A rule with a title; returns what is below it.
-pub(super) fn titled(
-    title: &str,
-    role: Role,
-    theme: &Theme,
-    area: Rect,
-    buffer: &mut Buffer,
-) -> Rect {
-    framed(title, role, Borders::TOP, theme, area, buffer)
-}
-
-/// Draws some borders, the upper one with a title; returns what is inside them.
-pub(super) fn framed(
-    title: &str,
-    role: Role,
-    borders: Borders,
-    theme: &Theme,
-    area: Rect,
-    buffer: &mut Buffer,
-) -> Rect {
-    // Rules are dim; their titles are not.
-    let style = theme.style(role).remove_modifier(Modifier::DIM);
-    let title = format!(" {} ", theme.printable(title));
-    let mut block = Block::new()
-        .borders(borders)
-        .border_style(theme.style(Role::Faint))
-        .title(Span::styled(title, style));
-    if theme.ascii() {
-        block = block.border_set(ASCII_BORDER);
-    }
-    let inner = block.inner(area);
-    block.render(area, buffer);
-    inner
-}
-
-const ASCII_BORDER: border::Set = border::Set {
-    top_left: "+",
-    top_right: "+",
-    bottom_left: "+",
-    bottom_right: "+",
-    vertical_left: "|",
-    vertical_right: "|",
-    horizontal_top: "-",
-    horizontal_bottom: "-",
-};
-
-/// A chart below a rule with its title.
-fn plot(
-    chart: &Chart,
-    role: Role,
-    (theme, cursor): (&Theme, Option<f64>),
-    area: Rect,
-    buffer: &mut Buffer,
-) {
-    let inner = titled(&chart.title, role, theme, area, buffer);
-    let taken = theme.printable(&chart.title).chars().count() as u16 + 2;
-    let [_, behind] = Layout::horizontal([Length(taken), Fill(1)]).areas(area);
-    let rule = Rect {
-        height: 1,
-        ..behind
-    };
-    let plot = Plot::new(chart, theme).cursor(cursor).rule(rule);
-    plot.render(inner, buffer);
-}
-
-/// Writes a message in a panel that has nothing to plot.
-fn nothing(text: &str, theme: &Theme, area: Rect, buffer: &mut Buffer) {
-    Line::styled(format!(" {text}"), theme.style(Role::Quiet)).render(area, buffer);
 }
 
 /// The radius of the outermost node, m.

@@ -1,11 +1,7 @@
 //! The numbers of the moment, most important first: a small panel shows fewer.
 
-use ratatui::prelude::*;
-
-use super::{App, Frame, Picture, Recipe, titled};
-use crate::plot::units::{format_number, format_value};
+use super::*;
 use crate::reading::CycleFigures;
-use crate::tui::theme::Role;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -32,15 +28,16 @@ pub static PICTURE: Picture = Picture {
     extent: |_| None,
 };
 
-fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
-    let area = titled(PICTURE.recipe.title, role, &app.theme, area, buffer);
+fn draw(frame: &Frame, _: &App, role: Role, mut canvas: Canvas) {
+    let mut canvas = canvas.titled(PICTURE.recipe.title, role);
+    let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
     for ((name, value), i) in rows(frame).into_iter().zip(0..columns * area.height) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
-        let [name, value] = [name, &value].map(|text| app.theme.printable(text));
+        let [name, value] = [name, &value].map(|text| canvas.printable(text));
         // Rather than the value, the name is cut: its last words, and the symbol, tell most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
         let mut name = name.as_str();
@@ -50,8 +47,8 @@ fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
             name = rest;
         }
         let name = format!(" {name:room$.room$} ");
-        let name = Span::styled(name, app.theme.style(Role::Quiet));
-        Line::from(vec![name, value.into()]).render(cell, buffer);
+        let name = Span::styled(name, canvas.style(Role::Quiet));
+        canvas.at(cell).show(Line::from(vec![name, value.into()]));
     }
 }
 

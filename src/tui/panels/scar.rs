@@ -9,17 +9,10 @@
 //!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
 //! ```
 
-use ratatui::prelude::*;
-
-use super::{App, Frame, Panel, Picture, Recipe, edge, nothing, titled};
+use super::*;
 use crate::charts::look_of;
-use crate::math::grid::interpolate;
-use crate::math::scan::largest;
-use crate::plot::colormap::ColorMap;
-use crate::plot::shades::{self, has_blocks, paint_halves};
-use crate::plot::units::format_value;
-use crate::reading::Curves;
-use crate::tui::theme::{Role, Theme};
+use crate::plot::shades::paint_halves;
+use crate::plot::step::Step;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -65,15 +58,14 @@ fn depths(frame: &Frame) -> Option<[f64; 2]> {
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
-fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
-    let theme = &app.theme;
-    let area = titled(PICTURE.recipe.title, role, theme, area, buffer);
-    let seen = &frame.observation;
+fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
+    let mut canvas = canvas.titled(PICTURE.recipe.title, role);
+    let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;
     };
     if area.height < 4 || area.width < 12 {
-        return nothing("too small for the scar", theme, area, buffer);
+        return canvas.say("too small for the scar", Role::Quiet);
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
@@ -91,17 +83,17 @@ fn draw(frame: &Frame, app: &App, role: Role, area: Rect, buffer: &mut Buffer) {
     for row in 0..disc.height {
         for column in 0..disc.width {
             let halves = [2 * row, 2 * row + 1]
-                .map(|half| shown(frame, theme, deepest, [x(column), y(half)]));
-            let Some(cell) = buffer.cell_mut((disc.x + column, disc.y + row)) else {
+                .map(|half| shown(frame, &theme, deepest, [x(column), y(half)]));
+            let Some(cell) = canvas.cell(column, row) else {
                 continue;
             };
-            match has_blocks(theme) {
+            match has_blocks(&theme) {
                 true => paint_halves(cell, halves.map(|(color, _)| color)),
                 false => _ = cell.set_char(halves[0].1),
             }
         }
     }
-    legend(frame, theme, area, [size, deepest], buffer);
+    legend(frame, [size, deepest], canvas);
 }
 
 /// Where the sliding parts of the indenter move: with the traction that they exert.
@@ -121,19 +113,11 @@ fn legend_lines(area: Rect) -> u16 {
 }
 
 /// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
-fn legend(
-    frame: &Frame,
-    theme: &Theme,
-    area: Rect,
-    [size, deepest]: [f64; 2],
-    buffer: &mut Buffer,
-) {
+fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
+    let (theme, area) = (canvas.theme, canvas.area);
     let value = |value| format_value(value, "m", 3);
     // A round length near a fifth of the disc.
-    let decade = 10f64.powf((10.0 * size).log10().floor());
-    let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * decade);
-    let reach = rounds.into_iter().find(|&reach| reach >= 8.0 * size);
-    let reach = reach.unwrap_or(10.0 * decade);
+    let reach = Step::above(8.0 * size).value();
     let middle = (reach / size).round().max(2.0) as usize - 2;
     let bar = format!("├{:─<middle$}┤", "");
     let slip = match slip_direction(frame) {
@@ -142,7 +126,7 @@ fn legend(
         Some(_) => "slip ←",
     };
     let mut depths = Line::raw(" worn 0 ");
-    depths.extend(shades::key(theme, ColorMap::Sequential, shades::sign));
+    depths.extend(shades::key(&theme, ColorMap::Sequential, shades::sign));
     depths.push_span(theme.printable(&format!(" {}", value(deepest))));
     let mut row = Rect::new(area.x, area.bottom() - 1, area.width, 1);
     for part in [format!(" {bar} {} ", value(reach)), format!(" {slip} ")] {
@@ -151,13 +135,13 @@ fn legend(
         if width > row.width {
             return;
         }
-        part.render(row, buffer);
+        canvas.at(row).show(part);
         (row.x, row.width) = (row.x + width, row.width - width);
     }
     if legend_lines(area) == 2 {
         row = Rect::new(area.x, area.bottom() - 2, area.width, 1);
     }
     if depths.width() <= usize::from(row.width) {
-        depths.render(row, buffer);
+        canvas.at(row).show(depths);
     }
 }

@@ -4,13 +4,10 @@ use std::sync::Arc;
 
 use strum::VariantArray;
 
-use super::Frame;
-use crate::plot::colormap::ColorMap;
-use crate::plot::shades;
-use crate::plot::sticky_bounds;
+use super::*;
+use crate::plot::{shades, sticky_bounds};
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
-use crate::tui::shifted;
 
 /// Places below the contact, and their depth in contact radii, that set the range of SWT.
 const SPANS: u32 = 24;

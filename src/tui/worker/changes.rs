@@ -1,15 +1,12 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
-use super::Worker;
+use super::*;
 use crate::math::abel::AbelMethod;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level};
-use crate::tui::beside::Twin;
-use crate::tui::frame::{Activity, Facts};
-use crate::tui::trend::Recorded;
-use crate::tui::{locked, shifted};
+use crate::tui::shifted;
 
 /// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;
@@ -33,14 +30,10 @@ impl Worker {
 
     /// Changes the wear law by this many places.
     pub fn change_law(&mut self, places: isize) {
+        let told = "this scenario has no wear, so it has no wear law to change";
         match self.run.simulation().setup().wear {
-            None => self
-                .screen
-                .notice("this scenario has no wear, so it has no wear law to change"),
-            Some(now) => {
-                let law = shifted(&LAWS, now.name(), places);
-                self.change("wear.law", law);
-            }
+            None => self.screen.notice(told),
+            Some(now) => self.change("wear.law", shifted(&LAWS, now.name(), places)),
         }
     }
 
@@ -102,18 +95,25 @@ impl Worker {
         }
     }
 
-    /// Another scenario, from its beginning.
-    pub fn load(&mut self, scenario: Scenario) {
+    /// Another scenario, from its beginning; returns whether that can be run.
+    pub fn load(&mut self, scenario: Scenario) -> bool {
         let resolved = refinement::resolve_soon(&scenario);
         let Some(resolved) = self.screen.or_notice(resolved) else {
-            return;
+            return false;
         };
         if let Some(word) = resolved.warning {
             self.screen.notice(&word);
         }
-        let session = Session::start(resolved.scenario);
-        if let Some(session) = self.screen.or_notice(session) {
-            self.replace_run(session.into());
+        let session = self.screen.or_notice(Session::start(resolved.scenario));
+        let begun = session.map(|session| self.replace_run(session.into()));
+        begun.is_some()
+    }
+
+    /// Loads a point of a study, whose map then gives way to it.
+    pub fn open_point(&mut self, scenario: Scenario) {
+        if self.load(scenario) {
+            self.publish();
+            self.screen.send(Event::Opened);
         }
     }
 

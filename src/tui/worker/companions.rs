@@ -1,11 +1,9 @@
 //! What accompanies the run: a comparison, ghosts over the plots, and the twin that tells its error.
 
-use std::time::Duration;
-
-use super::Worker;
-use crate::tui::beside::{Beside, ComparisonRun, From, Twin};
-use crate::tui::frame::Activity;
-use crate::tui::ghosts::{MOST, Source};
+use super::*;
+use crate::studies::refinement::Difference;
+use crate::tui::beside::{Beside, From};
+use crate::tui::ghosts::MOST;
 
 /// How long each catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
@@ -61,6 +59,24 @@ impl Worker {
         }
     }
 
+    /// Has the twin tell the errors of the present moment.
+    pub fn estimate_errors(&mut self) {
+        let twin = self.companions.twin.as_mut();
+        if let Some(twin) = twin.filter(|_| self.past.present().is_none()) {
+            twin.look_at(&self.run.session, true);
+        }
+    }
+
+    /// The cycle up to which the errors of the run are known, and what they are; else why they are not.
+    pub(super) fn errors(&self) -> Result<(f64, Difference), String> {
+        match &self.companions.twin {
+            // The twin has looked at the present.
+            _ if self.past.present().is_some() => Err("of the present: ] leads there".into()),
+            Some(twin) => twin.told(self.run.cycle()),
+            None => Err("this run is too coarse to be halved".into()),
+        }
+    }
+
     /// Begins or ends the comparison with another method.
     pub fn compare_or_stop(&mut self) {
         if self.companions.comparison.take().is_none() {
@@ -96,14 +112,13 @@ impl Worker {
     }
 
     fn add_ghost(&mut self, ghost: Source) {
-        let is_full = self.companions.ghosts.len() >= MOST;
-        self.screen.notice(&match is_full {
-            true => format!("{MOST} ghosts are there already; G removes them"),
-            false => format!("{} is over the plots now; G removes it", ghost.name()),
-        });
-        self.companions
-            .ghosts
-            .extend(Some(ghost).filter(|_| !is_full));
+        if self.companions.ghosts.len() >= MOST {
+            let told = format!("{MOST} ghosts are there already; G removes them");
+            return self.screen.notice(&told);
+        }
+        let told = format!("{} is over the plots now; G removes it", ghost.name());
+        self.screen.notice(&told);
+        self.companions.ghosts.push(ghost);
     }
 
     /// Takes all of them away.

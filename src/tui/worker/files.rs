@@ -1,25 +1,10 @@
-//! What the user asks for beside the run: files, a study, and an estimate of the errors.
+//! What the user asks for beside the run: files, and a study.
 
-use std::path::Path;
-use std::thread;
-
-use super::Worker;
+use super::*;
 use crate::tui::map::live::{Live, Range};
-use crate::tui::{Event, figure, refinement_check, snapshot};
+use crate::tui::{figure, snapshot};
 
 impl Worker {
-    /// Runs the refinement check in its own thread; its result comes as an event.
-    pub fn check_refinement(&self) {
-        let (session, events) = (self.run.session.clone(), self.screen.events.clone());
-        thread::spawn(move || {
-            // The receiver waits for an answer, whatever happens.
-            let answer = std::panic::catch_unwind(|| refinement_check::run(&session))
-                .map_err(|_| "the refinement check failed".to_owned())
-                .and_then(|answer| answer.map_err(|error| error.to_string()));
-            let _ = events.send(Event::RefinementCheck(answer));
-        });
-    }
-
     /// Starts a study around the present scenario, up to the present cycle.
     pub fn sweep(&self, range: &Range) {
         let cycle = self.run.cycle();

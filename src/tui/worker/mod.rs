@@ -3,15 +3,18 @@
 //!
 //! It steps no further ahead than the pace allows, and publishes a frame only after the previous
 //! one has been taken, so that a slow terminal does not slow the simulation.
+//!
+//! Its orders are grouped by subject, one file each; these begin with `use super::*`.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::autosave::ScreenAutosave;
-use super::beside::Twin;
+use super::beside::{ComparisonRun, Twin};
 use super::frame::{Activity, Facts, Frame};
 use super::ghosts::Source;
 use super::loops::CycleLoads;
@@ -20,6 +23,8 @@ use super::trend::Recorded;
 use super::undo::Past;
 use super::{Event, locked};
 use crate::reading::Curves;
+use companions::Companions;
+use outlet::Outlet;
 
 mod changes;
 mod companions;
@@ -29,10 +34,8 @@ mod stepping;
 mod thread;
 mod travel;
 
-use companions::Companions;
-use outlet::Outlet;
 pub(super) use thread::WorkerThread;
-use travel::ends_cycle;
+pub(super) use travel::ends_cycle;
 
 /// What the worker is to do next.
 pub type Order = Box<dyn FnOnce(&mut Worker) + Send>;
@@ -80,7 +83,7 @@ pub struct Worker {
     told_of_end: bool,
     clock: Clock,
     /// What frames hold.
-    curves: Curves,
+    pub(super) curves: Curves,
     screen: Outlet,
     /// Shared with whoever ends the program while a step takes long.
     keeping: Option<Arc<Mutex<ScreenAutosave>>>,
@@ -199,19 +202,9 @@ impl Worker {
         self.step_by_hand(|_, _| true);
     }
 
-    /// Steps to the end of the cycle, paused.
-    pub fn step_to_end_of_cycle(&mut self) {
-        self.step_by_hand(ends_cycle);
-    }
-
     /// Changes the pace by this many rungs.
     pub fn change_pace(&mut self, rungs: i32) {
         self.clock.change(rungs);
-    }
-
-    /// Computes these curves from now on.
-    pub fn compute(&mut self, curves: Curves) {
-        self.curves = curves;
     }
 
     /// Ends the worker.

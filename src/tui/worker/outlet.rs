@@ -1,21 +1,13 @@
 //! What the worker tells the screen: frames of the present state, and notices.
 
 use std::fmt::Display;
-use std::path::Path;
-use std::sync::Arc;
-use std::sync::mpsc::Sender;
-use std::time::{Duration, Instant};
 
-use super::Worker;
+use super::*;
 use crate::charts::{Live, Run};
-use crate::export::state;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
-use crate::reading::{Curves, CycleFigures, Observation};
-use crate::traces::Table;
-use crate::tui::Event;
-use crate::tui::beside::{ComparisonRun, Twin};
-use crate::tui::frame::{Activity, Facts, Frame, Slot};
+use crate::reading::{CycleFigures, Observation};
+use crate::tui::frame::Slot;
 use crate::tui::line::one_line;
 
 /// Frames go into a slot, at most one an interval; all else is an event.
@@ -93,7 +85,8 @@ impl Worker {
         Arc::new(self.frame())
     }
 
-    fn frame(&mut self) -> Frame {
+    /// The present frame.
+    pub fn frame(&mut self) -> Frame {
         // The pressure may pass the hardness in any step, and has not yet in an earlier state.
         if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
             self.facts = Facts::of(&self.run.session);
@@ -119,9 +112,6 @@ impl Worker {
         };
         let is_running = self.activity == Activity::Running;
         let changes = self.past.line(&self.run).session.changes().iter();
-        // The twin has looked at the present.
-        let twin = self.companions.twin.as_ref();
-        let twin = twin.filter(|_| self.past.present().is_none());
         let figures = self.run.session.cycle_figures();
         Frame {
             run: self.charted(&observation, figures.as_ref()),
@@ -139,7 +129,7 @@ impl Worker {
             present: self.past.present(),
             changes: (changes.map(|change| (change.at_cycle, change.set.clone()))).collect(),
             snapshots: self.snapshots.clone(),
-            error: twin.and_then(Twin::error),
+            errors: self.errors(),
             checks,
             comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
         }
@@ -153,14 +143,7 @@ impl Worker {
         let material = &setup.material;
         let ghosts = self.companions.ghosts.iter();
         Run {
-            states: vec![Table::of_columns(
-                vec![("cycle".to_owned(), moment.cycle.to_string())],
-                state::columns(seen),
-            )],
-            history: Some(trend.history()),
-            loops: vec![trend.loops.last(moment.cycle)],
             ghosts: ghosts.map(|ghost| ghost.seen(self.curves)).collect(),
-            field: None,
             theory: Some(Arc::clone(&facts.theory)),
             indenter: Some(setup.indenter.clone()),
             live: Some(Live {
@@ -175,6 +158,7 @@ impl Worker {
                     .then(|| largest(load) / (material.normal_modulus() * material.stick_ratio())),
                 log: trend.loops.kept.clone(),
             }),
+            ..self.run.charted(seen)
         }
     }
 }

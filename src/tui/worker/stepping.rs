@@ -1,12 +1,7 @@
 //! Stepping: as far as the pace allows while it runs, or by hand.
 
-use std::time::{Duration, Instant};
-
-use super::Worker;
 use super::travel::ends_cycle;
-use crate::reading::Curves;
-use crate::tui::frame::Activity;
-use crate::tui::locked;
+use super::*;
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
@@ -157,7 +152,7 @@ impl Worker {
     }
 
     /// Pauses and steps until `done`, which is given the cycles before and now, is true.
-    pub(super) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
+    pub(in crate::tui) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
         if matches!(self.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);
         }

@@ -1,16 +1,11 @@
 //! The worker's thread: how it begins and ends, and what it has saved then.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::TryLockError;
 use std::thread;
-use std::time::Duration;
 
 use anyhow::{Context, Result};
 
-use super::{Order, Orders, Worker};
-use crate::tui::Event;
-use crate::tui::autosave::ScreenAutosave;
+use super::*;
 
 /// How long the worker may take to finish its step on exit.
 const LAST_STEP: Duration = Duration::from_millis(500);

@@ -1,12 +1,7 @@
 //! Time travel: back to earlier states, and on from there.
 
-use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-use super::Worker;
-use crate::tui::frame::{Activity, Facts};
-use crate::tui::locked;
-use crate::tui::undo::{Kept, Past};
+use super::*;
+use crate::tui::undo::Kept;
 
 /// Minimum time between stored states while running.
 const APART: Duration = Duration::from_millis(50);
@@ -38,23 +33,12 @@ impl Worker {
         ))
     }
 
-    /// One stored state back in time.
-    pub fn go_back(&mut self) {
-        self.travel(Past::back, "this is the start of the run");
-    }
-
-    /// One stored state forward in time.
-    pub fn go_forward(&mut self) {
-        self.travel(Past::forth, "this is the present");
-    }
-
-    /// To the stored state of this run that is nearest to a cycle.
-    pub fn go_to(&mut self, cycle: f64) {
-        self.travel(|past| past.visit(cycle), "no state is stored");
-    }
-
     /// Shows another stored state, or says why there is none.
-    fn travel(&mut self, way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>, end: &str) {
+    pub(in crate::tui) fn travel(
+        &mut self,
+        way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>,
+        end: &str,
+    ) {
         self.keep();
         match way(&mut self.past) {
             Some(kept) => self.show(&kept),
@@ -72,6 +56,6 @@ impl Worker {
 }
 
 /// Whether a cycle ends between two moments, in cycles.
-pub(super) fn ends_cycle(before: f64, now: f64) -> bool {
+pub(in crate::tui) fn ends_cycle(before: f64, now: f64) -> bool {
     (now + 1e-9).floor() > (before + 1e-9).floor()
 }

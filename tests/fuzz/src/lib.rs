@@ -1,6 +1,9 @@
 //! What each target does with what the fuzzer makes up. `tests/hostile.rs` replays some of it.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
+use std::sync::mpsc::channel;
+use std::time::Duration;
 
 use mdr_tui::plot::Marker;
 use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
@@ -10,7 +13,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::theme::{Look, Theme};
-use mdr_tui::tui::worker::Orders;
+use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::tui::{Stroke, rehearse};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
@@ -91,7 +94,7 @@ pub fn set(text: &str) {
     }
 }
 
-/// Any text as `--keys`, pressed in an explorer whose worker has not answered yet.
+/// Any text as `--keys`, pressed in an explorer whose worker does not answer.
 pub fn keys(text: &str) {
     let keys = match parse_script(text) {
         Ok(keys) => keys,
@@ -101,7 +104,11 @@ pub fn keys(text: &str) {
         return;
     }
     let (orders, _inbox) = Orders::channel();
-    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders);
+    let scenario = Scenario::load("hertz", &["numerics.points=8".to_owned()]).expect("a preset");
+    let session = Session::start(scenario).expect("a contact");
+    let mut worker = Worker::new(session, channel().0, Duration::MAX, false);
+    let first = Arc::new(worker.frame());
+    let mut app = App::new(Theme::new(Look::Dark, Marker::Braille), orders, first);
     let area = Rect::new(0, 0, 80, 24);
     for key in keys.into_iter().take(100) {
         app.press(key);

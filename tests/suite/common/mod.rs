@@ -418,7 +418,8 @@ impl Explorer {
     /// A preset, paused at its start.
     pub fn on(preset: &str, theme: Theme) -> Self {
         let worker = LiveWorker::on(load(preset, &[]), Duration::from_secs(1), false);
-        let app = App::new(theme, worker.orders.clone());
+        let frame = worker.orders.frame().expect("a worker");
+        let app = App::new(theme, worker.orders.clone(), frame);
         Self { app, worker }
     }
 

@@ -1,0 +1,166 @@
+//! A part of the screen to draw on, in the colours and signs of the terminal: what panels and overlays write their texts,
+//! rules, boxes, lists and plots with.
+
+use ratatui::buffer::Cell;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::prelude::*;
+use ratatui::symbols::border;
+use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
+
+use super::theme::{Role, Theme};
+use crate::plot::{Chart, Plot};
+
+/// A part of the screen.
+pub struct Canvas<'a> {
+    /// The look of the terminal.
+    pub theme: Theme,
+    /// Where it is.
+    pub area: Rect,
+    /// The whole screen.
+    pub buffer: &'a mut Buffer,
+}
+
+const ASCII_BORDER: border::Set = border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+impl<'a> Canvas<'a> {
+    /// A part of the screen that is drawn in `buffer`.
+    pub fn new(theme: &Theme, area: Rect, buffer: &'a mut Buffer) -> Self {
+        Self {
+            theme: *theme,
+            area,
+            buffer,
+        }
+    }
+
+    /// Another part of the same screen.
+    pub fn at(&mut self, area: Rect) -> Canvas<'_> {
+        Canvas::new(&self.theme, area, self.buffer)
+    }
+
+    /// All but the first and the last column.
+    pub fn indented(&mut self) -> Canvas<'_> {
+        self.at(self.area.inner(Margin::new(1, 0)))
+    }
+
+    /// The style of a role.
+    pub fn style(&self, role: Role) -> Style {
+        self.theme.style(role)
+    }
+
+    /// A text as this terminal can show it.
+    pub fn printable(&self, text: &str) -> String {
+        self.theme.printable(text)
+    }
+
+    /// A cell, counted from the upper left corner.
+    pub fn cell(&mut self, column: u16, row: u16) -> Option<&mut Cell> {
+        let place = (self.area.x + column, self.area.y + row);
+        self.buffer.cell_mut(place)
+    }
+
+    /// Draws a widget on all of it.
+    pub fn show(&mut self, widget: impl Widget) {
+        widget.render(self.area, self.buffer);
+    }
+
+    /// Writes a line behind a blank.
+    pub fn say(&mut self, text: &str, role: Role) {
+        let text = format!(" {}", self.printable(text));
+        self.show(Line::styled(text, self.style(role)));
+    }
+
+    /// Writes a running text.
+    pub fn write<'t>(&mut self, text: impl Into<Text<'t>>) {
+        self.show(Paragraph::new(text).wrap(Wrap { trim: true }));
+    }
+
+    /// Draws some borders, the upper one with a title; returns what is inside them.
+    fn framed(&mut self, title: &str, role: Role, borders: Borders) -> Canvas<'_> {
+        // Rules are dim; their titles are not.
+        let style = self.style(role).remove_modifier(Modifier::DIM);
+        let title = format!(" {} ", self.printable(title));
+        let mut block = Block::new()
+            .borders(borders)
+            .border_style(self.style(Role::Faint))
+            .title(Span::styled(title, style));
+        if self.theme.ascii() {
+            block = block.border_set(ASCII_BORDER);
+        }
+        let inner = block.inner(self.area);
+        self.show(block);
+        self.at(inner)
+    }
+
+    /// Draws a rule with a title; returns what is below it.
+    pub fn titled(&mut self, title: &str, role: Role) -> Canvas<'_> {
+        self.framed(title, role, Borders::TOP)
+    }
+
+    /// Draws a cleared box in the middle, with a title; returns its inside.
+    pub fn popup(&mut self, title: &str, size: (u16, u16)) -> Canvas<'_> {
+        let area = self.area;
+        let (width, height) = (size.0.min(area.width), size.1.min(area.height));
+        let (left, top) = ((area.width - width) / 2, (area.height - height) / 2);
+        self.area = Rect::new(area.x + left, area.y + top, width, height);
+        self.show(Clear);
+        self.framed(title, Role::Title, Borders::ALL)
+    }
+
+    /// The same at the lower end: what lies above can be watched.
+    pub fn docked(&mut self, title: &str, rows: u16) -> Canvas<'_> {
+        let height = rows.min(self.area.height);
+        self.area.y = self.area.bottom() - height;
+        self.area.height = height;
+        self.popup(title, (100, rows))
+    }
+
+    /// Draws a box of running text in the middle, about as high as that.
+    pub fn page(&mut self, title: &str, width: u16, lines: Vec<Line>) {
+        let size = (width, rows(&lines, width));
+        self.popup(title, size).indented().write(lines);
+    }
+
+    /// Draws the entries around the one `at`, which has a style of its own, and a few that follow it.
+    pub fn list<'t>(
+        &mut self,
+        entries: impl IntoIterator<Item = Line<'t>>,
+        at: usize,
+        style: Style,
+    ) {
+        let list = List::new(entries).highlight_style(style);
+        let rows = usize::from(self.area.height);
+        let first = (at + 1 + rows / 3).min(list.len()).saturating_sub(rows);
+        let selected = ListState::default().with_selected(Some(at));
+        let mut state = selected.with_offset(first);
+        StatefulWidget::render(list, self.area, self.buffer, &mut state);
+    }
+
+    /// Draws a chart below a rule with its title, with a cursor if there is one.
+    pub fn plot(&mut self, chart: &Chart, role: Role, cursor: Option<f64>) {
+        let (theme, taken) = (self.theme, self.printable(&chart.title).chars().count());
+        let lengths = [Length(taken as u16 + 2), Fill(1)];
+        let [_, behind] = Layout::horizontal(lengths).areas(self.area);
+        let rule = Rect {
+            height: 1,
+            ..behind
+        };
+        let plot = Plot::new(chart, &theme).cursor(cursor).rule(rule);
+        self.titled(&chart.title, role).show(plot);
+    }
+}
+
+/// About how many rows a box of this width needs for running text.
+pub fn rows(lines: &[Line], width: u16) -> u16 {
+    let inner = usize::from(width.saturating_sub(10).max(1));
+    let rows = lines.iter().map(|line| line.width().div_ceil(inner).max(1));
+    2 + rows.sum::<usize>() as u16
+}

@@ -116,6 +116,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
             1.5 * pressure
         ));
     }
+    lines.extend(slip_instability(setup, 1.5 * pressure));
     lines.extend(gross_slip_under_force(setup, unworn));
     let exponent = setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
     if exponent != 1.0 && setup.steps_per_cycle < STEPS_FOR_POWERS {
@@ -142,6 +143,22 @@ fn slope(setup: &Setup, radius: f64) -> f64 {
     let inside = radius * (1.0 - 1e-6);
     let rise = setup.indenter.profile(radius) - setup.indenter.profile(inside);
     rise / (radius - inside)
+}
+
+/// Wear that lets springs slip on by more than they slipped, at a `pressure` in units of E*. Beyond that, a quasi-static
+/// contact jumps, and where it lands depends on the cells.
+fn slip_instability(setup: &Setup, pressure: f64) -> Option<String> {
+    let law = setup.wear.filter(|law| law.follows_energy())?;
+    setup.drive.tangential()?;
+    let material = &setup.material;
+    let per_slip = law.coefficient() * material.friction() * pressure * material.normal_modulus();
+    let gain = per_slip / material.stick_ratio();
+    (gain > 1.0).then(|| {
+        format!(
+            "outside the theory: the wear of a slip lets springs slip on by {gain:.3} of it (k mu^2 p E*/G*); from 1 \
+             on they slip all at once, and the volume may differ by percents from one number of cells to the next"
+        )
+    })
 }
 
 /// A prescribed tangential force that friction cannot hold has no quasi-static motion.

@@ -294,3 +294,41 @@ fn a_tangential_force_beyond_friction_is_told_before_it_slips() {
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     has(&warnings[0], "may exceed the friction limit");
 }
+
+/// What is worn in a scene whose wear coefficient is `k`, on 100 and on 141 cells: by how much the two differ.
+fn scatter(k: &str) -> (f64, Vec<String>) {
+    let coefficient = format!("wear.coefficient={k}");
+    let on = |cells: &str| {
+        let points = format!("numerics.points={cells}");
+        let sets = [
+            "indenter.radius=1.549e-3",
+            "material.effective_modulus=5.941e10",
+            "material.poisson=0.0888",
+            "friction.coefficient=0.1118",
+            "motion.normal.mean=4.637e-7",
+            "motion.normal.amplitude=9.411e-8",
+            "motion.normal.angular_frequency=45.3",
+            "motion.normal.phase=3.25",
+            "motion.tangential.amplitude=1.0237e-8",
+            "motion.tangential.angular_frequency=30.2",
+            "motion.tangential.phase=0.8455",
+            &coefficient,
+            &points,
+        ];
+        let session = run("li2019-fig3", &sets, 11.0);
+        (volume(&session), session.warnings())
+    };
+    let ((coarse, warnings), (fine, _)) = (on("100"), on("141"));
+    ((coarse / fine - 1.0).abs(), warnings)
+}
+
+#[test]
+fn a_slip_instability_is_told_and_volumes_scatter_beyond_it() {
+    let (beyond, warnings) = scatter("1.3e-7");
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    has(&warnings[0], "springs slip on by 1.2");
+    assert!(beyond > 0.01, "{beyond}");
+    let (before, warnings) = scatter("1e-8");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert!(before < 0.005, "{before}");
+}

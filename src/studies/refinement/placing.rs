@@ -11,8 +11,8 @@
 //!
 //! have the least error for their number (C. de Boor 1973, Good approximation by splines with variable knots; W. Huang,
 //! R. D. Russell 2011, Adaptive Moving Mesh Methods, §2.2). M is read from second differences of w at the nodes of the coarser
-//! run and smoothed once by [¼ ½ ¼]. 65 % of the cells follow it, 17.5 % are uniform in r and 17.5 % lie as those of the coarser
-//! run, so that what that run did not see still gets cells.
+//! run and smoothed once by [¼ ½ ¼]. Half of the cells follow it, and half are uniform in r: not all error is that of
+//! interpolation, and what the coarser run did not see still gets cells.
 //!
 //! - **Order**: second in N where w has an integrable monitor: also next to the stick border, where w rises like a root.
 //! - **Known failure**: a coarser run with too few cells to show the scar at all (8 or so) places them at random.
@@ -21,8 +21,9 @@ use crate::contact::indenter::Indenter;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::second_differences;
 
-/// The share of the cells that follow the monitor.
-const FOLLOWING: f64 = 0.65;
+/// The share of the cells that follow the monitor; the others are uniform. Shares of 0.4 to 0.65 take 6 to 25 % more time
+/// over 200 random scenarios at 1e-2.
+const FOLLOWING: f64 = 0.5;
 
 /// The narrowest cell, in units of the radius: 1/N^1.4, so that a few narrow cells do not force every step into
 /// sub-steps, but never below 1/15000, where the rounding of w would show in M.
@@ -39,12 +40,11 @@ pub(super) fn place(
 ) -> Option<RadialGrid> {
     let shares = shares(grid, wear)?;
     let (nodes, radius) = (grid.nodes(), grid.radius());
-    let even = 1.0 / shares.len() as f64;
     let narrowest = (cells as f64).powf(-NARROWEST_POWER).max(NARROWEST);
     let mut sum = vec![0.0];
     for (share, pair) in shares.iter().zip(nodes.windows(2)) {
         let width = (pair[1] - pair[0]) / radius;
-        let wanted = FOLLOWING * share + (1.0 - FOLLOWING) * 0.5 * (even + width);
+        let wanted = FOLLOWING * share + (1.0 - FOLLOWING) * width;
         sum.push(sum[sum.len() - 1] + wanted.min(width / (narrowest * cells as f64)));
     }
     let total = sum[sum.len() - 1];
@@ -121,7 +121,7 @@ mod tests {
             let uniform = error(&RadialGrid::uniform(cells, 1.2).expect("a grid"));
             let placed = error(&grid);
             assert!(
-                placed < 0.5 * uniform || cells == 50,
+                placed < 0.6 * uniform || cells == 50,
                 "{cells}: {placed} {uniform}"
             );
             // Second order, where uniform cells have less than first.

@@ -84,10 +84,10 @@ impl Drive {
             let (down, along) = rates(cycles);
             down + sign * along
         };
-        // Most steps lie so far from every turn that the steepest rate does not reach zero within them.
+        // Most steps lie so far from every turn that the steepest rate does not reach zero between their middle and an end.
         let steepest = TAU * (normal_weight * ratio + tangential_weight);
-        let reach = 1.001 * steepest * (until - from);
-        let (down, along) = rates(from);
+        let reach = 1.001 * steepest * 0.5 * (until - from);
+        let (down, along) = rates(0.5 * (from + until));
         [1.0, -1.0]
             .into_iter()
             .filter(|&sign| (down + sign * along).abs() <= reach)

@@ -323,7 +323,7 @@ impl Ladder {
         if let Some(tolerance) = &mut self.base.tolerance
             && scar > 0.0
         {
-            *tolerance = (0.3 * self.aim * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
+            *tolerance = (self.aim * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
         }
     }
 

@@ -135,7 +135,7 @@ mod tests {
             let radius = round_trip
                 .complex_eigenvalues()
                 .iter()
-                .map(|value| value.norm())
+                .map(|value| value.re.hypot(value.im))
                 .fold(0.0, f64::max);
             assert!((radius - expected).abs() < 1.0, "N = {cells}: {radius}");
         }

@@ -35,7 +35,10 @@ fn amplification(scheme: Scheme, z: f64) -> f64 {
         Scheme::Trapezoid => {
             let companion = Matrix3::new(1.0 - z, -0.5 * z, 0.5 * z, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
             let roots = companion.complex_eigenvalues();
-            roots.iter().map(|root| root.norm()).fold(0.0, f64::max)
+            roots
+                .iter()
+                .map(|root| root.re.hypot(root.im))
+                .fold(0.0, f64::max)
         }
     }
 }

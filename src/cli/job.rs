@@ -123,10 +123,9 @@ impl RunJob {
 
     /// Takes the next snapshot before `cycle`; it then counts as done.
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
-        let next = self.due.get(self.taken)?;
-        (next.cycle() < cycle).then(|| {
+        self.has_snapshot_before(cycle).then(|| {
             self.taken += 1;
-            next.clone()
+            self.due[self.taken - 1].clone()
         })
     }
 

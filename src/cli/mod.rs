@@ -3,6 +3,7 @@
 use std::env;
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
@@ -167,7 +168,8 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
 fn mistyped_command(word: &str) -> Option<Refusal> {
     let program = Arguments::command();
     let commands = program.get_subcommands().map(clap::Command::get_name);
-    let is_known = word.starts_with('-') || preset::is_path(word) || preset::find(word).is_some();
+    let is_path = preset::is_path(word) || Path::new(word).exists();
+    let is_known = word.starts_with('-') || is_path || preset::find(word).is_some();
     let command = nearest(word, commands).filter(|command| *command != word && !is_known)?;
     let refusal = Refusal::new(printable(word), "no such command or preset");
     Some(refusal.or(format_args!("did you mean mdr-tui {command}?")))

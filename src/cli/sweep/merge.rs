@@ -103,7 +103,7 @@ fn same(a: &Path, b: &Path) -> bool {
 
 /// Names points without a row, and the shards that should have them.
 fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
-    let missing = || rows.done().clone().missing(study, Shard::WHOLE);
+    let missing = || rows.missing(study, Shard::WHOLE);
     let (all, left) = (study.points(), study.points() - rows.rows());
     if left == 0 {
         return Ok(());

@@ -147,7 +147,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut print = |ledger: &Ledger| -> Result<()> {
         let mut out = io::stdout().lock();
         while options.json
-            && let Some(point) = points.next_if(|&point| ledger.done().has(point))
+            && let Some(point) = points.next_if(|&point| ledger.has(point))
         {
             writeln!(
                 out,
@@ -160,7 +160,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut outcome = print(&output.ledger);
     let mut checked = Ok(());
     if outcome.is_ok() {
-        let todo = output.ledger.done().clone().missing(study, shard);
+        let todo = output.ledger.missing(study, shard);
         checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
             let added = output.add(point, &row);
             let added = added.map_err(|error| anyhow!("{error}"));

@@ -6,6 +6,7 @@ use toml::Value;
 use super::design::Spacing;
 use crate::scenario::scalars::number;
 use crate::scenario::schema::{self, Kind};
+use crate::scenario::values;
 
 /// How the values of an axis are spread, for plots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -69,7 +70,7 @@ impl Axis {
 
     /// The value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
-        numeric(&self.value(index))
+        values::number(&self.value(index))
     }
 
     /// Where on the axis a value lies: between the indices of its neighbours, as the axis is
@@ -99,7 +100,7 @@ impl Axis {
     /// What `value` assigns: the key's own value, then those of the tied keys.
     pub fn assignments(&self, value: &Value) -> Vec<(&str, String)> {
         let own = (self.key.as_str(), text(value));
-        let number = numeric(value);
+        let number = values::number(value);
         let tied = self.tied.iter().filter_map(|(key, factor)| {
             Some((key.as_str(), text(&value_of(key, number? * factor))))
         });
@@ -113,15 +114,6 @@ pub(super) fn text(value: &Value) -> String {
         Value::Float(value) => number(*value),
         Value::String(word) => word.clone(),
         other => other.to_string(),
-    }
-}
-
-/// The number that a TOML value is, if it is one.
-pub(super) fn numeric(value: &Value) -> Option<f64> {
-    match value {
-        Value::Integer(value) => Some(*value as f64),
-        Value::Float(value) => Some(*value),
-        _ => None,
     }
 }
 

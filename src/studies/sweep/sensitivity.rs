@@ -70,7 +70,7 @@ pub fn run(
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
     let middle = study
-        .middle()
+        .scenario_at(&[], None)
         .map_err(|error| Refusal::from(error.to_string()))?;
     let valued = keys.iter().map(|varied| {
         let value = middle.value(&varied.key);

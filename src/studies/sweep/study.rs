@@ -108,7 +108,7 @@ impl Study {
         self.scenario_at(&self.places(point), None)
     }
 
-    /// The scenario with the axes at `places`, but for an axis that has another value.
+    /// The scenario with the first axes at `places`, but for an axis that has another value, and nothing of the others.
     ///
     /// # Errors
     ///
@@ -125,15 +125,6 @@ impl Study {
             }
             _ => axis.assignments(&axis.value(place)),
         }))
-    }
-
-    /// The base with what is set for all points, and nothing of the axes.
-    ///
-    /// # Errors
-    ///
-    /// As [`scenario`](Self::scenario).
-    pub fn middle(&self) -> Result<Scenario, ScenarioError> {
-        self.build(std::iter::empty())
     }
 
     /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.

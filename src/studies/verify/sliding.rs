@@ -89,8 +89,10 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
     let worn = seen.radii.iter().zip(&seen.profile);
     let worn = worn.map(|(&r, &f)| (r, f, exact.profile(r)));
     let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
+    let mut profile = Errors::new(Some(1.0), worn);
+    profile.over_radius = true;
     Ok(vec![
-        Errors::new(Some(1.0), worn).over_radius(),
+        profile,
         Errors::new(None, [(stick_radius, found, stick_radius)].into_iter()),
     ])
 }

@@ -20,7 +20,11 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let record = Record::of_file(first)?;
     let study = &record.study()?;
     record.expect(study, "this version of mdr-tui")?;
-    let mut ledger = spool(study, target.as_ref())?;
+    // Rows in a file without a name, where the merged table will stand.
+    let beside = target.as_ref().map(|target| target.directory().to_owned());
+    let beside = beside.unwrap_or_else(env::temp_dir);
+    let mut ledger = Ledger::unnamed(study, &beside)
+        .with_context(|| format!("{}: cannot make a temporary file", beside.display()))?;
     let mut arithmetic = Arithmetic::new();
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);
     for file in &files {
@@ -75,13 +79,6 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
         ));
     }
     Ok(())
-}
-
-/// Rows in a file without a name, where the merged table will stand.
-fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
-    let directory = target.map_or_else(env::temp_dir, |target| target.directory().to_owned());
-    Ledger::unnamed(study, &directory)
-        .with_context(|| format!("{}: cannot make a temporary file", directory.display()))
 }
 
 /// The names of the CSV files of a directory, sorted. Nothing else is opened:

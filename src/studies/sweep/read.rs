@@ -6,10 +6,10 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::axis::{self, Axis, Spread, Values};
+use super::axis::{self, Axis, Values};
 use super::design::{Design, MOST_SOBOL_AXES, Spacing};
-use super::sensitivity::Varied;
 use super::study::{Stop, Study};
+use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
 use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable, typed};
@@ -56,7 +56,7 @@ struct WrittenAxis {
     values: Option<Vec<Value>>,
     linspace: Option<Vec<Value>>,
     logspace: Option<Vec<Value>>,
-    scale: Option<Spread>,
+    scale: Option<Scale>,
     #[serde(default)]
     tied: Table,
 }
@@ -228,14 +228,9 @@ fn check_stop(stop: Stop) -> Result<()> {
     Ok(())
 }
 
-fn sensitivity(table: &Table) -> Result<Vec<Varied>> {
+fn sensitivity(table: &Table) -> Result<Vec<(String, f64)>> {
     let rule = "must be a standard deviation, 0 if it is not known";
-    let varied = numbers("sensitivity", table, rule, |number| number >= 0.0)?;
-    let varied = varied.into_iter().map(|(key, number)| Varied {
-        key,
-        deviation: Some(number).filter(|number| *number > 0.0),
-    });
-    Ok(varied.collect())
+    numbers("sensitivity", table, rule, |number| number >= 0.0)
 }
 
 /// The scenario keys of a table at `place` and their values, finite numbers that keep a `rule`.
@@ -263,9 +258,9 @@ fn read_axis(
     let key = axis.key;
     known_key(&key, place)?;
     let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
-        (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Spread::Linear)),
-        (None, Some(list), None) => ("linspace", list, Spread::Linear),
-        (None, None, Some(list)) => ("logspace", list, Spread::Logarithmic),
+        (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Scale::Linear)),
+        (None, Some(list), None) => ("linspace", list, Scale::Linear),
+        (None, None, Some(list)) => ("logspace", list, Scale::Log),
         _ => {
             let rule = "must have one of values, linspace and logspace";
             return error(format!("{place} ({key}): {rule}"));
@@ -334,14 +329,14 @@ fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
 }
 
 /// The ends of a list [from, to, …] of `length`.
-fn ends(place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f64; 2]> {
+fn ends(place: &str, list: &[Value], spread: Scale, length: usize) -> Result<[f64; 2]> {
     let rule = match list {
         _ if list.len() != length && length == 2 => "must be [from, to]; samples gives the number",
         _ if list.len() != length => "must be [from, to, number]",
         [from, to, ..]
             if let (Some(from), Some(to)) = (values::number(from), values::number(to)) =>
         {
-            if spread == Spread::Linear || from.min(to) > 0.0 {
+            if spread == Scale::Linear || from.min(to) > 0.0 {
                 return Ok([from, to]);
             }
             "must begin with two numbers greater than 0"

@@ -110,6 +110,14 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The exit code of a study that has done what was asked for, or not.
+fn succeeded(has_succeeded: bool) -> ExitCode {
+    match has_succeeded {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(FAILED),
+    }
+}
+
 /// Longest wait for a terminal that has stopped reading.
 pub(crate) const TERMINAL_TIMEOUT: Duration = Duration::from_millis(400);
 

@@ -13,7 +13,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let shown = printable(&directory.display().to_string());
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
-    files.retain(|file| options.out.as_ref().is_none_or(|out| !same(out, file)));
+    let out = options.out.as_ref().and_then(|out| out.canonicalize().ok());
+    files.retain(|file| out.is_none() || file.canonicalize().ok() != out);
     let Some(first) = files.first() else {
         bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
     };
@@ -92,10 +93,6 @@ fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
     });
     files.sort();
     Ok(files)
-}
-
-fn same(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Names points without a row, and the shards that should have them.

@@ -1,6 +1,6 @@
 //! Keeps the first panic message until the terminal is restored.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The message of the first panic in any thread. Printed at once, the explorer would draw over it.
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
@@ -8,7 +8,7 @@ static PANIC: Mutex<Option<String>> = Mutex::new(None);
 /// Stores the messages of panics here instead of printing them.
 pub fn capture() {
     std::panic::set_hook(Box::new(|panic| {
-        let mut kept = PANIC.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = locked(&PANIC);
         if kept.is_none() {
             *kept = Some(panic.to_string().replace('\n', " "));
         }
@@ -17,5 +17,10 @@ pub fn capture() {
 
 /// Takes the message, if there was a panic.
 pub fn take_message() -> Option<String> {
-    PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
+    locked(&PANIC).take()
+}
+
+/// The value, which is never half written, even after a panic: it is replaced, never changed in place.
+pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

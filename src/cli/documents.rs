@@ -56,7 +56,8 @@ pub fn man(options: &Manual) -> Result<()> {
 }
 
 fn write(directory: &Path, command: &Command, page: &[u8]) -> Result<()> {
-    let name = full_name(command).replace(' ', "-");
+    let name = command.get_bin_name().unwrap_or(command.get_name());
+    let name = name.replace(' ', "-");
     std::fs::create_dir_all(directory)
         .with_context(|| format!("{}: cannot make the directory", directory.display()))?;
     Ok(write_whole(&directory.join(name + ".1"), page)?)
@@ -81,10 +82,6 @@ fn page(command: &Command) -> Result<Vec<u8>> {
         page.extend_from_slice(b".SH SEE ALSO\n.BR mdr\\-tui (1)\n");
     }
     Ok(page)
-}
-
-fn full_name(command: &Command) -> &str {
-    command.get_bin_name().unwrap_or(command.get_name())
 }
 
 /// The text after the options, line by line as it is written.

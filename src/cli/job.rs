@@ -2,7 +2,7 @@
 //! so that an interrupted run writes the same files as an uninterrupted one.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};
@@ -42,7 +42,7 @@ pub struct RunJob {
     pub statements: Vec<(String, String)>,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
     #[serde(default)]
-    home: Option<String>,
+    pub home: Option<PathBuf>,
 }
 
 impl RunJob {
@@ -123,10 +123,9 @@ impl RunJob {
 
     /// Takes the next snapshot before `cycle`; it then counts as done.
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
-        let next = self.due.get(self.taken)?;
-        (next.cycle() < cycle).then(|| {
+        self.has_snapshot_before(cycle).then(|| {
             self.taken += 1;
-            next.clone()
+            self.due[self.taken - 1].clone()
         })
     }
 
@@ -176,12 +175,8 @@ impl RunJob {
     /// Stores the directory of the run's files in checkpoints.
     pub fn set_home(&mut self, directory: &Path) {
         let real = directory.canonicalize().ok();
-        self.home = real.and_then(|home| home.to_str().map(str::to_owned));
-    }
-
-    /// The directory of the run's files at the time of the checkpoint.
-    pub fn home(&self) -> Option<&Path> {
-        self.home.as_deref().map(Path::new)
+        // A checkpoint holds text alone.
+        self.home = real.filter(|home| home.to_str().is_some());
     }
 
     /// Goes back to how far the job had come when `earlier` was copied from it.

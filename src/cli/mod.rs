@@ -3,6 +3,7 @@
 use std::env;
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
@@ -109,6 +110,14 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The exit code of a study that has done what was asked for, or not.
+fn succeeded(has_succeeded: bool) -> ExitCode {
+    match has_succeeded {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(FAILED),
+    }
+}
+
 /// Longest wait for a terminal that has stopped reading.
 pub(crate) const TERMINAL_TIMEOUT: Duration = Duration::from_millis(400);
 
@@ -167,7 +176,8 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
 fn mistyped_command(word: &str) -> Option<Refusal> {
     let program = Arguments::command();
     let commands = program.get_subcommands().map(clap::Command::get_name);
-    let is_known = word.starts_with('-') || preset::is_path(word) || preset::find(word).is_some();
+    let is_path = preset::is_path(word) || Path::new(word).exists();
+    let is_known = word.starts_with('-') || is_path || preset::find(word).is_some();
     let command = nearest(word, commands).filter(|command| *command != word && !is_known)?;
     let refusal = Refusal::new(printable(word), "no such command or preset");
     Some(refusal.or(format_args!("did you mean mdr-tui {command}?")))

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use anyhow::{Result, bail};
 
 use super::args::{Guard, Stability};
-use super::{FAILED, progress, results, stop};
+use super::{progress, results, stop, succeeded};
 use crate::export::header::number;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::stability::report::{boundaries, maps, runs};
@@ -40,10 +40,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         let (maps, boundaries) = (maps(&lines), boundaries(&lines).text());
         format!("{}\n{signs}\n\n{maps}{boundaries}", notes.join("\n"))
     })?;
-    Ok(match interrupted {
-        true => ExitCode::from(FAILED),
-        false => ExitCode::SUCCESS,
-    })
+    Ok(succeeded(!interrupted))
 }
 
 /// The lines of the study, as far as `go_on` lets it come.

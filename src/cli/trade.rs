@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use super::args::Trade;
 use super::job::end;
-use super::{FAILED, progress, results, small_multiples, stop};
+use super::{progress, results, small_multiples, stop, succeeded};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
@@ -72,10 +72,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
             format!("{}\n{table}{plots}{}\n", notes.join("\n"), advice(best))
         }
     })?;
-    Ok(match go_on() {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::from(FAILED),
-    })
+    Ok(succeeded(go_on()))
 }
 
 /// What was measured, and what was compared with what: the reference first, then every setting, the cheapest first;

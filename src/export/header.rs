@@ -29,13 +29,8 @@ pub fn line(key: &str, value: &str) -> String {
     format!("# {key}: {}\n", printable(value))
 }
 
-/// The line of a run whose error is not known.
-pub fn unmeasured() -> String {
-    line(UNMEASURED.0, UNMEASURED.1)
-}
-
-/// Key and value of that line.
-const UNMEASURED: (&str, &str) = ("estimated_error", "not measured (--estimate-error)");
+/// Key and value of the line of a run whose error is not known.
+pub const UNMEASURED: (&str, &str) = ("estimated_error", "not measured (--estimate-error)");
 
 /// What the header of a file says of the present state of `session`: keys and values.
 pub fn entries(session: &Session) -> Vec<(String, String)> {

@@ -30,8 +30,8 @@ use crate::export::header::{field, number};
 use crate::export::target::{Target, write_all};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
-use crate::scenario::scalars::quoted;
 use crate::scenario::{Refusal, printable};
+use crate::studies::table::csv_line;
 
 /// The kinds of files, by what their names end in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
@@ -190,15 +190,11 @@ impl Sheet {
             let inset = inset.map(|curve| ("-inset", curve));
             let curves = chart.curves.iter().map(|curve| ("", curve));
             for (part, curve) in curves.chain(inset) {
-                let name = quoted(&curve.name);
+                let (place, name) = (format!("{panel}{part}"), &curve.name);
                 for (i, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
                     let error = field(curve.errors.get(i).copied().unwrap_or(f64::NAN));
-                    let _ = writeln!(
-                        text,
-                        "{panel}{part},{name},{},{},,{error}",
-                        number(x),
-                        number(y)
-                    );
+                    let [x, y] = [x, y].map(number);
+                    text += &csv_line([&place, name, &x, &y, "", &error]);
                 }
             }
             let Some(map) = &chart.map else { continue };

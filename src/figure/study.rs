@@ -7,7 +7,7 @@ use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
 use crate::scenario::{scalars, schema};
 use crate::studies::sweep::slice::{Line, REGIMES, Slice};
-use crate::studies::sweep::{self, Design, Spread};
+use crate::studies::sweep::{self, Design};
 use crate::traces::unit_of;
 
 /// The most charts of a sheet that nobody chose the columns of.
@@ -126,10 +126,7 @@ pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
         let words = (0..axis.count()).map(|place| format!("{place}: {}", axis.text(place)));
         label = format!("{label}, {}", words.collect::<Vec<_>>().join(", "));
     }
-    Axis::new(label, unit).scale(match axis.spread {
-        Spread::Linear => Scale::Linear,
-        Spread::Logarithmic => Scale::Log,
-    })
+    Axis::new(label, unit).scale(axis.spread)
 }
 
 /// A column of a study in words, with its unit; logarithmic where its `values` span decades.

@@ -7,6 +7,7 @@ pub mod invalid;
 pub mod monotone;
 pub mod quadrature;
 pub mod root;
+pub mod scale;
 pub mod scan;
 pub mod skyline;
 pub mod vector;

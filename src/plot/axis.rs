@@ -4,42 +4,10 @@ use std::borrow::Cow;
 
 use super::step::Step;
 use super::units::{AxisUnit, axis_unit};
+pub use crate::math::scale::Scale;
 
 /// The least number that is shown in the unit of what an axis is expected to reach.
 const LEAST: f64 = 1e-3;
-
-/// How values spread along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Scale {
-    /// Equal differences, equal distances.
-    #[default]
-    Linear,
-    /// Equal ratios, equal distances; values that are not positive are gaps.
-    Log,
-}
-
-impl Scale {
-    /// Whether a value lies anywhere along an axis.
-    pub fn has(self, value: f64) -> bool {
-        value.is_finite() && (self == Self::Linear || value > 0.0)
-    }
-
-    /// A value as it is spread along an axis.
-    pub fn spread(self, value: f64) -> f64 {
-        match self {
-            Self::Linear => value,
-            Self::Log => value.log10(),
-        }
-    }
-
-    /// The value that is spread to `spread`.
-    pub fn unspread(self, spread: f64) -> f64 {
-        match self {
-            Self::Linear => spread,
-            Self::Log => 10f64.powf(spread),
-        }
-    }
-}
 
 /// What an axis shows.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -53,7 +53,7 @@ fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: 
         } else {
             faults.note(&shown, unknown(origin.name(), &path, &shown));
             // What was meant is not missing as well.
-            for meant in hints::meant(&path) {
+            for (meant, _) in hints::meant(&path) {
                 faults.blame(meant);
             }
         }

@@ -26,6 +26,8 @@ pub struct Columns {
     pub header: Vec<(String, String)>,
     /// The names of the columns, as they are in the file.
     pub names: Vec<String>,
+    /// The same in units of [`OWN`], and what one of the file's units is worth in those.
+    own: Vec<(String, f64)>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<(u64, csv::StringRecord)>,
 }
@@ -88,6 +90,7 @@ impl Columns {
         Ok(Self {
             path: path.to_owned(),
             header: said.collect(),
+            own: names.iter().map(|name| in_own_unit(name)).collect(),
             names,
             rows,
         })
@@ -146,19 +149,14 @@ impl Columns {
     /// All columns, in SI units and by the names that this program's own files have; NaN where a field is no finite
     /// number.
     pub fn all(&self) -> Vec<(String, Vec<f64>)> {
-        let column = |(at, name): (usize, &String)| {
-            let in_si = name.rsplit_once('_').and_then(|(base, unit)| {
-                let of = |own: &&str| Some((format!("{base}_{own}"), units::ratio(unit, own)?));
-                OWN.iter().find_map(of)
-            });
-            let (name, size) = in_si.unwrap_or((name.clone(), 1.0));
+        let column = |(at, (name, size)): (usize, &(String, f64))| {
             let value = |row: &csv::StringRecord| row.get(at)?.parse::<f64>().ok();
             let values = self.rows.iter().map(|(_, row)| value(row));
             let finite = values.map(|value| value.filter(|value| value.is_finite()));
             let in_si = finite.map(|value| value.map_or(f64::NAN, |value| size * value));
-            (name, in_si.collect())
+            (name.clone(), in_si.collect())
         };
-        self.names.iter().enumerate().map(column).collect()
+        self.own.iter().enumerate().map(column).collect()
     }
 
     /// The fields of a row, as they are in the file.
@@ -178,14 +176,18 @@ impl Columns {
     }
 
     fn find(&self, name: &str) -> Option<(usize, f64)> {
-        let ends = name.rsplit_once('_').filter(|ends| OWN.contains(&ends.1));
-        let size = |column: &str| match ends {
-            None => (column == name).then_some(1.0),
-            Some((base, own)) => units::ratio(column.strip_prefix(base)?.strip_prefix('_')?, own),
-        };
-        let mut columns = self.names.iter().enumerate();
-        columns.find_map(|(at, column)| Some((at, size(column)?)))
+        let at = self.own.iter().position(|(own, _)| own == name)?;
+        Some((at, self.own[at].1))
     }
+}
+
+/// The name of a column in one of the units of [`OWN`], and what one of the unit in its name is worth in that.
+fn in_own_unit(name: &str) -> (String, f64) {
+    let found = name.rsplit_once('_').and_then(|(base, unit)| {
+        let of = |own: &&str| Some((format!("{base}_{own}"), units::ratio(unit, own)?));
+        OWN.iter().find_map(of)
+    });
+    found.unwrap_or_else(|| (name.to_owned(), 1.0))
 }
 
 /// The reader's error in words.

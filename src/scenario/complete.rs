@@ -3,7 +3,7 @@
 
 use toml::{Table, Value};
 
-use super::schema::{self, Default, Kind, Parameter};
+use super::schema::{self, Default, Kind};
 use super::values;
 
 /// Tables that every scenario has, written or not.
@@ -35,11 +35,14 @@ pub(super) fn table(written: &Table) -> Table {
         let chosen = has_accuracy
             && (CHOSEN_BY_ACCURACY.contains(&parameter.path)
                 || parameter.path == "numerics.integrator");
-        let value = match values::at(written, parameter.path) {
-            Some(value) => Some(plain(value, parameter.kind)),
-            None if chosen => None,
-            None if parameter.path == ACCURACY => usual.clone(),
-            None => default(written, parameter),
+        let section = parameter.section();
+        let is_used = || ALWAYS.contains(&section) || values::at(written, section).is_some();
+        let value = match (values::at(written, parameter.path), &parameter.default) {
+            (Some(value), _) => Some(plain(value, parameter.kind)),
+            _ if chosen => None,
+            _ if parameter.path == ACCURACY => usual.clone(),
+            (None, Default::Written(value)) if is_used() => Some(value.clone()),
+            _ => None,
         };
         if let Some(value) = value {
             values::insert(&mut complete, parameter.path, value);
@@ -54,16 +57,6 @@ fn has_usual_accuracy(written: &Table) -> bool {
     let mut chosen = CHOSEN_BY_ACCURACY.into_iter().chain([ACCURACY]);
     let mut wear = ["wear.coefficient", "wear.coefficient_per_load"].into_iter();
     wear.any(is_written) && !chosen.any(is_written)
-}
-
-/// The default that is written out where its table is used.
-fn default(written: &Table, parameter: &Parameter) -> Option<Value> {
-    let section = parameter.section();
-    let used = ALWAYS.contains(&section) || values::at(written, section).is_some();
-    match &parameter.default {
-        Default::Written(value) if used => Some(value.clone()),
-        _ => None,
-    }
 }
 
 /// The value with numbers as floats.

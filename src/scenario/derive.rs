@@ -10,10 +10,9 @@ use crate::contact::normal;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::field::Field;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::gauss;
 use crate::math::root;
 use crate::simulation::drive::{Control, Drive};
-use crate::simulation::{Scheme, Spacing};
+use crate::simulation::{Scheme, Spacing, pieces};
 
 /// Cells of the grid on which the unworn contact is solved: 1e-4 of the depth is more than enough.
 const CELLS: usize = 200;
@@ -24,9 +23,6 @@ const ROOM_TO_SINK: f64 = 3.0;
 
 /// Room beyond the depth at which wear ends, for what cells and steps err by.
 const BEYOND_SETTLED: f64 = 1.05;
-
-/// Pieces of a quadrature over the profile.
-const PIECES: u32 = 64;
 
 /// The contact of the unworn indenter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,7 +75,7 @@ impl Contact<'_> {
     /// The contact where the normal motion is at this depth, m, or force, N.
     fn pressed(&self, at: f64) -> Option<Pressed> {
         match self.drive.normal() {
-            Control::Displacement(_) => self.press_to(at),
+            Control::Displacement(_) => self.press(self.indenter.radius_at(at), |_, _, _| Some(at)),
             Control::Force(_) => self.press_by(at),
         }
     }
@@ -117,10 +113,7 @@ impl Contact<'_> {
         let profile = |x: f64| self.indenter.profile_1d(x);
         let borne = |c: f64| {
             let depth = profile(c) + yielding;
-            let piece = |i: u32| c * f64::from(i) / f64::from(PIECES);
-            let gap = |x: f64| depth - profile(x);
-            let pieces = (0..PIECES).map(|i| gauss(piece(i), piece(i + 1), gap));
-            2.0 * self.material.normal_modulus() * pieces.sum::<f64>()
+            2.0 * self.material.normal_modulus() * pieces([0.0, c], |x| depth - profile(x))
         };
         let force = self.drive.normal().oscillation().mean();
         let widest = self.indenter.radius_at(ROOM_TO_SINK * start);
@@ -151,11 +144,6 @@ impl Contact<'_> {
             }
         };
         Some((stress, or_one(velocity)))
-    }
-
-    /// Presses to a depth, m.
-    fn press_to(&self, depth: f64) -> Option<Pressed> {
-        self.press(self.indenter.radius_at(depth), |_, _, _| Some(depth))
     }
 
     /// Presses by a force, N, on a domain just wide enough to carry it.
@@ -221,7 +209,9 @@ mod tests {
     }
 
     fn press_to(indenter: &Indenter, material: &Material, depth: f64) -> Option<Pressed> {
-        with(indenter, material, |contact| contact.press_to(depth))
+        with(indenter, material, |contact| {
+            contact.press(indenter.radius_at(depth), |_, _, _| Some(depth))
+        })
     }
 
     fn hertz() -> (Indenter, Material, f64) {

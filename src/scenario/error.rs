@@ -43,16 +43,12 @@ impl From<String> for Refusal {
 
 /// A scenario that cannot be run: all that is wrong with it, a line each.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", .refusals.iter().map(Refusal::to_string).collect::<Vec<_>>().join("\n"))]
-pub struct ScenarioError {
-    refusals: Vec<Refusal>,
-}
+#[error("{}", .0.iter().map(Refusal::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct ScenarioError(Vec<Refusal>);
 
 impl From<Refusal> for ScenarioError {
     fn from(refusal: Refusal) -> Self {
-        Self {
-            refusals: vec![refusal],
-        }
+        Self(vec![refusal])
     }
 }
 
@@ -67,18 +63,18 @@ impl ScenarioError {
         let mut errors = errors.into_iter();
         let mut all = errors.next()?;
         for error in errors {
-            all.refusals.extend(error.refusals);
+            all.0.extend(error.0);
         }
-        if all.refusals.len() > MOST_ERRORS {
-            let more = all.refusals.split_off(MOST_ERRORS - 1).len();
-            all.refusals.push(format!("and {more} more errors").into());
+        if all.0.len() > MOST_ERRORS {
+            let more = all.0.split_off(MOST_ERRORS - 1).len();
+            all.0.push(format!("and {more} more errors").into());
         }
         Some(all)
     }
 
     /// What is wrong, one by one.
     pub fn refusals(&self) -> &[Refusal] {
-        &self.refusals
+        &self.0
     }
 }
 

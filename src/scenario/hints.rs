@@ -10,7 +10,7 @@ use super::values::split;
 
 /// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
 /// is nothing near.
-fn meant_with_remarks(path: &str) -> Vec<(&'static str, &'static str)> {
+pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let (section, key) = split(path);
     let word = key.to_lowercase();
     let known = parameters().iter();
@@ -34,11 +34,6 @@ fn meant_with_remarks(path: &str) -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
-/// The keys that the unknown `path` most likely stands for; none if there is nothing near.
-pub(super) fn meant(path: &str) -> impl Iterator<Item = &'static str> {
-    meant_with_remarks(path).into_iter().map(|(key, _)| key)
-}
-
 /// All keys and tables.
 fn places() -> Vec<&'static str> {
     let all = parameters().iter().flat_map(|Parameter { path, .. }| {
@@ -51,7 +46,7 @@ fn places() -> Vec<&'static str> {
 
 /// A hint for the unknown `path`.
 pub fn hint(path: &str) -> String {
-    let meant = meant_with_remarks(path);
+    let meant = meant(path);
     if !meant.is_empty() {
         let told = meant.iter().map(|(key, more)| format!("{key}{more}"));
         return format!("did you mean {}?", told.collect::<Vec<_>>().join(" or "));

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use super::schema;
 
 /// A finite number, whole or not.
-pub(super) fn number(value: &Value) -> Option<f64> {
+pub(crate) fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(whole) => Some(*whole as f64),
         Value::Float(number) => Some(*number).filter(|number| number.is_finite()),

@@ -32,8 +32,7 @@ pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) 
             let _ = writeln!(text, "\n[{open}]");
         }
         let comment = match (parameter.kind, parameter.unit) {
-            (_, "") => String::new(),
-            (Kind::Number | Kind::Numbers, unit) => format!("  # {unit}"),
+            (Kind::Number | Kind::Numbers, unit) if !unit.is_empty() => format!("  # {unit}"),
             _ => String::new(),
         };
         let (key, value) = (parameter.key(), self::value(value));

@@ -126,7 +126,7 @@ impl Unworn<'_> {
 }
 
 /// ∫ y dx over an interval, in pieces.
-fn pieces([from, to]: [f64; 2], y: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn pieces([from, to]: [f64; 2], y: impl Fn(f64) -> f64) -> f64 {
     let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(PIECES);
     (0..PIECES).map(|i| gauss(at(i), at(i + 1), &y)).sum()
 }

@@ -36,7 +36,7 @@ impl Trace<'_> {
         let points = self.xs.iter().copied().zip(self.ys.iter().copied());
         let points = points.filter(|(shift, force)| shift.is_finite() && force.is_finite());
         let strokes = Strokes::new(&points.collect::<Vec<_>>())?;
-        let [least, most] = strokes.ends();
+        let [least, most] = strokes.ends;
         let is_within = (least..=most).contains(&displacement);
         is_within.then(|| strokes.force(displacement, rising))
     }

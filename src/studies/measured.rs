@@ -176,7 +176,8 @@ pub struct Strokes {
     rising: (Vec<f64>, Vec<f64>),
     /// u and F of the falling one.
     falling: (Vec<f64>, Vec<f64>),
-    ends: [f64; 2],
+    /// The least and the largest displacement.
+    pub ends: [f64; 2],
 }
 
 impl Strokes {
@@ -195,11 +196,6 @@ impl Strokes {
             falling: stroke(most, least),
             ends: [displacements[least], displacements[most]],
         })
-    }
-
-    /// The least and the largest displacement.
-    pub fn ends(&self) -> [f64; 2] {
-        self.ends
     }
 
     /// The force at a displacement on one of the strokes; beyond their ends the one there.

@@ -84,12 +84,9 @@ impl Table {
 
     /// Comma-separated values under a line of names.
     pub fn csv(&self) -> String {
-        let mut text = self.names().join(",") + "\n";
-        for row in &self.rows {
-            let fields: Vec<String> = row.iter().map(Value::field).collect();
-            text += &(fields.join(",") + "\n");
-        }
-        text
+        let rows = self.rows.iter();
+        let rows = rows.map(|row| csv_line(row.iter().map(Value::field)));
+        csv_line(self.names()) + &rows.collect::<String>()
     }
 
     /// Aligned columns under their headings, no trailing blanks.
@@ -135,6 +132,16 @@ impl Table {
             .take_while(|other| other.0 == self.columns[at].0)
             .count()
     }
+}
+
+/// Returns one line of a CSV file, with its end.
+pub fn csv_line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
+    let mut writer = csv::WriterBuilder::new();
+    let mut writer = writer.comment(Some(b'#')).from_writer(Vec::new());
+    // Memory does not fail to be written.
+    let _ = writer.write_record(fields);
+    let bytes = writer.into_inner().unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
 }
 
 /// Between columns.

@@ -15,7 +15,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::channel;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use anyhow::{Result, bail};
@@ -62,6 +62,7 @@ pub mod trend;
 mod undo;
 pub mod worker;
 
+use crate::panics::locked;
 use crate::plot::Marker;
 pub use crate::plot::theme;
 use app::App;
@@ -232,11 +233,6 @@ fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
 fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
     let at = all.iter().position(|one| *one == now).unwrap_or(0) as isize;
     all[(at + places).rem_euclid(all.len() as isize) as usize]
-}
-
-/// The value, which is never half written, even after a panic.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.

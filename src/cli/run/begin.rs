@@ -60,7 +60,7 @@ impl<'a> Job<'a> {
         let kept = checkpoint::read::<RunJob>(file)?;
         let session = kept.session;
         let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
-        let home = beside.or(job.home()).map(Path::to_owned);
+        let home = beside.or(job.home.as_deref()).map(Path::to_owned);
         let inside = home.as_deref();
         let inside = inside.filter(|home| is_out(home) && home.is_dir());
         let directory = match (claimed, inside.or(out)) {

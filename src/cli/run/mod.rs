@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -21,6 +21,7 @@ use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{RunDirectory, WriteError, shell_word};
 use crate::export::header::{self, number};
 use crate::export::{field, state};
+use crate::panics::locked;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, checkpoint, printable};
 use crate::studies::refinement;
@@ -179,8 +180,9 @@ impl Job<'_> {
                 self.owed.push((name, table));
             }
         }
+        let unmeasured = header::line(header::UNMEASURED.0, header::UNMEASURED.1);
         for (_, table) in &mut self.owed {
-            *table = table.replacen(&header::unmeasured(), &stated, 1);
+            *table = table.replacen(&unmeasured, &stated, 1);
         }
     }
 
@@ -350,11 +352,6 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle())?;
     Ok(state::table(&glimpse))
-}
-
-/// The value is always whole, even after a panic: it is replaced, never changed in place.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The name of a snapshot's file.

@@ -13,14 +13,19 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let shown = printable(&directory.display().to_string());
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
-    files.retain(|file| options.out.as_ref().is_none_or(|out| !same(out, file)));
+    let out = options.out.as_ref().and_then(|out| out.canonicalize().ok());
+    files.retain(|file| out.is_none() || file.canonicalize().ok() != out);
     let Some(first) = files.first() else {
         bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
     };
     let record = Record::of_file(first)?;
     let study = &record.study()?;
     record.expect(study, "this version of mdr-tui")?;
-    let mut ledger = spool(study, target.as_ref())?;
+    // Rows in a file without a name, where the merged table will stand.
+    let beside = target.as_ref().map(|target| target.directory().to_owned());
+    let beside = beside.unwrap_or_else(env::temp_dir);
+    let mut ledger = Ledger::unnamed(study, &beside)
+        .with_context(|| format!("{}: cannot make a temporary file", beside.display()))?;
     let mut arithmetic = Arithmetic::new();
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);
     for file in &files {
@@ -77,13 +82,6 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     Ok(())
 }
 
-/// Rows in a file without a name, where the merged table will stand.
-fn spool(study: &Study, target: Option<&Target>) -> Result<Ledger> {
-    let directory = target.map_or_else(env::temp_dir, |target| target.directory().to_owned());
-    Ledger::unnamed(study, &directory)
-        .with_context(|| format!("{}: cannot make a temporary file", directory.display()))
-}
-
 /// The names of the CSV files of a directory, sorted. Nothing else is opened:
 /// a pipe would wait for its other end.
 fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
@@ -97,13 +95,9 @@ fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-fn same(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
 /// Names points without a row, and the shards that should have them.
 fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
-    let missing = || rows.done().clone().missing(study, Shard::WHOLE);
+    let missing = || rows.missing(study, Shard::WHOLE);
     let (all, left) = (study.points(), study.points() - rows.rows());
     if left == 0 {
         return Ok(());

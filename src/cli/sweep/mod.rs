@@ -13,7 +13,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::args::Sweep;
-use super::{FAILED, UNFINISHED, complain, progress, stop};
+use super::{UNFINISHED, complain, progress, stop, succeeded};
 use crate::export::file::shell_word;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, limited, printable};
@@ -147,7 +147,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut print = |ledger: &Ledger| -> Result<()> {
         let mut out = io::stdout().lock();
         while options.json
-            && let Some(point) = points.next_if(|&point| ledger.done().has(point))
+            && let Some(point) = points.next_if(|&point| ledger.has(point))
         {
             writeln!(
                 out,
@@ -160,7 +160,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut outcome = print(&output.ledger);
     let mut checked = Ok(());
     if outcome.is_ok() {
-        let todo = output.ledger.done().clone().missing(study, shard);
+        let todo = output.ledger.missing(study, shard);
         checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
             let added = output.add(point, &row);
             let added = added.map_err(|error| anyhow!("{error}"));
@@ -196,12 +196,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
              them again"
         ));
         // Invalid points were to be skipped.
-        return Ok(
-            match output.ledger.count(Success::Failed) > 0 || failed == there {
-                true => ExitCode::from(FAILED),
-                false => ExitCode::SUCCESS,
-            },
-        );
+        let is_failure = failed == there || output.ledger.count(Success::Failed) > 0;
+        return Ok(succeeded(!is_failure));
     }
     if !options.quiet && !options.json && !output.target.is_stdout() {
         writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;

@@ -7,11 +7,10 @@ use crate::studies::sweep::sensitivity;
 /// Runs the study of sensitivities and prints, or writes, its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
-    let keys = study.varied();
     let pool = super::pool(options)?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    let Some(found) = sensitivity::run(study, &keys, &pool, &go_on)? else {
+    let Some(found) = sensitivity::run(study, &pool, &go_on)? else {
         bail!("interrupted before all runs had finished: nothing was saved");
     };
     let table = &found.table;

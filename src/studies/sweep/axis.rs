@@ -1,22 +1,12 @@
 //! An axis: a key of the scenario and the values it takes, and the keys that follow it.
 
-use serde::Deserialize;
 use toml::Value;
 
 use super::design::Spacing;
+use crate::math::scale::Scale;
 use crate::scenario::scalars::number;
 use crate::scenario::schema::{self, Kind};
-
-/// How the values of an axis are spread, for plots.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-pub enum Spread {
-    /// Evenly, or as listed.
-    #[serde(rename = "linear")]
-    Linear,
-    /// Evenly in their logarithms.
-    #[serde(rename = "log")]
-    Logarithmic,
-}
+use crate::scenario::values;
 
 /// A key that a study varies.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +16,7 @@ pub struct Axis {
     /// Its values: numbers, words or flags, in order.
     pub values: Values,
     /// How they are spread.
-    pub spread: Spread,
+    pub spread: Scale,
     /// Keys that move with it, each with its value in units of the axis's.
     pub tied: Vec<(String, f64)>,
 }
@@ -69,16 +59,13 @@ impl Axis {
 
     /// The value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
-        numeric(&self.value(index))
+        values::number(&self.value(index))
     }
 
     /// Where on the axis a value lies: between the indices of its neighbours, as the axis is
     /// spread. None outside, and without numbers.
     pub fn place_of(&self, value: f64) -> Option<f64> {
-        let of = |value: f64| match self.spread {
-            Spread::Linear => value,
-            Spread::Logarithmic => value.ln(),
-        };
+        let of = |value: f64| self.spread.spread(value);
         (1..self.count()).find_map(|index| {
             let (low, high) = (self.number(index - 1)?, self.number(index)?);
             let inside = (low.min(high)..=low.max(high)).contains(&value) && low != high;
@@ -99,7 +86,7 @@ impl Axis {
     /// What `value` assigns: the key's own value, then those of the tied keys.
     pub fn assignments(&self, value: &Value) -> Vec<(&str, String)> {
         let own = (self.key.as_str(), text(value));
-        let number = numeric(value);
+        let number = values::number(value);
         let tied = self.tied.iter().filter_map(|(key, factor)| {
             Some((key.as_str(), text(&value_of(key, number? * factor))))
         });
@@ -116,15 +103,6 @@ pub(super) fn text(value: &Value) -> String {
     }
 }
 
-/// The number that a TOML value is, if it is one.
-pub(super) fn numeric(value: &Value) -> Option<f64> {
-    match value {
-        Value::Integer(value) => Some(*value as f64),
-        Value::Float(value) => Some(*value),
-        _ => None,
-    }
-}
-
 /// A number as a value of `key`: an integer where the key takes whole numbers.
 pub(super) fn value_of(key: &str, value: f64) -> Value {
     match schema::find(key).map(|parameter| parameter.kind) {
@@ -134,7 +112,7 @@ pub(super) fn value_of(key: &str, value: f64) -> Value {
 }
 
 /// The place `share` (0 to 1) of the way from `from` to `to`; both ends are met exactly.
-pub(super) fn between(spread: Spread, from: f64, to: f64, share: f64) -> f64 {
+pub(super) fn between(spread: Scale, from: f64, to: f64, share: f64) -> f64 {
     if share <= 0.0 {
         return from;
     }
@@ -142,9 +120,9 @@ pub(super) fn between(spread: Spread, from: f64, to: f64, share: f64) -> f64 {
         return to;
     }
     match spread {
-        Spread::Linear => from + (to - from) * share,
+        Scale::Linear => from + (to - from) * share,
         // Not the system's, whose last digit differs between machines: shards of one study must not.
-        Spread::Logarithmic => from * libm::pow(to / from, share),
+        Scale::Log => from * libm::pow(to / from, share),
     }
 }
 
@@ -154,11 +132,11 @@ mod tests {
 
     #[test]
     fn both_ends_are_met_to_the_bit() {
-        for spread in [Spread::Linear, Spread::Logarithmic] {
+        for spread in [Scale::Linear, Scale::Log] {
             assert_eq!(between(spread, 0.1, 0.7, 0.0), 0.1);
             assert_eq!(between(spread, 0.1, 0.7, 1.0), 0.7);
         }
-        let middle = between(Spread::Logarithmic, 1e-8, 1e-6, 0.5);
+        let middle = between(Scale::Log, 1e-8, 1e-6, 0.5);
         assert!((middle / 1e-7 - 1.0).abs() < 1e-14, "{middle:e}");
     }
 
@@ -171,11 +149,11 @@ mod tests {
             spread,
             tied: Vec::new(),
         };
-        let log = axis(Spread::Logarithmic);
+        let log = axis(Scale::Log);
         assert_eq!(log.place_of(1e-7), Some(1.0));
         let place = log.place_of(10f64.powf(-6.5)).expect("a place");
         assert!((place - 1.5).abs() < 1e-12);
-        let place = axis(Spread::Linear).place_of(5.5e-8).expect("a place");
+        let place = axis(Scale::Linear).place_of(5.5e-8).expect("a place");
         assert!((place - 0.5).abs() < 1e-12);
         let value = log.value_at(1.5).expect("a value");
         assert!((value / 10f64.powf(-6.5) - 1.0).abs() < 1e-12);
@@ -188,7 +166,7 @@ mod tests {
         let axis = Axis {
             key: "motion.normal.mean".into(),
             values: Values::Listed(vec![Value::Float(2e-6)]),
-            spread: Spread::Linear,
+            spread: Scale::Linear,
             tied: vec![
                 ("motion.normal.amplitude".into(), 0.25),
                 ("numerics.points".into(), 50.2e6),

@@ -2,12 +2,12 @@
 //! fill the space evenly.
 
 use serde::Deserialize;
-use strum::IntoStaticStr;
+use strum::Display;
 
 use super::shuffle::{mix, shuffled};
 
 /// The way from axes to points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, IntoStaticStr)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Display)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Design {
@@ -24,11 +24,6 @@ pub enum Design {
 }
 
 impl Design {
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-
     /// The most samples of a design that draws the values of its axes, so that an axis names its ends alone.
     pub fn most_samples(self) -> Option<usize> {
         match self {

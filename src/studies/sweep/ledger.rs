@@ -11,27 +11,10 @@ use super::finder::Finder;
 use super::record::{self, Refused};
 use super::{Shard, Study, Success};
 use crate::scenario::scalars::number;
+use crate::studies::table::csv_line;
 
 /// The bytes of an entry of the index.
 const ENTRY: usize = 16;
-
-/// The points that have rows.
-#[derive(Debug, Clone)]
-pub struct Done(Vec<u64>);
-
-impl Done {
-    /// Whether a point has its row.
-    pub fn has(&self, point: usize) -> bool {
-        self.0[point / 64] >> (point % 64) & 1 == 1
-    }
-
-    /// The points of a shard that have no row, in order.
-    pub fn missing(self, study: &Study, shard: Shard) -> impl Iterator<Item = usize> {
-        shard
-            .points(study.points())
-            .filter(move |&point| !self.has(point))
-    }
-}
 
 /// Rows in the order in which they came.
 #[derive(Debug)]
@@ -44,7 +27,8 @@ pub struct Ledger {
     /// For each point, where its row begins in `rows` and its length; without a name, so that it goes with the
     /// process.
     index: File,
-    done: Done,
+    /// A bit for each point that has its row.
+    done: Vec<u64>,
     /// The number of rows, by how their points went.
     counts: BTreeMap<Success, usize>,
 }
@@ -61,7 +45,7 @@ impl Ledger {
             length: rows.seek(SeekFrom::End(0))?,
             rows,
             index: tempfile::tempfile_in(directory)?,
-            done: Done(vec![0; study.points().div_ceil(64)]),
+            done: vec![0; study.points().div_ceil(64)],
             counts: BTreeMap::new(),
         })
     }
@@ -82,7 +66,7 @@ impl Ledger {
     ///
     /// As the system says.
     pub fn add(&mut self, point: usize, fields: &[String]) -> io::Result<()> {
-        let line = record::line(fields);
+        let line = csv_line(fields);
         let entry = [self.length, line.len() as u64].map(u64::to_le_bytes);
         let written = self.rows.write_all(line.as_bytes()).and_then(|()| {
             self.index
@@ -93,7 +77,7 @@ impl Ledger {
             return Err(error);
         }
         self.length += line.len() as u64;
-        self.done.0[point / 64] |= 1 << (point % 64);
+        self.done[point / 64] |= 1 << (point % 64);
         *self.counts.entry(Success::of(fields)).or_default() += 1;
         Ok(())
     }
@@ -125,7 +109,7 @@ impl Ledger {
             }
         }
         // Points with equal values have equal rows: which of them takes which does not matter.
-        if let Some(&free) = points.iter().find(|&&point| !self.done.has(point)) {
+        if let Some(&free) = points.iter().find(|&&point| !self.has(point)) {
             return self.add(free, &fields).map(Ok);
         }
         for point in points {
@@ -136,9 +120,20 @@ impl Ledger {
         Ok(Err(Refused::Contradiction))
     }
 
-    /// The points that have rows now.
-    pub fn done(&self) -> &Done {
-        &self.done
+    /// Whether a point has its row.
+    pub fn has(&self, point: usize) -> bool {
+        is_set(&self.done, point)
+    }
+
+    /// The points of a shard that have no row now, in order.
+    pub fn missing(
+        &self,
+        study: &Study,
+        shard: Shard,
+    ) -> impl Iterator<Item = usize> + Send + use<> {
+        let done = self.done.clone();
+        let points = shard.points(study.points());
+        points.filter(move |&point| !is_set(&done, point))
     }
 
     /// The number of rows.
@@ -191,7 +186,11 @@ impl Ledger {
     ///
     /// Of `take`, or if a file cannot be read.
     pub fn each(&self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
-        let mut points = (0..64 * self.done.0.len()).filter(|&point| self.done.has(point));
+        let mut points = (0..64 * self.done.len()).filter(|&point| self.has(point));
         points.try_for_each(|point| take(&self.line(point)?))
     }
+}
+
+fn is_set(bits: &[u64], at: usize) -> bool {
+    bits[at / 64] >> (at % 64) & 1 == 1
 }

@@ -6,14 +6,14 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::axis::{self, Axis, Spread, Values};
+use super::axis::{self, Axis, Values};
 use super::design::{Design, MOST_SOBOL_AXES, Spacing};
-use super::sensitivity::Varied;
 use super::study::{Stop, Study};
+use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
 use crate::scenario::scalars::{self, Scalar, number};
-use crate::scenario::{Refusal, Scenario, printable, typed};
-use crate::scenario::{hints, preset, schema, units};
+use crate::scenario::{Refusal, Scenario, ScenarioError, printable, typed};
+use crate::scenario::{hints, preset, schema, units, values};
 
 /// The columns of a study that names none.
 const COLUMNS: [&str; 4] = [
@@ -56,7 +56,7 @@ struct WrittenAxis {
     values: Option<Vec<Value>>,
     linspace: Option<Vec<Value>>,
     logspace: Option<Vec<Value>>,
-    scale: Option<Spread>,
+    scale: Option<Scale>,
     #[serde(default)]
     tied: Table,
 }
@@ -75,7 +75,7 @@ impl Study {
                 true => directory.join(name).to_string_lossy().into_owned(),
                 false => name.to_owned(),
             };
-            Scenario::load(&path, &[]).map_err(|error| Refusal::from(error.to_string()))
+            Scenario::load(&path, &[])
         })
     }
 
@@ -85,21 +85,19 @@ impl Study {
     ///
     /// As [`read`](Self::read).
     pub fn read_with_base(text: &str, origin: &str, base: &str) -> Result<Self> {
-        Self::read_on(text, origin, |name| {
-            Scenario::from_toml(base, name, &[]).map_err(|error| Refusal::from(error.to_string()))
-        })
+        Self::read_on(text, origin, |name| Scenario::from_toml(base, name, &[]))
     }
 
     fn read_on(
         text: &str,
         origin: &str,
-        load: impl FnOnce(&str) -> Result<Scenario>,
+        load: impl FnOnce(&str) -> std::result::Result<Scenario, ScenarioError>,
     ) -> Result<Self> {
         let origin = printable(origin);
         let refused = |why: Refusal| Refusal::new(&origin, why);
         let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
-        let base = load(&given.base)?;
+        let base = load(&given.base).map_err(|error| Refusal::from(error.to_string()))?;
         given.study(base, written).map_err(refused)
     }
 }
@@ -166,8 +164,7 @@ fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
         (None, None, None) => Ok(None),
         (None, ..) => error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""),
         (Some(_), None, _) => error(format!(
-            "samples is missing: the number of points that design = \"{}\" draws",
-            design.name()
+            "samples is missing: the number of points that design = \"{design}\" draws"
         )),
         (Some(most), Some(samples), seed) => match (1..=most).contains(&samples) {
             true => Ok(Some((samples, seed.unwrap_or(0)))),
@@ -209,7 +206,7 @@ fn columns(names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
     for name in names {
         let column = scalars::named(&name);
         let column = column.map_err(|why| Refusal::from(format!("columns: {why}")))?;
-        if columns.contains(&column) {
+        if columns.iter().any(|known| known.name == column.name) {
             return refuse("columns", Value::from(name), "stands twice");
         }
         columns.push(column);
@@ -231,20 +228,24 @@ fn check_stop(stop: Stop) -> Result<()> {
     Ok(())
 }
 
-fn sensitivity(table: &Table) -> Result<Vec<Varied>> {
-    let varied = flat("sensitivity", table)?.into_iter();
-    let varied = varied.map(|(key, value)| match axis::numeric(&value) {
-        Some(number) if number >= 0.0 && number.is_finite() => Ok(Varied {
-            key,
-            deviation: Some(number).filter(|number| *number > 0.0),
-        }),
-        _ => refuse(
-            &format!("sensitivity.{key}"),
-            value,
-            "must be a standard deviation, 0 if it is not known",
-        ),
+fn sensitivity(table: &Table) -> Result<Vec<(String, f64)>> {
+    let rule = "must be a standard deviation, 0 if it is not known";
+    numbers("sensitivity", table, rule, |number| number >= 0.0)
+}
+
+/// The scenario keys of a table at `place` and their values, finite numbers that keep a `rule`.
+fn numbers(
+    place: &str,
+    table: &Table,
+    rule: &str,
+    keeps: fn(f64) -> bool,
+) -> Result<Vec<(String, f64)>> {
+    let values = flat(place, table)?.into_iter();
+    let values = values.map(|(key, value)| match values::number(&value) {
+        Some(number) if keeps(number) => Ok((key, number)),
+        _ => refuse(&format!("{place}.{key}"), value, rule),
     });
-    varied.collect()
+    values.collect()
 }
 
 /// The next axis of a study.
@@ -257,9 +258,9 @@ fn read_axis(
     let key = axis.key;
     known_key(&key, place)?;
     let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
-        (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Spread::Linear)),
-        (None, Some(list), None) => ("linspace", list, Spread::Linear),
-        (None, None, Some(list)) => ("logspace", list, Spread::Logarithmic),
+        (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Scale::Linear)),
+        (None, Some(list), None) => ("linspace", list, Scale::Linear),
+        (None, None, Some(list)) => ("logspace", list, Scale::Log),
         _ => {
             let rule = "must have one of values, linspace and logspace";
             return error(format!("{place} ({key}): {rule}"));
@@ -328,13 +329,14 @@ fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
 }
 
 /// The ends of a list [from, to, …] of `length`.
-fn ends(place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f64; 2]> {
-    let end = |value: &Value| axis::numeric(value).filter(|number| number.is_finite());
+fn ends(place: &str, list: &[Value], spread: Scale, length: usize) -> Result<[f64; 2]> {
     let rule = match list {
         _ if list.len() != length && length == 2 => "must be [from, to]; samples gives the number",
         _ if list.len() != length => "must be [from, to, number]",
-        [from, to, ..] if let (Some(from), Some(to)) = (end(from), end(to)) => {
-            if spread == Spread::Linear || from.min(to) > 0.0 {
+        [from, to, ..]
+            if let (Some(from), Some(to)) = (values::number(from), values::number(to)) =>
+        {
+            if spread == Scale::Linear || from.min(to) > 0.0 {
                 return Ok([from, to]);
             }
             "must begin with two numbers greater than 0"
@@ -347,16 +349,11 @@ fn ends(place: &str, list: &[Value], spread: Spread, length: usize) -> Result<[f
 fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
     if let Values::Listed(values) = values
         && !table.is_empty()
-        && values.iter().any(|value| axis::numeric(value).is_none())
+        && values.iter().any(|value| values::number(value).is_none())
     {
         return error(format!("{place}: needs an axis of numbers"));
     }
-    let tied = flat(place, table)?.into_iter();
-    let tied = tied.map(|(key, factor)| match axis::numeric(&factor) {
-        Some(number) if number.is_finite() => Ok((key, number)),
-        _ => refuse(&format!("{place}.{key}"), factor, "must be a finite factor"),
-    });
-    tied.collect()
+    numbers(place, table, "must be a finite factor", |_| true)
 }
 
 /// Refuses too many points, and zipped axes of different lengths.
@@ -377,7 +374,7 @@ fn check_count(study: &Study) -> Result<()> {
              number on each",
             axis.key,
             axis.count(),
-            study.design.name()
+            study.design
         )),
     }
 }

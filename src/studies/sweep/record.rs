@@ -27,7 +27,7 @@ use super::{Shard, Study};
 use crate::scenario::limited::Unread;
 use crate::scenario::scalars::Value;
 use crate::scenario::{Refusal, printable};
-use crate::studies::table::Object;
+use crate::studies::table::{Object, csv_line};
 
 /// The longest line and the longest header that are read, in bytes.
 const LONGEST: u64 = 1 << 26;
@@ -45,7 +45,7 @@ pub fn head(study: &Study, shard: Shard, arithmetic: &Arithmetic) -> String {
     if shard != Shard::WHOLE {
         let _ = writeln!(text, "# shard: {shard}");
     }
-    text.push_str(&line(study.columns()));
+    text.push_str(&csv_line(study.columns()));
     text
 }
 
@@ -61,16 +61,6 @@ fn lines(study: &Study) -> String {
     push("study", &study.to_toml());
     push("base", &study.base.to_toml());
     text
-}
-
-/// Returns one line of a CSV file, with its end.
-pub fn line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
-    let mut writer = csv::WriterBuilder::new();
-    let mut writer = writer.comment(Some(b'#')).from_writer(Vec::new());
-    // Memory does not fail to be written.
-    let _ = writer.write_record(fields);
-    let bytes = writer.into_inner().unwrap_or_default();
-    String::from_utf8(bytes).unwrap_or_default()
 }
 
 /// The fields of one line of a CSV file.

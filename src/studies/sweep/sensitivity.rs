@@ -36,15 +36,6 @@ const LEVELS: u32 = 3;
 /// Where the runs of a key stand, in units of the step.
 const PLACES: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
-/// A key that is varied.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Varied {
-    /// The dotted path.
-    pub key: String,
-    /// Its standard deviation, in its unit; none: elasticities alone.
-    pub deviation: Option<f64>,
-}
-
 /// What a study of sensitivities has found.
 #[derive(Debug)]
 pub struct Sensitivity {
@@ -57,28 +48,29 @@ pub struct Sensitivity {
     pub is_resolved: bool,
 }
 
-/// Finds the elasticities of the study's columns with respect to `keys`, around its base with what it
-/// sets. None if `go_on` said no before the end.
+/// Finds the elasticities of the study's columns with respect to its [varied](Study::varied) keys, around its base with
+/// what it sets. None if `go_on` said no before the end.
 ///
 /// # Errors
 ///
 /// Refuses a key whose value in the scenario is not a number greater than 0, and reports a run that failed.
 pub fn run(
     study: &Study,
-    keys: &[Varied],
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
     let middle = study
-        .middle()
+        .scenario_at(&[], None)
         .map_err(|error| Refusal::from(error.to_string()))?;
-    let valued = keys.iter().map(|varied| {
-        let value = middle.value(&varied.key);
+    let keys = study.varied();
+    let valued = keys.iter().map(|(key, deviation)| {
+        let deviation = Some(*deviation).filter(|known| *known > 0.0);
+        let value = middle.value(key);
         let value = value.and_then(|value| value.parse::<f64>().ok());
         match value.filter(|value| *value > 0.0 && value.is_finite()) {
-            Some(value) => Ok((varied, value)),
+            Some(value) => Ok((key.as_str(), deviation, value)),
             None => Err(Refusal::new(
-                format_args!("sensitivity: {}", varied.key),
+                format_args!("sensitivity: {key}"),
                 "must be a number greater than 0 in the base or in [set]",
             )),
         }
@@ -101,15 +93,15 @@ pub fn run(
 fn around(
     study: &Study,
     fixed: &Scenario,
-    keys: &[(&Varied, f64)],
+    keys: &[(&str, Option<f64>, f64)],
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
     let mut scenarios = vec![fixed.clone()];
-    for (varied, value) in keys {
+    for (key, _, value) in keys {
         for place in PLACES {
             let value = number(value * (STEP * place).exp());
-            let scenario = fixed.with(&varied.key, &value);
+            let scenario = fixed.with(key, &value);
             scenarios.push(scenario.map_err(|error| Refusal::new("sensitivity", error))?);
         }
     }
@@ -139,30 +131,30 @@ fn around(
         ("", "error deviation relative_spread", Format::Rough),
     ]);
     let mut is_resolved = true;
-    let has_deviation = keys.iter().any(|(varied, _)| varied.deviation.is_some());
+    let has_deviation = keys.iter().any(|(_, deviation, _)| deviation.is_some());
     // The relative spread of each column, unless an elasticity that adds to it is not known.
     let mut spreads = vec![has_deviation.then_some(0.0); study.columns.len()];
-    for ((varied, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
+    for (&(key, deviation, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
         for (column, scalar) in study.columns.iter().enumerate() {
             let around: Option<Vec<f64>> = around.iter().map(|run| run[column]).collect();
             let found = around.as_deref().and_then(difference);
             let good = |[found, error]: [f64; 2]| error <= WANTED.0.max(WANTED.1 * found.abs());
             is_resolved &= found.is_none_or(good);
             let [elasticity, error] = found.map_or([None; 2], |found| found.map(Some));
-            let spread = varied.deviation.zip(elasticity);
+            let spread = deviation.zip(elasticity);
             let spread = spread.map(|(deviation, found)| (found * deviation / value).abs());
-            if varied.deviation.is_some() {
+            if deviation.is_some() {
                 let both = spreads[column].zip(spread);
                 spreads[column] = both.map(|(sum, spread)| f64::hypot(sum, spread));
             }
             table.push(vec![
-                varied.key.clone().into(),
-                (*value).into(),
+                key.to_owned().into(),
+                value.into(),
                 scalar.name.into(),
                 results[0][column].into(),
                 elasticity.into(),
                 error.into(),
-                varied.deviation.into(),
+                deviation.into(),
                 spread.into(),
             ]);
         }

@@ -16,11 +16,6 @@ impl Shard {
     /// The whole study.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
-    /// Whether this shard runs `point`.
-    pub fn holds(self, point: usize) -> bool {
-        point % self.count == self.index
-    }
-
     /// The points of this shard among the first `points`, in order.
     pub fn points(self, points: usize) -> impl ExactSizeIterator<Item = usize> + Send + use<> {
         (self.index..points).step_by(self.count)
@@ -62,7 +57,11 @@ mod tests {
         found.sort_unstable();
         assert_eq!(found, (0..100).collect::<Vec<_>>());
         let shard = Shard { index: 3, count: 7 };
-        assert!(shard.points(100).all(|point| shard.holds(point)));
+        assert!(
+            shard
+                .points(100)
+                .all(|point| point % shard.count == shard.index)
+        );
     }
 
     #[test]

@@ -8,7 +8,6 @@ use toml::{Table, Value};
 use super::Design;
 use super::axis::{self, Axis};
 use super::read::known_key;
-use super::sensitivity::Varied;
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
@@ -47,8 +46,8 @@ pub struct Study {
     pub columns: Vec<&'static Scalar>,
     /// When a point ends.
     pub stop: Stop,
-    /// Keys whose sensitivities are asked for.
-    pub sensitivity: Vec<Varied>,
+    /// Keys whose sensitivities are asked for, each with its standard deviation in its unit; 0 where that is not known.
+    pub sensitivity: Vec<(String, f64)>,
     /// As it is written.
     pub(super) written: Table,
 }
@@ -108,7 +107,7 @@ impl Study {
         self.scenario_at(&self.places(point), None)
     }
 
-    /// The scenario with the axes at `places`, but for an axis that has another value.
+    /// The scenario with the first axes at `places`, but for an axis that has another value, and nothing of the others.
     ///
     /// # Errors
     ///
@@ -127,24 +126,12 @@ impl Study {
         }))
     }
 
-    /// The base with what is set for all points, and nothing of the axes.
-    ///
-    /// # Errors
-    ///
-    /// As [`scenario`](Self::scenario).
-    pub fn middle(&self) -> Result<Scenario, ScenarioError> {
-        self.build(std::iter::empty())
-    }
-
     /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.
-    pub fn varied(&self) -> Vec<Varied> {
+    pub fn varied(&self) -> Vec<(String, f64)> {
         if !self.sensitivity.is_empty() {
             return self.sensitivity.clone();
         }
-        let axes = self.axes.iter().map(|axis| Varied {
-            key: axis.key.clone(),
-            deviation: None,
-        });
+        let axes = self.axes.iter().map(|axis| (axis.key.clone(), 0.0));
         axes.collect()
     }
 

@@ -11,8 +11,9 @@ pub struct Errors {
     pub errors: Vec<f64>,
     /// r/a of the nodes where theory is infinite, or 0 and the error relative to it.
     pub left_out: Vec<f64>,
-    /// Whether [`rms`](Self::rms) averages over the radius instead of over the nodes.
-    over_radius: bool,
+    /// Whether [`rms`](Self::rms) averages over the radius instead of over the nodes: fair between grids whose nodes lie
+    /// differently.
+    pub over_radius: bool,
 }
 
 /// One node: r/a, result and theory.
@@ -32,14 +33,6 @@ impl Errors {
             }
         }
         all
-    }
-
-    /// The same errors, the root mean square taken over the radius: fair between grids whose nodes
-    /// lie differently.
-    #[must_use]
-    pub fn over_radius(mut self) -> Self {
-        self.over_radius = true;
-        self
     }
 
     /// The largest error; NaN if any is.

@@ -14,26 +14,13 @@ use crate::oracle::truncated::TruncatedParaboloid;
 use crate::reading::Curves;
 use crate::simulation::Simulation;
 
-/// A grid on which the contact radius a = 1 and an inner radius of about a/2, the border c of the
-/// stick zone or the rim b of a flat tip, both lie a third of a cell outside a node, for every N: an
-/// error that depends on the place within the cell would else hide the order.
-pub struct Between {
-    /// L/a, about 1.5.
-    pub domain: f64,
-    /// The inner radius over a.
-    pub inner: f64,
-}
-
-impl Between {
-    /// For N = `points`.
-    pub fn nodes(points: usize) -> Self {
-        let cells = |whole: usize| whole as f64 + 1.0 / 3.0;
-        let contact = cells(2 * points / 3);
-        Self {
-            domain: points as f64 / contact,
-            inner: cells(points / 3) / contact,
-        }
-    }
+/// L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points` on which the contact radius a = 1
+/// and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third of a cell outside
+/// a node: an error that depends on the place within the cell would else hide the order.
+pub fn between_nodes(points: usize) -> (f64, f64) {
+    let cells = |whole: usize| whole as f64 + 1.0 / 3.0;
+    let contact = cells(2 * points / 3);
+    (points as f64 / contact, cells(points / 3) / contact)
 }
 
 /// d, the mean pressure, and f, g and p at nodes, in closed form for a = E* = 1.
@@ -141,14 +128,14 @@ pub fn cone(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
 
 /// f = r⁴, the edge between nodes.
 pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let grid = RadialGrid::uniform(points, Between::nodes(points).domain)?;
+    let grid = RadialGrid::uniform(points, between_nodes(points).0)?;
     let exact = Exact::power_law(PowerLaw::quartic(1.0), &grid);
     exact.errors(method, &grid, Some(Indenter::power(1.0, 4.0)?), false)
 }
 
 /// R = 1, b about a/2, both edges between nodes.
 pub fn truncated_paraboloid(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let Between { domain, inner } = Between::nodes(points);
+    let (domain, inner) = between_nodes(points);
     let grid = RadialGrid::uniform(points, domain)?;
     let shape = TruncatedParaboloid {
         e_star: 1.0,

@@ -2,7 +2,7 @@
 
 use super::Stop;
 use super::errors::Errors;
-use super::normal::Between;
+use super::normal::between_nodes;
 use super::scene::{FRICTION, POISSON, pressed, swing};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
@@ -38,7 +38,7 @@ fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Resu
 
 /// τ and slip after a quarter of a cycle without wear, c about a/2: c² = 1 − κU.
 pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let Between { domain, inner } = Between::nodes(points);
+    let (domain, inner) = between_nodes(points);
     let exact = theory((1.0 - inner * inner) * theory(0.0).gross_slip_displacement());
     let setup = moved(method, points, domain, exact.amplitude)?;
     let mut simulation = Simulation::new(setup)?;
@@ -89,8 +89,10 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
     let worn = seen.radii.iter().zip(&seen.profile);
     let worn = worn.map(|(&r, &f)| (r, f, exact.profile(r)));
     let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
+    let mut profile = Errors::new(Some(1.0), worn);
+    profile.over_radius = true;
     Ok(vec![
-        Errors::new(Some(1.0), worn).over_radius(),
+        profile,
         Errors::new(None, [(stick_radius, found, stick_radius)].into_iter()),
     ])
 }

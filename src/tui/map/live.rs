@@ -145,18 +145,21 @@ impl Live {
 
     /// Reads the table again whenever it has grown, and tells that there is something new to see.
     pub fn watch(&self, events: Sender<Event>) {
-        let (shared, file) = (self.clone(), self.file.clone());
+        let Some(file) = self.file.clone() else {
+            return;
+        };
+        let shared = self.clone();
         thread::spawn(move || {
             let mut seen = None;
-            while let Some(file) = &file {
+            loop {
                 thread::sleep(LOOK_INTERVAL);
-                let now = changed(file);
+                let now = changed(&file);
                 if now == seen {
                     continue;
                 }
                 seen = now;
                 // A file that is being replaced is read again the next time.
-                let _ = Record::of_file(file).map(|rows| shared.with(|view| view.renew(rows)));
+                let _ = Record::of_file(&file).map(|rows| shared.with(|view| view.renew(rows)));
                 if events.send(Event::News).is_err() {
                     return;
                 }

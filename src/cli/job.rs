@@ -8,9 +8,9 @@ use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};
 
 use super::args::{CycleAsGiven, HistoryChoice, Run};
-use crate::export::file::rows_in;
 use crate::export::history::History;
 use crate::export::last_loop::LastLoop;
+use crate::export::run_directory::rows_in;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 

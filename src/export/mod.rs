@@ -9,5 +9,6 @@ pub mod header;
 pub mod history;
 pub mod last_loop;
 pub mod own;
+pub mod run_directory;
 pub mod state;
 pub mod target;

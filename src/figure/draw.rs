@@ -5,12 +5,10 @@ use super::font;
 use super::frame::{BAR, Frame, symbol};
 use super::look::Look;
 use super::map::Key;
-use crate::plot::axis::titled;
+use super::ruler::{column, numeral, ruler, title};
 use crate::plot::segment::clip;
 use crate::plot::ticks::{Labels, Ruler};
-use crate::plot::units::{AxisUnit, axis_unit};
-use crate::plot::window::Window;
-use crate::plot::{Axis, Chart, Curve, Scale};
+use crate::plot::{Chart, Curve, Scale};
 
 /// The share of the data's extent between them and the frame, above and below, so that no plateau lies on it.
 /// Zero may lie on the frame: it is an axis.
@@ -26,9 +24,6 @@ const TICK: f64 = 1.0;
 
 /// The shares of a frame that an inset spans.
 const INSET: [f64; 2] = [0.58, 0.5];
-
-/// The ratio of the ends of a logarithmic axis up to which its labels have one prefix instead of powers of ten.
-const ONE_PREFIX: f64 = 1.1e4;
 
 impl Chart {
     /// What a legend below the frame takes, mm: that of a map stands there, and hides no colour.
@@ -263,71 +258,5 @@ pub(super) struct Ordinate {
     ruler: Ruler,
 }
 
-/// An axis with room for this many labels.
-fn ruler(axis: &Axis, bounds: [f64; 2], cells: f64, labels: Labels) -> Ruler {
-    let cells = cells.clamp(2.0, 400.0) as u16;
-    let window = Window::new(bounds, axis.scale, cells, 16);
-    Ruler::new(window, unit_of(axis, bounds), labels)
-}
-
-/// An axis of this height, mm.
-pub(super) fn column(axis: &Axis, bounds: [f64; 2], height: f64, font: f64) -> Ruler {
-    ruler(axis, bounds, height / (1.2 * font), Labels::Column)
-}
-
-/// What an axis shows, with the unit of its labels.
-pub(super) fn title(axis: &Axis, unit: &AxisUnit) -> String {
-    titled(&axis.label, &numeral(&unit.text), ['(', ')'])
-}
-
 /// Height of a line of the legend, in sizes of the font.
 const LEGEND_LINE: f64 = 1.17;
-
-/// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
-fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
-    let largest = bounds[0].abs().max(bounds[1].abs());
-    let is_narrow = !axis.unit.is_empty() && bounds[1] / bounds[0] < ONE_PREFIX;
-    match axis.scale {
-        Scale::Log if !is_narrow => AxisUnit {
-            factor: 1.0,
-            text: axis.unit.to_owned(),
-        },
-        _ => axis_unit(largest, axis.unit, false),
-    }
-}
-
-/// A number, alone or before a unit, as print has it: a true minus sign, and 2e-8 as 2·10^−8.
-pub(super) fn numeral(text: &str) -> String {
-    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    if number.parse::<f64>().is_err() {
-        return text.to_owned();
-    }
-    let number = number.replace('-', "−");
-    let number = match number.split_once('e') {
-        None => number,
-        Some(("1", exponent)) => format!("10^{exponent}"),
-        Some((mantissa, exponent)) => format!("{mantissa}·10^{exponent}"),
-    };
-    format!("{number} {unit}").trim_end().to_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_set_as_print_has_them() {
-        for (text, set) in [
-            ("0.5", "0.5"),
-            ("-20", "−20"),
-            ("1e-4", "10^−4"),
-            ("2e8", "2·10^8"),
-            ("1e-9 m", "10^−9 m"),
-            ("µm", "µm"),
-            ("cycles", "cycles"),
-            ("1/Pa", "1/Pa"),
-        ] {
-            assert_eq!(numeral(text), set);
-        }
-    }
-}

@@ -1,10 +1,10 @@
 //! A map on paper, and the key to its colours.
 
 use super::canvas::{Anchor, Canvas};
-use super::draw::{column, numeral, title};
 use super::font;
 use super::frame::Frame;
 use super::look::Look;
+use super::ruler::{column, numeral, title};
 use crate::plot::ticks::Ruler;
 use crate::plot::{Axis, Map};
 

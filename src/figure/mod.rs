@@ -18,6 +18,7 @@ mod map;
 pub mod paper;
 pub mod pdf;
 pub mod png;
+mod ruler;
 pub mod study;
 pub mod svg;
 

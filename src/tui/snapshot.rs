@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::de::IgnoredAny;
 
 use super::trend::{self, Cycle, Recorded, Trend};
-use crate::export::file::{RUN_CHECKPOINT, RunDirectory, WriteError};
+use crate::export::file::WriteError;
 use crate::export::header::{field as written, number, table};
+use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
 use crate::export::{history, state};
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;

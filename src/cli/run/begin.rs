@@ -6,7 +6,8 @@ use anyhow::{Context, bail};
 
 use super::*;
 use crate::export::autosave::state_directory;
-use crate::export::file::{RUN_CHECKPOINT, directory_of, write_whole};
+use crate::export::file::{directory_of, write_whole};
+use crate::export::run_directory::RUN_CHECKPOINT;
 use crate::scenario::Refusal;
 
 impl<'a> Job<'a> {

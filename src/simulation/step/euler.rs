@@ -11,7 +11,7 @@
 use super::super::model::Model;
 use super::super::state::State;
 use super::super::{Scratch, traction};
-use super::substep::Bounds;
+use super::Bounds;
 use crate::math::scan::leading;
 
 /// At its limit of 2 an explicit step rings; up to half of it no error changes its sign.

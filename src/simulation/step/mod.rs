@@ -33,6 +33,14 @@ mod trapezoid;
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
 pub(super) use substep::step;
 
+/// How stiff the steps of a scheme may be.
+struct Bounds {
+    /// The stiffness beyond which a step is not taken as it is.
+    stiff: f64,
+    /// That of its sub-steps.
+    aim: f64,
+}
+
 /// A worn depth of this many times the largest depth of indentation cannot come from contact.
 const RUNAWAY: f64 = 10.0;
 

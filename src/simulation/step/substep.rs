@@ -18,7 +18,7 @@ use super::super::choices::{Scheme, Stability};
 use super::super::model::Model;
 use super::super::state::State;
 use super::super::{Scratch, contact};
-use super::{accept, euler, trapezoid, wear};
+use super::{Bounds, accept, euler, trapezoid, wear};
 
 /// By how much a sub-step may be longer than the one before it.
 const GROWTH: f64 = 1.5;
@@ -26,14 +26,6 @@ const GROWTH: f64 = 1.5;
 /// The smallest sub-step, in steps. The wear of a slip instability is limited in these, and what merely is stiff, on
 /// narrow cells, must not reach them: it would lose wear (6 % of V at K = 300 and 12 steps with 3e-3, 2e-5 so).
 const SMALLEST: f64 = 1e-4;
-
-/// How stiff the steps of a scheme may be.
-pub(super) struct Bounds {
-    /// The stiffness beyond which a step is not taken as it is.
-    pub stiff: f64,
-    /// That of its sub-steps.
-    pub aim: f64,
-}
 
 /// How a step or a sub-step is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]

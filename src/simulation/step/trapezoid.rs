@@ -32,7 +32,7 @@ use super::super::model::Model;
 use super::super::state::State;
 use super::super::wear::outer_slip_zone;
 use super::super::{Scratch, traction};
-use super::substep::Bounds;
+use super::Bounds;
 use crate::contact::tangential::SpringState;
 use crate::math::scan::leading;
 

@@ -6,7 +6,7 @@ use super::design::Spacing;
 use crate::math::scale::Scale;
 use crate::scenario::scalars::number;
 use crate::scenario::schema::{self, Kind};
-use crate::scenario::values;
+use crate::scenario::{Refusal, hints, printable, values};
 
 /// A key that a study varies.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,6 +101,16 @@ pub(super) fn text(value: &Value) -> String {
         Value::String(word) => word.clone(),
         other => other.to_string(),
     }
+}
+
+/// Refuses a key that no scenario has.
+pub(super) fn known_key(key: &str, place: &str) -> Result<(), Refusal> {
+    if schema::find(key).is_some() && !key.starts_with("changes") {
+        return Ok(());
+    }
+    let hint = hints::hint(key);
+    let key = printable(key);
+    Err(format!("{place}: unknown key {key}; {hint}").into())
 }
 
 /// A number as a value of `key`: an integer where the key takes whole numbers.

@@ -6,14 +6,14 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::axis::{self, Axis, Values};
+use super::axis::{self, Axis, Values, known_key};
 use super::design::{Design, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
 use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
 use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable, typed};
-use crate::scenario::{hints, preset, schema, units, values};
+use crate::scenario::{preset, schema, units, values};
 
 /// The columns of a study that names none.
 const COLUMNS: [&str; 4] = [
@@ -187,16 +187,6 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
         .iter()
         .try_for_each(|(key, _)| known_key(key, place))?;
     Ok(found)
-}
-
-/// Refuses a key that no scenario has.
-pub(super) fn known_key(key: &str, place: &str) -> Result<()> {
-    if schema::find(key).is_some() && !key.starts_with("changes") {
-        return Ok(());
-    }
-    let hint = hints::hint(key);
-    let key = printable(key);
-    error(format!("{place}: unknown key {key}; {hint}"))
 }
 
 fn columns(names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {

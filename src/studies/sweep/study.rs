@@ -6,8 +6,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::Design;
-use super::axis::{self, Axis};
-use super::read::known_key;
+use super::axis::{self, Axis, known_key};
 use crate::scenario::scalars::Scalar;
 use crate::scenario::write::value as toml_value;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};

@@ -10,7 +10,7 @@ use std::time::UNIX_EPOCH;
 
 use crate::export::file::shell_word;
 use crate::export::header;
-use crate::scenario::write::value;
+use crate::scenario::values::literal;
 
 /// The name of the file.
 pub const FILE: &str = "provenance.toml";
@@ -31,7 +31,7 @@ pub fn text() -> String {
         ("arithmetic", header::arithmetic().to_owned()),
     ];
     for (key, known) in known {
-        text.push_str(&format!("{key} = {}\n", value(&known.into())));
+        text.push_str(&format!("{key} = {}\n", literal(&known.into())));
     }
     text
 }

@@ -87,7 +87,7 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
         return;
     };
     let is_punch = |shape: &str| shape == "flat-punch";
-    let before: Option<String> = values::read(table, "indenter.shape");
+    let before: Option<String> = schema::read(table, "indenter.shape");
     let was_punch = before.is_some_and(|before| is_punch(&before));
     let others = schema::parameters().iter().filter(|key| !key.is_of(shape));
     for key in others {

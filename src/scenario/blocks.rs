@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 use super::check::show;
 use super::error::{Origin, ScenarioError, echo};
-use super::{Change, values, write};
+use super::{Change, values};
 
 /// The tables whose keys a block may change.
 const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
@@ -53,7 +53,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
             if i == 0 {
                 values::insert(table, &path, value);
             } else {
-                let set = format!("{path} = {}", write::value(&value));
+                let set = format!("{path} = {}", values::literal(&value));
                 let at_cycle = cycle;
                 changes.push(Change { at_cycle, set });
             }

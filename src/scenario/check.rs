@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::error::{Faults, Origin, Refusal, ScenarioError, echo};
 use super::hints;
 use super::schema::{self, Parameter};
-use super::{units, values, write};
+use super::{units, values};
 
 /// Finds every key that is not in the table of parameters or has a value of the wrong kind, and puts the number in SI
 /// units in the place of every text with a unit.
@@ -130,6 +130,6 @@ pub(super) fn show(value: &Value) -> String {
     match value {
         Value::Table(_) => "{...}".to_owned(),
         Value::String(text) => format!("\"{}\"", echo(text)),
-        other => echo(&write::value(other)),
+        other => echo(&values::literal(other)),
     }
 }

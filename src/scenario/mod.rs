@@ -35,7 +35,7 @@ pub mod session;
 pub mod typed;
 pub mod units;
 pub(crate) mod values;
-pub(crate) mod write;
+mod write;
 
 pub use complete::USUAL_ACCURACY;
 pub use derive::Pressed;
@@ -230,31 +230,31 @@ impl Scenario {
     /// then points, steps and tolerance are still to be found, by [`refinement`](crate::studies::refinement), and
     /// assigning one of them takes its place.
     pub fn accuracy(&self) -> Option<f64> {
-        values::read(&self.table, "numerics.accuracy")
+        schema::read(&self.table, "numerics.accuracy")
     }
 
     /// `wear.share`, the part of the worn depth that is the indenter's, where it is given. The contact feels the sum of
     /// both bodies' wear alone, so the simulation does not know it.
     pub fn wear_share(&self) -> Option<f64> {
-        values::read(&self.table, "wear.share")
+        schema::read(&self.table, "wear.share")
     }
 
     /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
     pub fn fatigue_limit(&self) -> Option<f64> {
-        values::read(&self.table, "material.fatigue_limit")
+        schema::read(&self.table, "material.fatigue_limit")
     }
 
     /// Both fatigue limits, where both are given.
     pub fn fatigue_limits(&self) -> Option<Limits> {
         Some(Limits {
             tension: self.fatigue_limit()?,
-            shear: values::read(&self.table, "material.shear_fatigue_limit")?,
+            shear: schema::read(&self.table, "material.shear_fatigue_limit")?,
         })
     }
 
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
-        let value = |table: &Table| values::at(table, path).map(write::value);
+        let value = |table: &Table| values::at(table, path).map(values::literal);
         match path.split('.').next() {
             // These two stand apart; the other keys are looked up as they are, for every frame.
             Some("run" | "changes") => value(&self.whole()),
@@ -288,9 +288,9 @@ impl Scenario {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
         }
-        let given: Option<String> = values::read(&table, "title");
+        let given: Option<String> = schema::read(&table, "title");
         let given = given.filter(|title| !title.trim().is_empty());
-        let description: Option<String> = values::read(&table, "description");
+        let description: Option<String> = schema::read(&table, "description");
         let description = description.unwrap_or_default();
         let lines: Vec<String> = description.lines().map(printable).collect();
         let scenario = Self {
@@ -366,13 +366,13 @@ impl Scenario {
         let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
         for motion in ["motion.normal", "motion.tangential"] {
             let key = values::join(motion, "control");
-            let [control, before] = [table, &self.table].map(|of| values::read::<String>(of, &key));
+            let [control, before] = [table, &self.table].map(|of| schema::read::<String>(of, &key));
             let Some(at) = changes_at(&key).filter(|_| control != before) else {
                 continue;
             };
             for key in ["mean", "amplitude"] {
                 let path = values::join(motion, key);
-                let value: f64 = values::read(&self.table, &path).unwrap_or(0.0);
+                let value: f64 = schema::read(&self.table, &path).unwrap_or(0.0);
                 if value != 0.0 && changes_at(&path).is_none() {
                     let is_force = control.as_deref() == Some("force");
                     let unit = units::unit_of(schema::known(&path), is_force);

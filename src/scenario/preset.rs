@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::error::printable;
-use super::{nearest, values};
+use super::{nearest, schema};
 
 /// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,7 +83,7 @@ static ABOUT: LazyLock<HashMap<&'static str, [String; 2]>> = LazyLock::new(|| {
     let about = |preset: &Preset| {
         let table = preset.text.parse().unwrap_or_default();
         let texts = ["title", "description"].map(|key| {
-            let text: String = values::read(&table, key).unwrap_or_default();
+            let text: String = schema::read(&table, key).unwrap_or_default();
             let words: Vec<&str> = text.split_whitespace().collect();
             printable(&words.join(" "))
         });

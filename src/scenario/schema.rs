@@ -4,13 +4,14 @@
 //! the explorer, completion, written scenarios, the axes of figures and the documentation.
 
 use std::fmt;
+use std::str::FromStr;
 use std::sync::LazyLock;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
-use toml::Value;
+use toml::{Table, Value};
 
-use super::values::{number, numbers, split};
-use super::write;
+use super::values::{at, literal, number, numbers, split};
 use crate::math::abel::AbelMethod;
 
 /// The type of a value.
@@ -173,7 +174,7 @@ impl fmt::Display for Default {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::None => Ok(()),
-            Self::Written(value) | Self::Implied(value) => f.write_str(&write::value(value)),
+            Self::Written(value) | Self::Implied(value) => f.write_str(&literal(value)),
             Self::Derived(words) => f.write_str(words),
         }
     }
@@ -362,6 +363,17 @@ pub(super) fn is_section(path: &str) -> bool {
         let rest = parameter.path.strip_prefix(path);
         rest.is_some_and(|rest| rest.starts_with('.'))
     })
+}
+
+/// The value of a key in `table` as a `T`, where one of that type is given.
+pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
+    debug_assert!(find(path).is_some(), "{path} is a key of the table");
+    at(table, path)?.clone().try_into().ok()
+}
+
+/// What the word of a key in `table` names, where one is given.
+pub(super) fn named<T: FromStr>(table: &Table, path: &str) -> Option<T> {
+    read::<String>(table, path)?.parse().ok()
 }
 
 #[cfg(test)]

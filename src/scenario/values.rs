@@ -1,11 +1,10 @@
-//! The values in the table of a scenario, by the dotted paths of their keys.
+//! The values in the table of a scenario, by the dotted paths of their keys, and as TOML has them.
 
-use std::str::FromStr;
+use std::fmt::Write;
 
-use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
-use super::schema;
+use super::error::printable;
 
 /// A finite number, whole or not.
 pub(crate) fn number(value: &Value) -> Option<f64> {
@@ -19,17 +18,6 @@ pub(crate) fn number(value: &Value) -> Option<f64> {
 /// A list of such numbers.
 pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(number).collect()
-}
-
-/// The value of a key in `table` as a `T`, where one of that type is given.
-pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
-    debug_assert!(schema::find(path).is_some(), "{path} is a key of the table");
-    at(table, path)?.clone().try_into().ok()
-}
-
-/// What the word of a key in `table` names, where one is given.
-pub(super) fn named<T: FromStr>(table: &Table, path: &str) -> Option<T> {
-    read::<String>(table, path)?.parse().ok()
 }
 
 /// The value at a dotted path.
@@ -77,4 +65,87 @@ pub(crate) fn join(path: &str, key: &str) -> String {
 /// Splits a dotted path into its table and its key.
 pub(super) fn split(path: &str) -> (&str, &str) {
     path.rsplit_once('.').unwrap_or(("", path))
+}
+
+/// One value, as it may stand after `=`.
+pub(crate) fn literal(value: &Value) -> String {
+    match value {
+        Value::Float(number) => float(*number),
+        Value::Array(list) => {
+            let list: Vec<String> = list.iter().map(literal).collect();
+            format!("[{}]", list.join(", "))
+        }
+        Value::String(text) if text.chars().any(is_rude) => escaped(text),
+        other => other.to_string(),
+    }
+}
+
+/// Whether a terminal or a line of a header would not show a character as it is: controls, spaces and
+/// marks that cannot be seen, what turns the direction of text.
+fn is_rude(c: char) -> bool {
+    !matches!(c, '"' | '\'' | '\\') && printable(&String::from_iter(['a', c])).chars().count() > 2
+}
+
+/// A basic string on one line, all that is not plain escaped.
+fn escaped(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if is_rude(c) => {
+                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
+}
+
+/// The shortest form that reads back to the same bits, and as a float.
+fn float(number: f64) -> String {
+    let size = number.abs();
+    if number != 0.0 && number.is_finite() && !(1e-3..1e6).contains(&size) {
+        format!("{number:e}")
+    } else if number.is_nan() {
+        "nan".to_owned()
+    } else {
+        format!("{number:?}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rude_text_reads_back_and_harms_no_terminal() {
+        let text = "a\u{9b}2J\u{202e}\u{1b}\n\"\\\u{2066}\u{7f}b";
+        let shown = literal(&Value::String(text.into()));
+        assert!(!shown.chars().any(is_rude), "{shown:?}");
+        let read = shown.parse::<Value>().expect("a TOML value");
+        assert_eq!(read.as_str(), Some(text));
+    }
+
+    #[test]
+    fn numbers_read_back_as_the_same_floats() {
+        for (given, shown) in [
+            (0.0, "0.0"),
+            (-0.0, "-0.0"),
+            (1.0, "1.0"),
+            (1e-7, "1e-7"),
+            (2.3077e11, "2.3077e11"),
+            (0.1 + 0.2, "0.30000000000000004"),
+            (5e-324, "5e-324"),
+            (f64::MAX, "1.7976931348623157e308"),
+            (123_456.789, "123456.789"),
+        ] {
+            assert_eq!(float(given), shown);
+            let read = shown.parse::<Value>().expect("a TOML value");
+            assert_eq!(
+                read.as_float().map(f64::to_bits),
+                Some(given.to_bits()),
+                "{shown}"
+            );
+        }
+    }
 }

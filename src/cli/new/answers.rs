@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Value;
 
 use crate::scenario::schema::{self, Kind};
-use crate::scenario::{Scenario, ScenarioError, units, values, write};
+use crate::scenario::{Scenario, ScenarioError, units, values};
 
 /// What `questions.toml` says.
 #[derive(Deserialize)]
@@ -198,7 +198,7 @@ impl Draft {
                 open = known.section();
                 text += &format!("\n[{open}]\n");
             }
-            let row = format!("{} = {}", known.key(), write::value(value));
+            let row = format!("{} = {}", known.key(), values::literal(value));
             text += &match note.is_empty() {
                 true => row + "\n",
                 false => format!("{row:38} # {note}\n"),

@@ -114,7 +114,7 @@ impl Parts<'_> {
             running_in,
             method,
             spacing: self.spacing(spacing)?,
-            scheme: values::named(self.table, "numerics.scheme").unwrap_or(scheme),
+            scheme: schema::named(self.table, "numerics.scheme").unwrap_or(scheme),
             stability: self.choice("numerics.stability")?,
             steps_per_cycle: self.require("numerics.steps_per_cycle")?,
             integrator: Integrator::new(
@@ -128,7 +128,7 @@ impl Parts<'_> {
 
     /// The value of a key, where it is given.
     fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
-        values::read(self.table, key)
+        schema::read(self.table, key)
     }
 
     /// A coefficient as a run begins with it: its value, or the first of the table of its `section`.
@@ -311,7 +311,7 @@ impl Parts<'_> {
     fn spacing(&self, default: Spacing) -> Result<Spacing, ScenarioError> {
         let has_nodes = self.has("numerics.nodes");
         let default = if has_nodes { Spacing::Given } else { default };
-        let named = values::named(self.table, "numerics.grid").unwrap_or(default);
+        let named = schema::named(self.table, "numerics.grid").unwrap_or(default);
         match (named, has_nodes) {
             (Spacing::Given, false) => {
                 let rule =

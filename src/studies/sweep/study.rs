@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use super::Design;
 use super::axis::{self, Axis, known_key};
 use crate::scenario::scalars::Scalar;
-use crate::scenario::write::value as toml_value;
+use crate::scenario::values::literal;
 use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
 use crate::scenario::{assign, schema, units};
 
@@ -227,5 +227,5 @@ fn line(key: &str, value: &Value) -> String {
     let mut signs = key.chars();
     let is_bare = signs.all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
     let quote = if is_bare { "" } else { "\"" };
-    format!("{quote}{key}{quote} = {}\n", toml_value(value))
+    format!("{quote}{key}{quote} = {}\n", literal(value))
 }

@@ -10,9 +10,10 @@ use crate::contact::normal;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::field::Field;
 use crate::math::grid::RadialGrid;
+use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
 use crate::simulation::drive::{Control, Drive};
-use crate::simulation::{Scheme, Spacing, pieces};
+use crate::simulation::{Scheme, Spacing};
 
 /// Cells of the grid on which the unworn contact is solved: 1e-4 of the depth is more than enough.
 const CELLS: usize = 200;
@@ -113,7 +114,7 @@ impl Contact<'_> {
         let profile = |x: f64| self.indenter.profile_1d(x);
         let borne = |c: f64| {
             let depth = profile(c) + yielding;
-            2.0 * self.material.normal_modulus() * pieces([0.0, c], |x| depth - profile(x))
+            2.0 * self.material.normal_modulus() * gauss_in_pieces([0.0, c], |x| depth - profile(x))
         };
         let force = self.drive.normal().oscillation().mean();
         let widest = self.indenter.radius_at(ROOM_TO_SINK * start);

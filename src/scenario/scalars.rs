@@ -35,6 +35,12 @@ impl From<f64> for Value {
     }
 }
 
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
 impl From<usize> for Value {
     fn from(count: usize) -> Self {
         Self::Count(count as u64)
@@ -254,13 +260,13 @@ scalars! {
         "period_energy_residual", "1 - V/(k E_d) of the last period", |r| r.session.log().period_residual();
         "force_residual", "1 - (integral of p)/F_z",
             |r| r.session.simulation().force_residual(r.pressure());
-        "steps", "steps taken", |r| Value::Count(r.session.simulation().steps());
-        "transforms", "transforms computed", |r| Value::Count(r.session.simulation().stats().transforms);
-        "evaluated_cycles", "cycles stepped in full for jumps", |r| Value::Count(r.session.simulation().stats().evaluated_cycles);
-        "rejected_jumps", "jumps rejected for their error", |r| Value::Count(r.session.simulation().stats().rejected_jumps);
+        "steps", "steps taken", |r| r.session.simulation().steps();
+        "transforms", "transforms computed", |r| r.session.simulation().stats().transforms;
+        "evaluated_cycles", "cycles stepped in full for jumps", |r| r.session.simulation().stats().evaluated_cycles;
+        "rejected_jumps", "jumps rejected for their error", |r| r.session.simulation().stats().rejected_jumps;
         "stability_margin", "largest stable stiffness divided by the stiffness of the last step",
             |r| r.moment.stability_margin;
-        "parts", "sub-steps of stiff steps", |r| Value::Count(r.session.simulation().stats().parts);
+        "parts", "sub-steps of stiff steps", |r| r.session.simulation().stats().parts;
         "energy_per_cycle_J", "friction work of a cycle", |r| r.figure(|figures| Some(figures.energy));
         "force_ratio", "Q*/(mu P)", |r| r.figure(|figures| figures.force_ratio);
         "slip_ratio", "1 - Q*/(2 G* a U)", |r| r.figure(|figures| figures.slip_ratio);

@@ -83,7 +83,6 @@ use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
 pub use state::{State, Stats};
 pub use unworn::Unworn;
-pub(crate) use unworn::pieces;
 use wear::Increment;
 
 /// The parts that a run is assembled from, each validated on its own floor.

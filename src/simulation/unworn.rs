@@ -16,11 +16,8 @@
 
 use super::Setup;
 use super::drive::Control;
-use crate::math::quadrature::gauss;
+use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
-
-/// Pieces of the quadrature over a contact.
-const PIECES: u32 = 64;
 
 /// The unworn contact of a setup.
 #[derive(Clone, Copy)]
@@ -54,7 +51,7 @@ impl Unworn<'_> {
     /// F_z, N, at a `depth` (m).
     pub fn force(&self, depth: f64) -> f64 {
         let gap = |x: f64| (depth - self.0.indenter.profile_1d(x)).max(0.0);
-        2.0 * self.0.material.normal_modulus() * pieces([0.0, self.radius(depth)], gap)
+        2.0 * self.0.material.normal_modulus() * gauss_in_pieces([0.0, self.radius(depth)], gap)
     }
 
     /// The depth, m, that carries a `force` (N).
@@ -120,13 +117,7 @@ impl Unworn<'_> {
             contact_radius,
             stick_radius,
             force: friction * (self.force(depth) - self.force(border.max(0.0))),
-            energy: 8.0 * modulus * pieces([stick_radius, contact_radius], slipping),
+            energy: 8.0 * modulus * gauss_in_pieces([stick_radius, contact_radius], slipping),
         })
     }
-}
-
-/// ∫ y dx over an interval, in pieces.
-pub(crate) fn pieces([from, to]: [f64; 2], y: impl Fn(f64) -> f64) -> f64 {
-    let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(PIECES);
-    (0..PIECES).map(|i| gauss(at(i), at(i + 1), &y)).sum()
 }

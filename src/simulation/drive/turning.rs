@@ -84,7 +84,8 @@ impl Drive {
             let (down, along) = rates(cycles);
             down + sign * along
         };
-        // Most steps lie so far from every turn that the steepest rate does not reach zero between their middle and an end.
+        // Most steps lie so far from every turn that the steepest rate does not reach zero between their middle and
+        // an end.
         let steepest = TAU * (normal_weight * ratio + tangential_weight);
         let reach = 1.001 * steepest * 0.5 * (until - from);
         let (down, along) = rates(0.5 * (from + until));

@@ -81,7 +81,7 @@ fn edges(study: &Study, shard: Shard) -> Vec<usize> {
         edges.extend([along.min(last), last.saturating_sub(along)]);
         step = step.saturating_mul(axis.count());
     }
-    edges.retain(|&point| point % shard.count == shard.index);
+    edges.retain(|&point| shard.holds(point));
     edges
 }
 

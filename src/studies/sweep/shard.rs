@@ -20,6 +20,11 @@ impl Shard {
     pub fn points(self, points: usize) -> impl ExactSizeIterator<Item = usize> + Send + use<> {
         (self.index..points).step_by(self.count)
     }
+
+    /// Whether a point is one of this shard's.
+    pub fn holds(self, point: usize) -> bool {
+        point % self.count == self.index
+    }
 }
 
 impl std::fmt::Display for Shard {

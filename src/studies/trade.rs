@@ -230,8 +230,8 @@ impl Trial {
                 let stick = stick.map(|(here, there)| (here - there).abs() / exact.contact_radius);
                 let shown = [errors.worn_depth, errors.volume, errors.work, errors.force];
                 row.push(seconds.into());
-                row.push(Value::Count(simulation.steps()));
-                row.push(Value::Count(simulation.stats().transforms));
+                row.push(simulation.steps().into());
+                row.push(simulation.stats().transforms.into());
                 let shown = shown.map(Some).into_iter().chain([stick]);
                 row.extend(shown.map(|error| error.filter(|error| error.is_finite()).into()));
                 row.push(match complaints.is_empty() {

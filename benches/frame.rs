@@ -11,15 +11,15 @@ use std::time::Duration;
 
 use divan::Bencher;
 use mdr_tui::plot::Marker;
+use mdr_tui::plot::theme::{Look, Theme};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::tui::Event;
 use mdr_tui::tui::ansi_writer::AnsiWriter;
 use mdr_tui::tui::app::App;
+use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::Activity;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 use ratatui::buffer::Buffer;
@@ -55,7 +55,7 @@ impl Stage {
         thread::spawn(move || worker.serve(&to_worker));
         let (theme, frame) = (Theme::new(Look::Dark, Marker::Braille), orders.frame());
         let mut app = App::new(theme, orders.clone(), frame.expect("a worker"));
-        app.resize(size);
+        app.explorer.resize(size);
         Self {
             app,
             orders,
@@ -68,11 +68,13 @@ impl Stage {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
         }
-        self.app.take_frame(self.orders.frame().expect("a worker"));
+        self.app
+            .explorer
+            .take_frame(self.orders.frame().expect("a worker"));
     }
 
     fn draw(&mut self) {
-        let area = self.app.stage.area;
+        let area = self.app.explorer.stage.area;
         let mut wanted = Buffer::empty(area);
         screen::draw(&self.app, area, &mut wanted);
         self.line.frame(wanted);
@@ -91,12 +93,12 @@ fn frame(bencher: Bencher, size: &str) {
     let mut stage = Stage::new(if size == "80x24" { SMALL } else { LARGE });
     let moments = [",,,", "......"].map(|keys| {
         stage.press(keys);
-        stage.app.frame.clone()
+        stage.app.explorer.frame.clone()
     });
     let mut turn = 0;
     bencher.bench_local(|| {
         turn = 1 - turn;
-        stage.app.take_frame(Arc::clone(&moments[turn]));
+        stage.app.explorer.take_frame(Arc::clone(&moments[turn]));
         stage.draw();
     });
 }
@@ -130,7 +132,7 @@ fn run_in_the_explorer() {
             && let Some(frame) = slot.take()
         {
             let is_done = frame.activity == Activity::Done;
-            stage.app.take_frame(frame);
+            stage.app.explorer.take_frame(frame);
             stage.draw();
             if is_done {
                 return;

@@ -1,5 +1,6 @@
 //! Keeps the first panic message until the terminal is restored.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The message of the first panic in any thread. Printed at once, the explorer would draw over it.
@@ -23,4 +24,12 @@ pub fn take_message() -> Option<String> {
 /// The value, which is never half written, even after a panic: it is replaced, never changed in place.
 pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.
+///
+/// # Errors
+/// Those of the action.
+pub fn catch<T: Default>(action: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Result<T> {
+    catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|_| Ok(T::default()))
 }

@@ -102,6 +102,12 @@ pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
     None
 }
 
+/// The element `places` after the one that is `now`, wrapping around at the ends.
+pub fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
+    let at = all.iter().position(|one| *one == now).unwrap_or(0) as isize;
+    all[(at + places).rem_euclid(all.len() as isize) as usize]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,6 +127,12 @@ mod tests {
         }
         assert_eq!(largest(&[-1.0, f64::NAN]), 0.0);
         assert_eq!(largest(&[]), 0.0);
+    }
+
+    #[test]
+    fn elements_go_around() {
+        assert_eq!(shifted(&[1, 2, 3], 3, 1), 1);
+        assert_eq!(shifted(&[1, 2, 3], 1, -1), 3);
     }
 
     #[test]

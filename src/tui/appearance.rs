@@ -1,7 +1,7 @@
 //! How the terminal wants to be drawn on: what its variables tell of colours, signs and background.
 
-use super::theme::{Depth, Look, Theme};
 use crate::plot::Marker;
+use crate::plot::theme::{Depth, Look, Theme};
 
 /// The theme of this terminal, unless one was chosen.
 pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look>) -> Theme {

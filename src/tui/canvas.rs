@@ -7,7 +7,7 @@ use ratatui::prelude::*;
 use ratatui::symbols::border;
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
-use super::theme::{Role, Theme};
+use crate::plot::theme::{Role, Theme};
 use crate::plot::{Chart, Plot};
 
 /// A part of the screen.
@@ -76,6 +76,34 @@ impl<'a> Canvas<'a> {
     pub fn say(&mut self, text: &str, role: Role) {
         let text = format!(" {}", self.printable(text));
         self.show(Line::styled(text, self.style(role)));
+    }
+
+    /// What is told, or else keys and what they do: as many of `keys` as fit, and those of `always`.
+    pub fn keys<S: AsRef<str>>(
+        &mut self,
+        told: Option<(&str, Role)>,
+        keys: &[[S; 2]],
+        always: &[[S; 2]],
+    ) {
+        if let Some((text, role)) = told {
+            return self.say(text, role);
+        }
+        let width = |texts: &[S; 2]| -> usize {
+            let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
+            widths.sum()
+        };
+        let mut left = usize::from(self.area.width).saturating_sub(always.iter().map(width).sum());
+        let shown = keys.iter().filter(|texts| {
+            let fits = width(texts) <= left;
+            left -= if fits { width(texts) } else { 0 };
+            fits
+        });
+        let styles = [Role::Title, Role::Quiet].map(|role| self.style(role));
+        let spans = shown.chain(always).flat_map(|texts| {
+            let parts = texts.iter().zip(styles);
+            parts.map(|(text, style)| Span::styled(format!(" {}", text.as_ref()), style))
+        });
+        self.show(Line::from_iter(spans));
     }
 
     /// Writes a running text.

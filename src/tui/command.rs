@@ -5,17 +5,16 @@
 
 use std::sync::OnceLock;
 
-use super::app::App;
 use super::beside::From;
-use super::event_loop::Next;
+use super::completion::{self, Completion};
+use super::explorer::{Explorer, Next};
 use super::frame::Frame;
 use super::keys::Key::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
-use super::overlays::{Completion, Form, Help, Library, Overlay, palette};
 use super::panels::StressMap;
 use super::undo::Past;
 use super::worker::{Worker, ends_cycle};
-use Act::{Palette, Screen, Worker as Work};
+use Act::{Argument, Screen, Worker as Work};
 
 /// A command, its keys and its help.
 pub struct Row {
@@ -37,11 +36,44 @@ pub struct Row {
 #[derive(Clone, Copy)]
 pub(super) enum Act {
     /// Something on the screen.
-    Screen(fn(&mut App)),
+    Screen(fn(&mut Explorer)),
     /// Something in the run.
     Worker(fn(&mut Worker)),
     /// It lets an argument be typed, with these completions.
-    Palette(fn(&str, &Frame) -> Vec<Completion>),
+    Argument(fn(&str, &Frame) -> Vec<Completion>),
+    /// It opens an overlay.
+    Open(Open),
+    /// It ends the program, or leads back to the map that the run was opened from.
+    Quit,
+}
+
+/// An overlay that can be opened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Open {
+    /// The keys.
+    Help,
+    /// The presets and the user's own files.
+    Library,
+    /// The checks of the run, and its errors, which are estimated then.
+    Accuracy,
+    /// What the focused panel shows.
+    Explain,
+    /// The parameters.
+    Form,
+    /// The commands by name.
+    Palette,
+    /// The words that a key takes: those that begin with what was typed.
+    Words {
+        /// The key.
+        key: &'static str,
+        /// What was typed, if anything was.
+        typed: Option<char>,
+    },
+}
+
+/// Opens all words that a key takes.
+const fn words(key: &'static str) -> Act {
+    Act::Open(Open::Words { key, typed: None })
 }
 
 macro_rules! commands {
@@ -64,11 +96,11 @@ macro_rules! commands {
 
 commands! {
     "palette" {
-        Set [] "set", "change keys of the scenario: set KEY=VALUE, KEY=VALUE", Palette(palette::changes);
-        Load [] "load", "another preset, or a file: load NAME", Palette(palette::presets);
-        Sweep [] "sweep", "run many values of a key up to this cycle: sweep KEY FROM..TO", Palette(palette::sweeps);
-        Figure [] "figure", "draw this state for a paper: figure FILE.svg", Palette(palette::figures);
-        Overlay [] "overlay", "data, a run or a scenario over the plots: overlay FILE", Palette(palette::overlays);
+        Set [] "set", "change keys of the scenario: set KEY=VALUE, KEY=VALUE", Argument(completion::set);
+        Load [] "load", "another preset, or a file: load NAME", Argument(completion::load);
+        Sweep [] "sweep", "run many values of a key up to this cycle: sweep KEY FROM..TO", Argument(completion::sweep);
+        Figure [] "figure", "draw this state for a paper: figure FILE.svg", Argument(completion::figure);
+        Overlay [] "overlay", "data, a run or a scenario over the plots: overlay FILE", Argument(completion::overlay);
     }
     "run" {
         RunPause [Char(' ')] "run/pause", "run or pause the simulation", Work(Worker::run_or_pause);
@@ -78,48 +110,48 @@ commands! {
         Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
         HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
             Work(Worker::hold_or_release_phase);
-        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|app| app.order_anew(Worker::restart));
+        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|on| on.order_anew(Worker::restart));
     }
     "look" {
         Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry",
-            Screen(|app| app.overlay = Overlay::Explain);
-        Tour [Char('n')] "tour", "tour of this preset: next caption", Screen(App::continue_tour);
-        NextPanel [Named(N::Tab)] "panel", "focus the next panel", Screen(|app| app.stage.shift_focus(1));
+            Act::Open(Open::Explain);
+        Tour [Char('n')] "tour", "tour of this preset: next caption", Screen(Explorer::continue_tour);
+        NextPanel [Named(N::Tab)] "panel", "focus the next panel", Screen(|on| on.stage.shift_focus(1));
         PreviousPanel [Named(N::BackTab)] "panel back", "focus the previous panel",
-            Screen(|app| app.stage.shift_focus(-1));
-        NextPage [Char('v')] "view", "the next page of panels", Screen(|app| app.stage.turn_page());
-        Zoom [Char('z')] "zoom", "zoom the focused panel, or show all panels", Screen(|app| app.stage.toggle_zoom());
+            Screen(|on| on.stage.shift_focus(-1));
+        NextPage [Char('v')] "view", "the next page of panels", Screen(|on| on.stage.turn_page());
+        Zoom [Char('z')] "zoom", "zoom the focused panel, or show all panels", Screen(|on| on.stage.toggle_zoom());
         Contact [Char('V')] "contact", "the contact itself, large and in motion, or all panels",
-            Screen(|app| app.stage.toggle_contact());
-        LogScale [Char('L')] "log", "logarithmic scale in the focused panel", Screen(App::toggle_log);
-        Cursor [Char('x')] "cursor", "a cursor that reads all curves at r; arrows move it", Screen(|app| app.cursor.toggle());
+            Screen(|on| on.stage.toggle_contact());
+        LogScale [Char('L')] "log", "logarithmic scale in the focused panel", Screen(Explorer::toggle_log);
+        Cursor [Char('x')] "cursor", "a cursor that reads all curves at r; arrows move it", Screen(|on| on.cursor.toggle());
         Left [Named(N::Left), Char('h')] "left", "move the cursor inwards, or focus the previous panel",
-            Screen(|app| app.move_sideways(-1));
+            Screen(|on| on.move_sideways(-1));
         Right [Named(N::Right), Char('l')] "right", "move the cursor outwards, or focus the next panel",
-            Screen(|app| app.move_sideways(1));
-        Up [Named(N::Up), Char('k')] "up", "up in a list", Screen(|app| app.stage.shift_focus(-1));
-        Down [Named(N::Down), Char('j')] "down", "down in a list", Screen(|app| app.stage.shift_focus(1));
+            Screen(|on| on.move_sideways(1));
+        Up [Named(N::Up), Char('k')] "up", "up in a list", Screen(|on| on.stage.shift_focus(-1));
+        Down [Named(N::Down), Char('j')] "down", "down in a list", Screen(|on| on.stage.shift_focus(1));
         Theory [Char('t')] "theory", "show or hide closed forms in the plots",
-            Screen(|app| app.charts.with_theory ^= true);
-        Stress [Char('o')] "stress", "next stress component in the cross-section", Screen(|app| app.change_stress(StressMap::next));
+            Screen(|on| on.charts.with_theory ^= true);
+        Stress [Char('o')] "stress", "next stress component in the cross-section", Screen(|on| on.change_stress(StressMap::next));
         StressOfCycle [Char('O')] "stress, cycle", "largest stress of a cycle, or of this moment",
-            Screen(|app| app.change_stress(StressMap::toggle_cycle));
-        Theme [Char('T')] "theme", "colours for a dark or light background, or none", Screen(App::change_theme);
-        Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(|app| app.stage.go_back());
+            Screen(|on| on.change_stress(StressMap::toggle_cycle));
+        Theme [Char('T')] "theme", "colours for a dark or light background, or none", Screen(Explorer::change_theme);
+        Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(|on| on.stage.go_back());
     }
     "change" {
         Presets [Char('p')] "presets", "another preset, or a file of your own",
-            Screen(|app| app.overlay = Overlay::Library(Library::open(app.origin())));
+            Act::Open(Open::Library);
         Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded",
-            Screen(|app| app.overlay = Overlay::Form(Form::default()));
+            Act::Open(Open::Form);
         NextMethod [Char('m')] "method", "next transform method; the state is carried over",
             Work(|run| run.change_method(1));
         PreviousMethod [Char('M')] "method back", "previous transform method", Work(|run| run.change_method(-1));
         Methods [Char('i')] "methods", "all transform methods, and what each is",
-            Screen(|app| app.list_words("numerics.method"));
+            words("numerics.method");
         NextLaw [Char('w')] "wear law", "next wear law; the state is carried over", Work(|run| run.change_law(1));
         PreviousLaw [Char('W')] "law back", "previous wear law", Work(|run| run.change_law(-1));
-        Laws [Char('I')] "wear laws", "all wear laws, and what each is", Screen(|app| app.list_words("wear.law"));
+        Laws [Char('I')] "wear laws", "all wear laws, and what each is", words("wear.law");
         Coarser [Char('<')] "coarser", "less accurate, faster: chooses method, cells, steps", Work(|run| run.refine(-1));
         Finer [Char('>')] "finer", "more accurate, slower: chooses method, cells, steps", Work(|run| run.refine(1));
     }
@@ -128,8 +160,8 @@ commands! {
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
             Work(|run| run.compare(0, From::Start));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
-        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|app| app.order_anew(Worker::drop_ghosts));
-        Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Screen(App::check_accuracy);
+        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_anew(Worker::drop_ghosts));
+        Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Act::Open(Open::Accuracy);
     }
     "time and files" {
         TimeBack [Char('[')] "back in time", "back in time; running or editing branches from there",
@@ -138,17 +170,17 @@ commands! {
             Work(|run| run.travel(Past::forth, "this is the present"));
         Snapshot [Char('s')] "snapshot", "write state, history and loop to a new directory",
             Work(|run| run.write_snapshot(None));
-        SnapshotNote [Char('S')] "snapshot, note", "the same, with a note in both files", Palette(palette::notes);
+        SnapshotNote [Char('S')] "snapshot, note", "the same, with a note in both files", Argument(completion::note);
     }
     "program" {
         Palette [Char(':')] "commands", "every command by name, and set KEY=VALUE",
-            Screen(|app| app.overlay = Overlay::Palette(Default::default()));
-        Help [Char('?')] "help", "show or hide this help", Screen(|app| app.overlay = Overlay::Help(Help::default()));
-        Search [Char('/')] "search", "search in the help", Screen(|app| app.overlay = Overlay::Palette(Default::default()));
-        Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere", Screen(App::quit);
+            Act::Open(Open::Palette);
+        Help [Char('?')] "help", "show or hide this help", Act::Open(Open::Help);
+        Search [Char('/')] "search", "search in the help", Act::Open(Open::Palette);
+        Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere", Act::Quit;
         QuitKeepingScreen [Char('Q')] "quit, keep", "quit, and leave the last screen in the terminal",
-            Screen(|app| app.next = Next::LeaveScreen);
-        Suspend [Ctrl('z')] "suspend", "suspend to the shell; fg returns", Screen(|app| app.next = Next::Suspend);
+            Screen(|on| on.next = Next::LeaveScreen);
+        Suspend [Ctrl('z')] "suspend", "suspend to the shell; fg returns", Screen(|on| on.next = Next::Suspend);
     }
 }
 
@@ -208,7 +240,7 @@ mod tests {
         for row in COMMANDS {
             assert_eq!(row.command.row().name, row.name);
             assert!(!row.help.is_empty() && row.help.len() < 66, "{}", row.name);
-            let is_typed = matches!(row.act, Palette(_));
+            let is_typed = matches!(row.act, Argument(_));
             assert!(is_typed || !row.keys.is_empty(), "{}", row.name);
         }
     }

@@ -14,26 +14,17 @@ use signal_hook::consts::{
 use signal_hook::iterator::Signals;
 
 use super::app::App;
+use super::event::Event;
+use super::explorer::Next;
 use super::flow::When;
 use super::input::{self, Waiting};
+use super::reader::Input;
 use super::terminal::{self, Screen};
-use super::{Event, Input, catch, screen, suspend};
+use super::{screen, suspend};
+use crate::panics::catch;
 
 /// How long outstanding answers of the terminal are waited for on exit.
 const LAST_ANSWERS: Duration = Duration::from_millis(500);
-
-/// What follows an event.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Next {
-    /// The app goes on.
-    Stay,
-    /// The user asks for the shell.
-    Suspend,
-    /// The user leaves, and the terminal is as it was.
-    Leave,
-    /// The user leaves, and the last screen stays.
-    LeaveScreen,
-}
 
 /// There is no usable terminal.
 #[derive(Debug, thiserror::Error)]
@@ -67,7 +58,7 @@ pub fn run(
 ) -> Result<bool> {
     let waiting = Arc::new(Waiting::default());
     listen_for_signals(events.clone(), Arc::clone(&waiting))?;
-    let asks = app.theme.follows_background;
+    let asks = app.explorer.theme.follows_background;
     let screen = Screen::open(mouse, asks, events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
     let (keys, to_loop) = (Arc::clone(&waiting), events.clone());
@@ -92,7 +83,7 @@ fn handle_events(
     inbox: &Receiver<Event>,
     waiting: &Waiting,
 ) -> Result<()> {
-    app.resize(terminal::size()?);
+    app.explorer.resize(terminal::size()?);
     let mut is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
     // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
@@ -125,16 +116,16 @@ fn handle_events(
             match event {
                 Event::Input(Input::Ready) => screen.flow.answered(Instant::now()),
                 Event::Written => screen.flow.written(),
-                Event::Input(Input::Background(color)) => app.theme.follow(color),
+                Event::Input(Input::Background(color)) => app.explorer.theme.follow(color),
                 Event::Suspend => suspends = true,
                 Event::Resize if is_away => {}
                 Event::Resize => {
                     screen.start_afresh();
-                    app.resize(terminal::size()?);
+                    app.explorer.resize(terminal::size()?);
                 }
                 Event::Continue => {
                     screen.take_back()?;
-                    app.resize(terminal::size()?);
+                    app.explorer.resize(terminal::size()?);
                     is_away = false;
                 }
                 Event::HangUp | Event::WorkerGone => return Ok(()),
@@ -146,9 +137,9 @@ fn handle_events(
                         screen.flow.hurry(Instant::now());
                     }
                     app.handle(event);
-                    match app.next {
+                    match app.explorer.next {
                         Next::Stay => {}
-                        Next::Suspend => (suspends, app.next) = (true, Next::Stay),
+                        Next::Suspend => (suspends, app.explorer.next) = (true, Next::Stay),
                         Next::Leave | Next::LeaveScreen => return Ok(()),
                     }
                 }

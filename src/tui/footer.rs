@@ -5,10 +5,11 @@ use ratatui::prelude::*;
 use super::app::App;
 use super::canvas::Canvas;
 use super::command::Command::{self, self as C};
+use super::explorer::Explorer;
 use super::frame::Activity;
 use super::overlays::Overlay;
 use super::readout;
-use super::theme::Role;
+use crate::plot::theme::Role;
 
 /// The hint before the first key.
 const HINT: &str =
@@ -52,36 +53,37 @@ const ON_TOUR: Mode = &[
     (C::Tour, "next caption"), (C::Back, "close the tour"), (C::RunPause, ""), (C::Faster, ""), (C::Accept, ""),
 ];
 
-fn mode(app: &App) -> Mode {
-    match &*app.frame {
+fn mode(explorer: &Explorer) -> Mode {
+    match &*explorer.frame {
         frame if frame.comparison.is_some() => COMPARING,
         frame if frame.present.is_some() => IN_THE_PAST,
-        _ if app.stage.tour.is_some() => ON_TOUR,
-        _ if app.stage.shows_contact() => AT_THE_CONTACT,
+        _ if explorer.stage.tour.is_some() => ON_TOUR,
+        _ if explorer.stage.shows_contact() => AT_THE_CONTACT,
         _ => USUAL,
     }
 }
 
 /// The notice if there is one, else the values at the cursor, else as many keys as fit.
 pub fn draw(app: &App, mut canvas: Canvas) {
-    let (frame, room) = (&*app.frame, usize::from(canvas.area.width));
+    let explorer = &app.explorer;
+    let (frame, room) = (&*explorer.frame, usize::from(canvas.area.width));
     // The form shows its own notices.
-    let notice = app.notice.as_deref();
-    let notice = notice.filter(|_| !matches!(app.overlay, Overlay::Form(_)));
+    let notice = explorer.notice.as_deref();
+    let notice = notice.filter(|_| !matches!(app.overlays.last(), Some(Overlay::Form(_))));
     let stopped = match &frame.activity {
         Activity::Stopped(reason) => Some((&**reason, Role::Alarm)),
         _ => None,
     };
-    let is_usual = app.stage.tour.is_none() && !app.stage.shows_contact();
-    let hints = app.is_new && is_usual && HINT.len() < room;
+    let is_usual = explorer.stage.tour.is_none() && !explorer.stage.shows_contact();
+    let hints = explorer.is_new && is_usual && HINT.len() < room;
     let told = notice.map(|text| (text, Role::Notice)).or(stopped);
     let told = told.or(hints.then_some((HINT, Role::Notice)));
-    if let (Some(r), None) = (app.cursor.radius(frame), told) {
-        let text = readout::line(frame, app.stage.focus, r, room, &canvas.theme);
+    if let (Some(r), None) = (explorer.cursor.radius(frame), told) {
+        let text = readout::line(frame, explorer.stage.focus, r, room, &canvas.theme);
         return canvas.show(Line::raw(text));
     }
-    let [keys, always] = [mode(app), ALWAYS].map(texts);
-    draw_line(told, &keys, &always, canvas);
+    let [keys, always] = [mode(explorer), ALWAYS].map(texts);
+    canvas.keys(told, &keys, &always);
 }
 
 /// The keys of commands and what they are called.
@@ -92,32 +94,4 @@ fn texts(mode: Mode) -> Vec<[String; 2]> {
         [row.keys[0].to_string(), name.to_owned()]
     });
     texts.collect()
-}
-
-/// What is told, or else keys and what they do: as many of `keys` as fit, and those of `always`.
-pub fn draw_line<S: AsRef<str>>(
-    told: Option<(&str, Role)>,
-    keys: &[[S; 2]],
-    always: &[[S; 2]],
-    mut canvas: Canvas,
-) {
-    if let Some((text, role)) = told {
-        return canvas.say(text, role);
-    }
-    let width = |texts: &[S; 2]| -> usize {
-        let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
-        widths.sum()
-    };
-    let mut left = usize::from(canvas.area.width).saturating_sub(always.iter().map(width).sum());
-    let shown = keys.iter().filter(|texts| {
-        let fits = width(texts) <= left;
-        left -= if fits { width(texts) } else { 0 };
-        fits
-    });
-    let styles = [Role::Title, Role::Quiet].map(|role| canvas.style(role));
-    let spans = shown.chain(always).flat_map(|texts| {
-        let parts = texts.iter().zip(styles);
-        parts.map(|(text, style)| Span::styled(format!(" {}", text.as_ref()), style))
-    });
-    canvas.show(Line::from_iter(spans));
 }

@@ -3,9 +3,9 @@
 
 use std::sync::{Arc, Mutex};
 
-use super::locked;
 use super::settings::Setting;
 use crate::charts::Run;
+use crate::panics::locked;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, CycleFigures, Observation, Passed};
 use crate::scenario::Scenario;

@@ -10,7 +10,7 @@ use std::time::Instant;
 use nix::errno::Errno;
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 
-use super::Event;
+use super::event::Event;
 use super::mouse::Mouse;
 use super::reader::{Input, Reader};
 

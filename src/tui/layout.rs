@@ -1,13 +1,9 @@
 //! The layout of the screen, used for drawing and for the mouse.
 //!
 //! Four readable panels on a small screen, nine or twelve on a large one; the others are on further
-//! pages. A tour takes the lowest rows for its captions.
+//! pages.
 
 use ratatui::layout::{Constraint, Layout, Rect};
-
-use super::panels::Panel;
-use super::present;
-use super::stage::Stage;
 
 /// Three panels fit side by side from this width on.
 const WIDE: u16 = 110;
@@ -21,14 +17,8 @@ const TALL: u16 = 33;
 /// Below this width one panel fills the row.
 const NARROW: u16 = 56;
 
-/// Rows of a tour, including its title.
-pub const TOUR: u16 = 4;
-
 /// Rows between title and footer from which on one of them is the timeline's.
 const WITH_TIMELINE: u16 = 22;
-
-/// Minimum rows for the panels beside a tour.
-const LEAST: u16 = 10;
 
 /// Minimum size; a smaller screen shows a message instead of panels.
 pub const SMALLEST: (u16, u16) = (40, 10);
@@ -71,43 +61,4 @@ pub fn grid(area: Rect) -> (usize, usize) {
         NARROW.. => (2, down),
         _ => (1, down),
     }
-}
-
-/// The area of the panels, and that of a tour's caption below them while there is one.
-pub fn with_tour(stage: &Stage, area: Rect) -> (Rect, Option<Rect>) {
-    if stage.tour.is_none() || area.height < LEAST + TOUR {
-        return (area, None);
-    }
-    let rows = [Constraint::Min(0), Constraint::Length(TOUR)];
-    let [above, below] = Layout::vertical(rows).areas(area);
-    (above, Some(below))
-}
-
-/// The panels in their area, each with its place.
-pub fn places(stage: &Stage, area: Rect) -> Vec<(Panel, Rect)> {
-    let (columns, rows) = grid(area);
-    let (area, _) = with_tour(stage, area);
-    if stage.presents {
-        let [contact, chart, _] = present::areas(area);
-        return vec![(Panel::Section, contact), (stage.presented(), chart)];
-    }
-    if stage.zoomed {
-        return vec![(stage.focus, area)];
-    }
-    let shown = stage.page(columns * rows);
-    // The last page may hold fewer panels, which are then larger; its last row leaves no hole.
-    let columns = columns
-        .min(shown.len().div_ceil(rows).max(2))
-        .min(shown.len())
-        .max(1);
-    let rows = shown.len().div_ceil(columns);
-    let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
-    let mut places = Vec::with_capacity(shown.len());
-    for (band, row) in bands.iter().zip(shown.chunks(columns)) {
-        let cells = Layout::horizontal(vec![Constraint::Fill(1); row.len()])
-            .spacing(1)
-            .split(*band);
-        places.extend(row.iter().copied().zip(cells.iter().copied()));
-    }
-    places
 }

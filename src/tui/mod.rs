@@ -12,7 +12,6 @@
 //! most recent copy is saved instead.
 
 use std::fs;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
@@ -27,7 +26,10 @@ pub mod autosave;
 mod beside;
 mod canvas;
 pub mod command;
+mod completion;
+pub mod event;
 mod event_loop;
+pub mod explorer;
 mod figure;
 mod flow;
 pub mod footer;
@@ -47,7 +49,7 @@ pub mod overlays;
 mod pace;
 pub mod panels;
 mod present;
-mod reader;
+pub mod reader;
 mod readout;
 pub mod screen;
 mod script;
@@ -62,55 +64,18 @@ pub mod trend;
 mod undo;
 pub mod worker;
 
-use crate::panics::locked;
+use crate::panics::catch;
 use crate::plot::Marker;
-pub use crate::plot::theme;
+use crate::plot::theme::{Depth, Look, Theme};
 use app::App;
 pub use appearance::theme_of;
 use autosave::ScreenAutosave;
-use event_loop::Next;
+use event::Event;
 pub use event_loop::NoTerminal;
-use frame::Slot;
-use overlays::Overlay;
-pub use reader::Input;
+use explorer::Next;
 pub use script::{Format, Script, Stroke, parse_size, rehearse};
-use theme::{Depth, Look, Theme};
 use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
-
-/// The default preset, whose tour begins by itself.
-pub(crate) const FIRST: &str = "li2019-fig3";
-
-/// An event for the main thread.
-#[derive(Debug)]
-pub enum Event {
-    /// The terminal has sent what its user did, or an answer.
-    Input(Input),
-    /// A frame was written.
-    Written,
-    /// The terminal has another size.
-    Resize,
-    /// A frame waits in the slot.
-    Frame(Arc<Slot>),
-    /// There may be something new to see in what is shown beside.
-    News,
-    /// A notice for the user.
-    Notice(String),
-    /// A file that was asked for could not be written, and why: a notice, and a failure of a script.
-    Unwritten(String),
-    /// A study has begun.
-    Sweep(map::live::Live),
-    /// A point of it has been opened.
-    Opened,
-    /// The process is asked to suspend.
-    Suspend,
-    /// The process continues after a suspension.
-    Continue,
-    /// The terminal has closed, or the process was asked to end.
-    HangUp,
-    /// The worker has ended.
-    WorkerGone,
-}
 
 /// What the explorer is opened with.
 pub struct Options {
@@ -173,13 +138,14 @@ pub fn run(options: Options) -> Result<Farewell> {
     let mut worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
     if let Some(map) = options.map {
-        map.watch(events.clone());
-        app.overlay = Overlay::Sweep(map);
+        let events = events.clone();
+        map.watch(move || events.send(Event::News).is_ok());
+        app.handle(Event::Sweep(map));
     } else if options.present {
-        app.stage.present();
+        app.explorer.stage.present();
     } else if is_first && let Ok(size) = terminal::size() {
-        app.resize(size);
-        app.stage.welcome(&origin);
+        app.explorer.resize(size);
+        app.explorer.stage.welcome(&origin);
     }
     crate::panics::capture();
     let worker = WorkerThread::start(worker, orders.clone(), to_worker, keeping)?;
@@ -221,23 +187,12 @@ fn is_first_time(options: &Options) -> bool {
 
 /// The last screen, if it should stay visible.
 fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
-    if app.next != Next::LeaveScreen || !is_restored {
+    if app.explorer.next != Next::LeaveScreen || !is_restored {
         return Ok(None);
     }
     let mut size = terminal::size()?;
     size.height = size.height.saturating_sub(1);
     Ok(Some(script::text(app, size)))
-}
-
-/// The element `places` after the one that is `now`, wrapping around at the ends.
-fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
-    let at = all.iter().position(|one| *one == now).unwrap_or(0) as isize;
-    all[(at + places).rem_euclid(all.len() as isize) as usize]
-}
-
-/// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.
-fn catch<T: Default>(action: impl FnOnce() -> Result<T>) -> Result<T> {
-    catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|_| Ok(T::default()))
 }
 
 fn theme(options: &Options) -> Theme {

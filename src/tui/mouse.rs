@@ -1,16 +1,9 @@
 //! Mouse handling (`--mouse`): a click focuses a panel, moves the cursor or travels along the timeline, a double
 //! click zooms, the wheel scrolls overlays.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::layout::Position;
-
-use super::app::App;
-use super::keys::{Key, Named};
-use super::overlays::Overlay;
-use super::undo::Past;
-use super::{layout, timeline};
 
 /// Longest time between the clicks of a double click.
 const TOGETHER: Duration = Duration::from_millis(400);
@@ -51,48 +44,6 @@ impl Mouse {
             1 => Some(Gesture::DoubleClick(at)),
             _ => None,
         }
-    }
-}
-
-impl App {
-    /// Answers the mouse.
-    pub fn point(&mut self, gesture: Gesture) {
-        match (gesture, &self.overlay) {
-            (Gesture::WheelUp | Gesture::WheelDown, Overlay::None | Overlay::Accuracy { .. }) => {}
-            (Gesture::WheelUp, _) => self.press(Key::Named(Named::Up)),
-            (Gesture::WheelDown, _) => self.press(Key::Named(Named::Down)),
-            (Gesture::Click(at), Overlay::None) => self.click(at, false),
-            (Gesture::DoubleClick(at), Overlay::None) => self.click(at, true),
-            (Gesture::Click(_) | Gesture::DoubleClick(_), _) => {}
-        }
-    }
-
-    /// A click travels along the timeline, moves the cursor in a chart, or is the stage's.
-    fn click(&mut self, at: Position, is_second: bool) {
-        self.notice = None;
-        self.is_new = false;
-        let frame = Arc::clone(&self.frame);
-        let bands = layout::bands(self.stage.area).filter(|_| !self.compares());
-        let Some([_, area, _]) = bands else {
-            return;
-        };
-        let (line, area) = layout::timeline(area);
-        if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
-            let visit = move |past: &mut Past| past.visit(cycle);
-            return self.order(move |run| run.travel(visit, "no state is stored"));
-        }
-        let mut places = layout::places(&self.stage, area).into_iter();
-        let Some((panel, place)) = places.find(|(_, place)| place.contains(at)) else {
-            return;
-        };
-        let chart = self.charts.get(panel, &frame);
-        let radius = panel.radius_at(&chart, &self.theme, place, at);
-        let radius = radius.filter(|_| self.cursor.is_shown() && !is_second);
-        if let Some(radius) = radius {
-            self.cursor.put(&frame, radius);
-        }
-        self.stage.click(panel, is_second, radius.is_some());
-        self.show();
     }
 }
 

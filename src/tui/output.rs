@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use nix::sys::termios::{FlushArg, tcflush};
 
-use super::Event;
+use super::event::Event;
 use super::flow::QUESTION;
 
 /// How long the last output waits for a slow terminal, and again after everything queued before it

@@ -6,7 +6,7 @@ use ratatui::prelude::*;
 use super::canvas::Canvas;
 use super::frame::{Activity, Frame};
 use super::panels::{Panel, contact_state};
-use super::theme::Role;
+use crate::plot::theme::Role;
 
 /// The chart at first.
 pub const CHART: Panel = Panel::Loop;

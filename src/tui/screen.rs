@@ -16,19 +16,21 @@ use ratatui::prelude::*;
 
 use super::app::App;
 use super::canvas::Canvas;
+use super::explorer::Explorer;
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
-use super::panels::compare;
-use super::theme::Role;
+use super::panels::{Panel, Shown, compare};
 use super::{footer, present, timeline};
+use crate::plot::theme::Role;
 use crate::reading::verdict;
 
 /// Draws everything.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let mut canvas = Canvas::new(&app.theme, area, buffer);
-    if let Overlay::Sweep(live) = &app.overlay {
-        return live.draw(app.notice.as_deref(), canvas);
+    let (explorer, overlay) = (&app.explorer, app.overlays.last());
+    let mut canvas = Canvas::new(&explorer.theme, area, buffer);
+    if let Some(study @ Overlay::Sweep(_)) = overlay {
+        return study.draw(explorer, canvas);
     }
     let Some([top, whole, bottom]) = layout::bands(area) else {
         let (columns, rows) = layout::SMALLEST;
@@ -36,34 +38,62 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         return canvas.write(text);
     };
     let (line, middle) = layout::timeline(whole);
-    status(&app.frame, canvas.at(top));
+    status(&explorer.frame, canvas.at(top));
     if let Some(line) = line {
-        timeline::draw(&app.frame, canvas.at(line));
+        timeline::draw(&explorer.frame, canvas.at(line));
     }
-    panels(app, canvas.at(middle));
+    panels(explorer, canvas.at(middle));
     footer::draw(app, canvas.at(bottom));
     // An explanation stands beside its panel; lists need every row.
-    let under = match app.overlay {
-        Overlay::Explain => middle,
+    let under = match overlay {
+        Some(Overlay::Explain) => middle,
         _ => whole,
     };
-    app.overlay.draw(app, canvas.at(under));
+    if let Some(overlay) = overlay {
+        overlay.draw(explorer, canvas.at(under));
+    }
 }
 
-fn panels(app: &App, mut canvas: Canvas) {
-    let (frame, area) = (&*app.frame, canvas.area);
+fn panels(explorer: &Explorer, mut canvas: Canvas) {
+    let (frame, stage, area) = (&*explorer.frame, &explorer.stage, canvas.area);
     if let Some(comparison) = &frame.comparison {
-        return compare::draw(frame, comparison, app, canvas);
+        return compare::draw(frame, comparison, explorer.cursor.radius(frame), canvas);
     }
-    for (panel, place) in layout::places(&app.stage, area) {
-        panel.draw(app, canvas.at(place));
+    for (panel, place) in stage.places(area) {
+        draw_panel(panel, explorer, canvas.at(place));
     }
-    let (above, caption) = layout::with_tour(&app.stage, area);
-    if app.stage.presents {
+    let (above, caption) = stage.with_tour(area);
+    if stage.presents {
         present::draw(frame, canvas.at(present::areas(above)[2]));
     }
-    if let (Some(tour), Some(place)) = (&app.stage.tour, caption) {
+    if let (Some(tour), Some(place)) = (&stage.tour, caption) {
         tour.draw(canvas.at(place));
+    }
+}
+
+/// Draws a panel: its picture, or its chart.
+fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
+    let (recipe, frame, charts) = (panel.recipe(), &*explorer.frame, &explorer.charts);
+    let role = match explorer.stage.focus == panel {
+        true => Role::Focus,
+        false => Role::Title,
+    };
+    if let Some(picture) = panel.picture() {
+        let shown = Shown {
+            frame: explorer.calm.shown(panel, &explorer.stage, frame),
+            calm: explorer.calm.of(frame),
+            stress: explorer.stress,
+            bounds: charts.bounds(panel),
+            role,
+        };
+        return (picture.draw)(&shown, canvas);
+    }
+    match &*charts.get(panel, frame) {
+        Ok(chart) => {
+            let cursor = explorer.cursor.radius(frame);
+            canvas.plot(chart, role, cursor.filter(|_| recipe.is_over_r()));
+        }
+        Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
     }
 }
 

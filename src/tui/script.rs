@@ -8,14 +8,14 @@ use anyhow::{Context, Result, anyhow};
 use ratatui::buffer::Cell;
 use ratatui::prelude::*;
 
-use super::Event;
 use super::app::App;
-use super::event_loop::Next;
+use super::event::Event;
+use super::explorer::Next;
 use super::keys::{self, Key};
 use super::screen;
-use super::theme::{Look, Theme};
 use super::worker::{Orders, Worker};
 use crate::plot::screen_svg::{self, Ground};
+use crate::plot::theme::{Look, Theme};
 use crate::scenario::session::Session;
 
 /// Reads a size of the screen, `COLUMNSxROWS`.
@@ -112,7 +112,7 @@ pub fn play(
     let screen = match script.format {
         Format::Text => text(app, size),
         Format::Svg => {
-            let is_light = app.theme.look == Look::Light;
+            let is_light = app.explorer.theme.look == Look::Light;
             let ground = if is_light {
                 Ground::LIGHT
             } else {
@@ -123,7 +123,7 @@ pub fn play(
         }
     };
     io::stdout().lock().write_all(screen.as_bytes())?;
-    match &app.unwritten {
+    match &app.explorer.unwritten {
         Some(text) => Err(anyhow!("{text}")),
         None => Ok(()),
     }
@@ -138,7 +138,7 @@ fn press(
     orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<Size> {
-    app.resize(size);
+    app.explorer.resize(size);
     catch_up(app, orders, events)?;
     for stroke in strokes {
         match stroke {
@@ -146,11 +146,11 @@ fn press(
             Stroke::Paste(text) => app.paste(text),
             Stroke::Resize(other) => {
                 size = *other;
-                app.resize(size);
+                app.explorer.resize(size);
             }
         }
         catch_up(app, orders, events)?;
-        if matches!(app.next, Next::Leave | Next::LeaveScreen) {
+        if matches!(app.explorer.next, Next::Leave | Next::LeaveScreen) {
             break;
         }
         text(app, size);
@@ -159,7 +159,8 @@ fn press(
 }
 
 fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<()> {
-    app.take_frame(orders.frame().context("the simulation has ended")?);
+    app.explorer
+        .take_frame(orders.frame().context("the simulation has ended")?);
     while let Ok(event) = events.try_recv() {
         // A script sees all points; the frame that it sees is the one that it has waited for.
         match &event {

@@ -1,6 +1,6 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
-use super::shifted;
+use crate::math::scan::shifted;
 use crate::plot::units::{plain, reading};
 use crate::scenario::schema::{Kind, Parameter, parameters};
 use crate::scenario::{Scenario, units};

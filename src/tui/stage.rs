@@ -1,16 +1,22 @@
 //! Which panels are on the screen, and how large: the focus and its page, one panel zoomed, the contact, a projector's
 //! two, or those that a tour leads to.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::layout;
 use super::panels::Panel;
 use super::present;
-use super::tour::Tour;
+use super::tour::{FIRST, Tour};
 
 /// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
 const CONTACT_FROM: u16 = 100;
 const CONTACT_ROWS: u16 = 22;
+
+/// Rows of a tour, including its title.
+pub const TOUR: u16 = 4;
+
+/// Minimum rows for the panels beside a tour.
+const LEAST: u16 = 10;
 
 /// The panels' stage.
 #[derive(Debug, Default)]
@@ -36,8 +42,47 @@ pub struct Stage {
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
-        let places = layout::places(self, layout::middle(self.area));
+        let places = self.places(layout::middle(self.area));
         places.into_iter().map(|(panel, _)| panel).collect()
+    }
+
+    /// The area of the panels, and that of a tour's caption below them while there is one.
+    pub fn with_tour(&self, area: Rect) -> (Rect, Option<Rect>) {
+        if self.tour.is_none() || area.height < LEAST + TOUR {
+            return (area, None);
+        }
+        let rows = [Constraint::Min(0), Constraint::Length(TOUR)];
+        let [above, below] = Layout::vertical(rows).areas(area);
+        (above, Some(below))
+    }
+
+    /// The panels in their area, each with its place.
+    pub fn places(&self, area: Rect) -> Vec<(Panel, Rect)> {
+        let (columns, rows) = layout::grid(area);
+        let (area, _) = self.with_tour(area);
+        if self.presents {
+            let [contact, chart, _] = present::areas(area);
+            return vec![(Panel::Section, contact), (self.presented(), chart)];
+        }
+        if self.zoomed {
+            return vec![(self.focus, area)];
+        }
+        let shown = self.page(columns * rows);
+        // The last page may hold fewer panels, which are then larger; its last row leaves no hole.
+        let columns = columns
+            .min(shown.len().div_ceil(rows).max(2))
+            .min(shown.len())
+            .max(1);
+        let rows = shown.len().div_ceil(columns);
+        let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
+        let mut places = Vec::with_capacity(shown.len());
+        for (band, row) in bands.iter().zip(shown.chunks(columns)) {
+            let cells = Layout::horizontal(vec![Constraint::Fill(1); row.len()])
+                .spacing(1)
+                .split(*band);
+            places.extend(row.iter().copied().zip(cells.iter().copied()));
+        }
+        places
     }
 
     /// The panels beside the focused one where `room` of them fit.
@@ -131,7 +176,7 @@ impl Stage {
 
     /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.
     pub fn welcome(&mut self, origin: &str) {
-        if origin == super::FIRST {
+        if origin == FIRST {
             self.begin_tour(origin);
         } else if self.area.width >= CONTACT_FROM {
             self.show_contact();

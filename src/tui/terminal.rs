@@ -8,8 +8,8 @@ use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
 use ratatui::buffer::Cell;
 use ratatui::prelude::*;
 
-use super::Event;
 use super::ansi_writer::AnsiWriter;
+use super::event::Event;
 use super::flow::Flow;
 use super::output::Output;
 

@@ -9,8 +9,8 @@ use ratatui::prelude::*;
 
 use super::canvas::Canvas;
 use super::frame::Frame;
-use super::theme::Role;
 use crate::charts::round_end;
+use crate::plot::theme::Role;
 
 /// The cells that words leave to the line, where half of the row is not enough for them.
 const LEAST: u16 = 30;

@@ -5,7 +5,10 @@ use std::sync::LazyLock;
 
 use super::canvas::Canvas;
 use super::panels::Panel;
-use super::theme::Role;
+use crate::plot::theme::Role;
+
+/// The default preset, whose tour begins by itself.
+pub const FIRST: &str = "li2019-fig3";
 
 /// A caption.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Deserialize)]

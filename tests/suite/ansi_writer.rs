@@ -4,12 +4,12 @@ use std::num::NonZeroU16;
 use std::sync::Arc;
 
 use mdr_tui::plot::Marker;
+use mdr_tui::plot::theme::{Depth, Look, Theme};
 use mdr_tui::tui::ansi_writer::AnsiWriter;
 use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::theme::{Depth, Look, Theme};
 use mdr_tui::tui::worker::Worker;
 use proptest::prelude::*;
 use ratatui::buffer::{Buffer, Cell};
@@ -30,7 +30,7 @@ impl Counted {
         // The longest names of colours.
         let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
         let mut explorer = Explorer::on("li2019-fig3", theme);
-        explorer.app.resize(Size::new(columns, rows));
+        explorer.app.explorer.resize(Size::new(columns, rows));
         let line = AnsiWriter::default();
         Self { line, explorer }
     }
@@ -41,7 +41,7 @@ impl Counted {
             self.explorer.app.press(key);
         }
         let frame = self.explorer.frame();
-        self.explorer.app.take_frame(frame);
+        self.explorer.app.explorer.take_frame(frame);
         self.draw()
     }
 
@@ -52,13 +52,13 @@ impl Counted {
         }
         let mut frame = Frame::clone(&self.explorer.frame());
         frame.activity = Activity::Running;
-        self.explorer.app.take_frame(Arc::new(frame));
+        self.explorer.app.explorer.take_frame(Arc::new(frame));
         self.draw()
     }
 
     /// What the screen shows.
     fn screen(&self) -> Buffer {
-        let area = self.explorer.app.stage.area;
+        let area = self.explorer.app.explorer.stage.area;
         let mut buffer = Buffer::empty(area);
         screen::draw(&self.explorer.app, area, &mut buffer);
         buffer
@@ -82,7 +82,7 @@ fn take_few_bytes(
     of: fn(&mut Counted) -> usize,
 ) {
     let total: usize = (0..count).map(|_| of(counted) + REQUEST).sum();
-    let (bytes, area) = (total / count, counted.explorer.app.stage.area);
+    let (bytes, area) = (total / count, counted.explorer.app.explorer.stage.area);
     assert!(bytes <= budget, "{bytes} bytes per frame in {area}");
     assert_eq!(counted.draw(), 0, "a paused screen sends something");
 }
@@ -95,8 +95,8 @@ fn a_frame_of_the_figure_takes_few_bytes() {
         let mut counted = Counted::new(columns, rows);
         counted.frame("");
         let app = &counted.explorer.app;
-        let has_stresses =
-            app.stage.visible().contains(&Panel::Section) && app.stress.bounds.is_some();
+        let has_stresses = app.explorer.stage.visible().contains(&Panel::Section)
+            && app.explorer.stress.bounds.is_some();
         assert!(columns != 120 || has_stresses);
         take_few_bytes(&mut counted, budget, 60, |counted| counted.frame(",.."));
     }

@@ -12,18 +12,19 @@ use std::time::Duration;
 use crate::common::{Explorer, LiveWorker, begin, load, ran, rehearsed as shot, rehearsed_on};
 use crate::screen_table::{hold, pin, words_of};
 use crate::test_dir::{TestDir, has, lacks};
+use mdr_tui::plot::theme::{Look, Theme};
 use mdr_tui::plot::{Marker, Scale};
 use mdr_tui::scenario::preset;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::command::{self, COMMANDS, Command};
+use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::manual;
 use mdr_tui::tui::mouse::Gesture;
 use mdr_tui::tui::panels::Panel;
-use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::Worker;
-use mdr_tui::tui::{Event, screen, tour};
+use mdr_tui::tui::{screen, tour};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::text::Line;
@@ -62,13 +63,13 @@ fn a_cut_through_the_bodies() {
 #[test]
 fn a_click_on_the_timeline_travels_there() {
     let mut stage = explorer("li2019-fig3");
-    stage.app.resize(Size::new(100, 30));
+    stage.app.explorer.resize(Size::new(100, 30));
     stage.press(",,,,,,,,");
     // 89 columns for 199.24 cycles.
     for (column, cycle, present) in [(4, 3.0, Some(8.0)), (60, 8.0, None)] {
         stage.app.point(Gesture::Click(Position::new(column, 1)));
         stage.press("<Esc>");
-        let frame = stage.app.frame.clone();
+        let frame = stage.app.explorer.frame.clone();
         let seen = (frame.observation.moment.cycle, frame.present);
         assert_eq!(seen, (cycle, present));
     }
@@ -81,7 +82,7 @@ fn a_lecture_speeds_up_by_itself() {
     let mut frame = Frame::clone(&stage.frame());
     let theme = Theme::new(Look::Dark, Marker::Braille);
     let mut app = App::new(theme, stage.worker.orders.clone(), stage.frame());
-    app.stage.present();
+    app.explorer.stage.present();
     let (running, paused) = (Activity::Running, Activity::Paused);
     for (at, cycle, activity, rises) in [
         (0.5, 0.0, &running, false),
@@ -100,7 +101,7 @@ fn a_lecture_speeds_up_by_itself() {
         frame.pace = at;
         frame.activity = activity.clone();
         let before = stage.frame().pace;
-        app.take_frame(Arc::new(frame.clone()));
+        app.explorer.take_frame(Arc::new(frame.clone()));
         let has_risen = stage.frame().pace != before;
         assert_eq!(has_risen, rises, "at cycle {cycle}, {at} a second");
     }
@@ -241,16 +242,16 @@ fn every_tour_can_be_walked_to_its_end() {
         for caption in captions {
             stage.press("n");
             // The caption is there, and the panel that it is about has the focus.
-            let tour = stage.app.stage.tour.as_ref();
+            let tour = stage.app.explorer.stage.tour.as_ref();
             assert_eq!(tour.and_then(tour::Tour::caption), Some(caption));
-            let panel = caption.panel().unwrap_or(stage.app.stage.focus);
-            assert_eq!(stage.app.stage.focus, panel, "{caption:?}");
+            let panel = caption.panel().unwrap_or(stage.app.explorer.stage.focus);
+            assert_eq!(stage.app.explorer.stage.focus, panel, "{caption:?}");
             draw(&stage.app, 80, 24);
         }
         stage.press("n");
-        assert_eq!(stage.app.stage.tour, None);
+        assert_eq!(stage.app.explorer.stage.tour, None);
         stage.press("n<Esc>");
-        assert_eq!(stage.app.stage.tour, None);
+        assert_eq!(stage.app.explorer.stage.tour, None);
     }
 }
 
@@ -277,7 +278,7 @@ fn no_phase_is_told_when_the_run_is_done() {
     frame.phase = Some(0.0);
     for activity in [Activity::Running, Activity::Paused, Activity::Done] {
         frame.activity = activity.clone();
-        stage.app.take_frame(Arc::new(frame.clone()));
+        stage.app.explorer.take_frame(Arc::new(frame.clone()));
         let is_told = draw(&stage.app, 120, 24).contains("phase 0°");
         assert_eq!(is_told, activity == Activity::Running, "{activity:?}");
     }
@@ -288,14 +289,20 @@ fn no_phase_is_told_when_the_run_is_done() {
 fn a_preset_asks_for_a_logarithmic_scale() {
     let mut stage = explorer("mild-million");
     stage.press(".");
-    assert_eq!(stage.app.charts.scale(Panel::Volume), Scale::Log);
-    assert_eq!(stage.app.charts.scale(Panel::Radii), Scale::Linear);
-    stage.app.stage.focus = Panel::Volume;
+    assert_eq!(stage.app.explorer.charts.scale(Panel::Volume), Scale::Log);
+    assert_eq!(stage.app.explorer.charts.scale(Panel::Radii), Scale::Linear);
+    stage.app.explorer.stage.focus = Panel::Volume;
     stage.press("L,");
-    assert_eq!(stage.app.charts.scale(Panel::Volume), Scale::Linear);
+    assert_eq!(
+        stage.app.explorer.charts.scale(Panel::Volume),
+        Scale::Linear
+    );
     let mut other = explorer("li2019-fig3");
     other.press(".");
-    assert_eq!(other.app.charts.scale(Panel::Volume), Scale::Linear);
+    assert_eq!(
+        other.app.explorer.charts.scale(Panel::Volume),
+        Scale::Linear
+    );
 }
 
 /// A run of 20 cycles.
@@ -523,7 +530,7 @@ fn no_size_makes_it_fail() {
 fn no_size_makes_any_preset_fail() {
     for (i, preset) in preset::ALL.iter().enumerate() {
         let mut stage = explorer(preset.name);
-        stage.app.theme.marker = match i % 4 {
+        stage.app.explorer.theme.marker = match i % 4 {
             0 => Marker::Ascii,
             1 => Marker::Dot,
             2 => Marker::HalfBlock,

@@ -19,12 +19,11 @@ use crate::figure::study;
 use crate::plot::colormap::ColorMap;
 use crate::plot::map::{self, SWATCHES};
 use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Role, Theme};
 use crate::plot::units::{format_value, range_ends};
 use crate::plot::{Axis, Chart, Plot, Point, Scale};
 use crate::studies::sweep::slice::REGIMES;
 use crate::tui::canvas::Canvas;
-use crate::tui::footer;
-use crate::tui::theme::{Role, Theme};
 
 /// The keys of the footer, as many as fit, and the one that is always there.
 const KEYS: [[&str; 2]; 7] = [
@@ -85,7 +84,7 @@ pub fn draw(view: &View, told: Option<&str>, mut canvas: Canvas) {
     canvas.at(body).show(Plot::new(&chart, theme).cursor(along));
     let told = told.map(|text| (text, Role::Notice));
     let last = row(area.height - 1);
-    footer::draw_line(told, &KEYS, &[QUIT], canvas.at(last));
+    canvas.at(last).keys(told, &KEYS, &[QUIT]);
 }
 
 /// Puts the signs on the chart that belong to a screen: the base scenario, and on a map points without a value, the

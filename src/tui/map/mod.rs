@@ -2,6 +2,7 @@
 //!
 //! Two axes make a map in half blocks, one axis a curve; the cursor reads a point, Enter opens it.
 
-mod draw;
+pub mod draw;
 pub mod live;
-mod view;
+pub mod range;
+pub mod view;

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::tui::canvas::rows;
-use crate::tui::{layout, panels, tour};
+use crate::tui::stage::Stage;
+use crate::tui::{panels, tour};
 
 /// What closes the explanation, and what is done while it is open: it follows the focus, and the run can continue.
 pub(super) const CLOSING: &[Command] = &[Command::Accept, Command::Back];
@@ -13,9 +14,9 @@ pub(super) const WATCHED: &[Command] = &[
 ];
 
 /// What the focused panel leaves free above or below it; all where it is zoomed.
-fn beside(app: &App, area: Rect) -> Rect {
-    let mut places = layout::places(&app.stage, area).into_iter();
-    let focused = places.find(|(panel, _)| *panel == app.stage.focus && !app.stage.zoomed);
+fn beside(stage: &Stage, area: Rect) -> Rect {
+    let mut places = stage.places(area).into_iter();
+    let focused = places.find(|(panel, _)| *panel == stage.focus && !stage.zoomed);
     let Some((_, place)) = focused else {
         return area;
     };
@@ -25,11 +26,11 @@ fn beside(app: &App, area: Rect) -> Rect {
     larger.filter(|part| !part.is_empty()).unwrap_or(area)
 }
 
-pub(super) fn draw(app: &App, mut canvas: Canvas) {
+pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
-    let is_compared = app.compares();
+    let is_compared = explorer.compares();
     // In a comparison there are other panels than the focused one.
-    let focus = app.stage.focus;
+    let focus = explorer.stage.focus;
     let recipe = focus.recipe();
     let (title, keys, (text, symbols)) = match is_compared {
         true => ("comparison", "Esc closes", panels::compare::WORDS),
@@ -50,7 +51,7 @@ pub(super) fn draw(app: &App, mut canvas: Canvas) {
             Span::raw(spelled(meaning)),
         ])
     }));
-    let captions = tour::captions(app.origin()).iter();
+    let captions = tour::captions(explorer.origin()).iter();
     let mut here = captions.filter(|caption| !is_compared && caption.panel() == Some(focus));
     if let Some(first) = here.next() {
         let heading = Line::styled("In this scenario", theme.style(Role::Title));
@@ -59,7 +60,7 @@ pub(super) fn draw(app: &App, mut canvas: Canvas) {
     }
     let width = area.width.min(80);
     // Where the whole would cover the panel, it is told in running text, without what can be done without.
-    let mut place = beside(app, area);
+    let mut place = beside(&explorer.stage, area);
     if rows(&lines, width) > place.height {
         let symbols = symbols
             .iter()

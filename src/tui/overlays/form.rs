@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::plot::theme::Theme;
 
 /// The selected parameter, and its value while that is typed.
 #[derive(Debug, Default)]
@@ -36,12 +37,12 @@ impl Form {
         (at, setting, self.typed.clone().filter(|_| !is_taken))
     }
 
-    pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
-        let facts = Arc::clone(&app.frame.facts);
+    pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
+        let facts = Arc::clone(&explorer.frame.facts);
         let (at, setting, typed) = self.seen(&facts.settings);
         (self.at, self.typed) = (at, typed);
         match (&mut self.typed, key) {
-            (None, key) => return self.choose(key, setting, facts.settings.len(), app),
+            (None, key) => return self.choose(key, setting, facts.settings.len(), explorer),
             (_, Key::Named(Named::Esc)) => (self.typed, self.sent) = (None, None),
             (Some(line), Key::Named(Named::Enter)) => {
                 let value = setting.in_shown_unit(line.text().trim());
@@ -51,7 +52,7 @@ impl Form {
                     self.typed = None;
                 } else {
                     self.sent = Some(setting.value.clone());
-                    change(setting, value, app);
+                    change(setting, value, explorer);
                 }
             }
             (Some(line), key) => _ = line.press(key),
@@ -60,7 +61,13 @@ impl Form {
     }
 
     /// Selects another parameter of `count`, or begins to give the value of the one that is selected.
-    fn choose(&mut self, key: Key, setting: &Setting, count: usize, app: &mut App) -> Answer {
+    fn choose(
+        &mut self,
+        key: Key,
+        setting: &Setting,
+        count: usize,
+        explorer: &mut Explorer,
+    ) -> Answer {
         self.sent = None;
         if select(&mut self.at, count, key) {
             return Answer::Stay;
@@ -70,13 +77,13 @@ impl Form {
                 let up = matches!(step, Command::Faster | Command::Right);
                 let next = setting.next(up).filter(|_| setting.fixed().is_none());
                 match next.filter(|next| setting.value.as_ref() != Some(next)) {
-                    Some(value) => change(setting, value, app),
+                    Some(value) => change(setting, value, explorer),
                     // Where there is no next value, the key is the first of a text.
                     None => {
                         return self.edit(
                             setting,
                             Some('-').filter(|_| key == Key::Char('-')),
-                            app,
+                            explorer,
                         );
                     }
                 }
@@ -84,26 +91,25 @@ impl Form {
             }
             (_, Some(Command::Back)) => Answer::Close,
             (Key::Char(' ' | ',' | '[' | ']'), Some(watched)) if WATCHED.contains(&watched) => {
-                watch(Some(watched), &[], WATCHED, app)
+                watch(Some(watched), &[], WATCHED)
             }
-            (Key::Char('?' | ':'), other) => leave_for(other, app),
-            (Key::Char(character), _) => self.edit(setting, Some(character), app),
-            (_, Some(Command::Accept)) => self.edit(setting, None, app),
-            (_, other) => leave_for(other, app),
+            (Key::Char('?' | ':'), other) => leave_for(other),
+            (Key::Char(character), _) => self.edit(setting, Some(character), explorer),
+            (_, Some(Command::Accept)) => self.edit(setting, None, explorer),
+            (_, other) => leave_for(other),
         }
     }
 
     /// Begins to give the value: one of its words in the palette, else the text as it stands, or what was typed in its
     /// place.
-    fn edit(&mut self, setting: &Setting, typed: Option<char>, app: &mut App) -> Answer {
-        app.notice = setting.fixed();
-        if app.notice.is_some() {
+    fn edit(&mut self, setting: &Setting, typed: Option<char>, explorer: &mut Explorer) -> Answer {
+        explorer.notice = setting.fixed();
+        if explorer.notice.is_some() {
             return Answer::Stay;
         }
         if setting.words().is_some() {
-            let back = Overlay::Form(std::mem::take(self));
-            app.overlay = Overlay::Palette(Palette::choosing(setting, typed, back));
-            return Answer::Close;
+            let key = setting.parameter.path;
+            return Answer::Open(Open::Words { key, typed });
         }
         let now = setting.value.as_ref().map(|_| setting.shown(true));
         let text = typed.map(String::from).or(now);
@@ -111,8 +117,8 @@ impl Form {
         Answer::Stay
     }
 
-    pub(super) fn draw(&self, app: &App, mut canvas: Canvas) {
-        let settings = &app.frame.facts.settings;
+    pub(super) fn draw(&self, explorer: &Explorer, mut canvas: Canvas) {
+        let settings = &explorer.frame.facts.settings;
         let (at, setting, line) = self.seen(settings);
         let rows = (canvas.area.height / 2).clamp(8, 20);
         let title = match &line {
@@ -120,18 +126,18 @@ impl Form {
             None => "parameters (type or Enter: edit, + -: step, [: undo, Esc: close)",
         };
         let mut inside = canvas.docked(title, rows + 3);
-        let about = 3.min(inside.area.height);
-        let [above, below] = Layout::vertical([Fill(1), Length(about)]).areas(inside.area);
-        let mut lines: Vec<Line> = settings.iter().map(|of| value(of, app)).collect();
+        let theme = inside.theme;
+        let rows = [Fill(1), Length(3.min(inside.area.height))];
+        let [above, below] = Layout::vertical(rows).areas(inside.area);
+        let mut lines: Vec<Line> = settings.iter().map(|of| value(of, &theme)).collect();
         let mut style = inside.style(Role::Focus);
         if let Some(line) = &line {
-            lines[at] = typed(setting, line, above.width, app);
+            lines[at] = typed(setting, line, above.width, &theme);
             style = Style::new();
         }
         inside.at(above).list(lines, at, style);
-        inside
-            .at(below)
-            .show(Paragraph::new(about_it(setting, app)));
+        let about = about_it(setting, explorer.notice.as_deref(), &theme);
+        inside.at(below).show(Paragraph::new(about));
     }
 }
 
@@ -141,21 +147,21 @@ fn key(setting: &Setting) -> String {
 }
 
 /// A row of the list.
-fn value(setting: &Setting, app: &App) -> Line<'static> {
+fn value(setting: &Setting, theme: &Theme) -> Line<'static> {
     let style = match setting.fixed() {
-        Some(_) => app.theme.style(Role::Faint),
+        Some(_) => theme.style(Role::Faint),
         None => Style::new(),
     };
-    let shown = setting.shown(app.theme.ascii());
+    let shown = setting.shown(theme.ascii());
     Line::styled(key(setting) + &shown, style)
 }
 
 /// The row of a value that is typed, with the unit that it is in.
-fn typed(setting: &Setting, line: &LineEdit, width: u16, app: &App) -> Line<'static> {
-    let mut row = typing(&key(setting), line, app.theme.style(Role::Title));
+fn typed(setting: &Setting, line: &LineEdit, width: u16, theme: &Theme) -> Line<'static> {
+    let mut row = typing(&key(setting), line, theme.style(Role::Title));
     let unit = match setting.typed_unit() {
         unit if unit.is_empty() => unit,
-        unit => app.theme.printable(&format!("{unit}, or with a unit ")),
+        unit => theme.printable(&format!("{unit}, or with a unit ")),
     };
     let room = usize::from(width).saturating_sub(row.width());
     row.push_span(format!("{unit:>room$}"));
@@ -163,10 +169,10 @@ fn typed(setting: &Setting, line: &LineEdit, width: u16, app: &App) -> Line<'sta
 }
 
 /// Meaning and range, effect, and what was answered to the last change.
-fn about_it(setting: &Setting, app: &App) -> Vec<Line<'static>> {
-    let quiet = app.theme.style(Role::Quiet);
-    let told = match (&app.notice, setting.fixed()) {
-        (Some(text), _) => Span::styled(app.theme.printable(text), app.theme.style(Role::Notice)),
+fn about_it(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'static>> {
+    let quiet = theme.style(Role::Quiet);
+    let told = match (told, setting.fixed()) {
+        (Some(text), _) => Span::styled(theme.printable(text), theme.style(Role::Notice)),
         (None, Some(because)) => Span::styled(because, quiet),
         (None, None) => {
             let (kind, allowed) = (setting.parameter.kind, setting.parameter.allowed());
@@ -180,7 +186,7 @@ fn about_it(setting: &Setting, app: &App) -> Vec<Line<'static>> {
     ]
 }
 
-fn change(setting: &Setting, value: String, app: &mut App) {
+fn change(setting: &Setting, value: String, explorer: &mut Explorer) {
     let key = setting.parameter.path;
-    app.order(move |run| run.change(key, &value));
+    explorer.order(move |run| run.change(key, &value));
 }

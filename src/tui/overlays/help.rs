@@ -1,7 +1,7 @@
 //! The help: keys and what they do, one per row, in groups. The palette searches in it.
 
 use super::*;
-use crate::tui::command::with_keys;
+use crate::tui::command::{Row, with_keys};
 use crate::tui::manual::groups;
 
 /// The help, scrolled down by some lines.
@@ -11,7 +11,7 @@ pub struct Help {
 }
 
 impl Help {
-    pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
+    pub(super) fn press(&mut self, key: Key) -> Answer {
         let (first, last) = (self.first, 2 * with_keys().count() as u16);
         self.first = match (key, command::of_key(key)) {
             (Key::Named(Named::PageUp), _) => first.saturating_sub(PAGE as u16),
@@ -21,12 +21,8 @@ impl Help {
             (_, Some(Command::Up)) => first.saturating_sub(1),
             (_, Some(Command::Down)) => (first + 1).min(last),
             (_, Some(Command::Back | Command::Help | Command::Accept)) => return Answer::Close,
-            (_, Some(Command::Search)) => {
-                let back = Overlay::Help(std::mem::take(self));
-                app.overlay = Overlay::Palette(Palette::begun("", back));
-                return Answer::Close;
-            }
-            (_, other) => return leave_for(other, app),
+            (_, Some(Command::Search)) => return Answer::Open(Open::Palette),
+            (_, other) => return leave_for(other),
         };
         Answer::Stay
     }

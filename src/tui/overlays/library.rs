@@ -1,6 +1,6 @@
 //! Scenarios to choose from: the presets, and the user's own files, with what they show.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::scenario::preset::{self, Preset};
@@ -137,7 +137,7 @@ impl Library {
         self.about = self.entries[self.at].about();
     }
 
-    pub(super) fn press(&mut self, key: Key, app: &mut App) -> Answer {
+    pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
         let mut at = self.at;
         if select(&mut at, self.entries.len(), key) {
             self.select(at);
@@ -145,16 +145,16 @@ impl Library {
         }
         match command::of_key(key) {
             Some(Command::Back | Command::Presets) => Answer::Close,
-            Some(Command::Accept | Command::RunPause) => self.take(app),
-            other => leave_for(other, app),
+            Some(Command::Accept | Command::RunPause) => self.take(explorer),
+            other => leave_for(other),
         }
     }
 
     /// Loads the selected scenario, or opens the selected directory.
-    fn take(&mut self, app: &mut App) -> Answer {
+    fn take(&mut self, explorer: &mut Explorer) -> Answer {
         let entry = &self.entries[self.at];
         if !matches!(entry.kind, Kind::Directory) {
-            app.load(&entry.path.to_string_lossy());
+            explorer.load(&entry.path.to_string_lossy());
             return Answer::Close;
         }
         self.enter(entry.path.clone());

@@ -143,9 +143,9 @@ fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
 
 /// Draws the words on the picture and below it.
 pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
-    let (frame, app, area) = (section.frame, section.app, canvas.area);
+    let (frame, area) = (section.frame, canvas.area);
     // Nobody reads numbers ten times a second.
-    let seen = app.calm.of(frame);
+    let seen = section.of.calm;
     let calm = &seen.observation.moment;
     let value = |value, unit| format_value(value, unit, 3);
     if area.height < 5 || area.width < 30 {
@@ -168,7 +168,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
             on(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
-        let scale = Line::from(stress_key(app, area.width)).style(Style::reset());
+        let scale = Line::from(stress_key(section, area.width)).style(Style::reset());
         let width = scale.width() as u16;
         let left = area.x + area.width.saturating_sub(width) / 2;
         let place = Rect::new(left, area.bottom() - 1, width, 1);
@@ -198,13 +198,13 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     canvas.at(first).show(Line::raw(format!(" {worn}")));
     let mut key = Line::from(body_key(&canvas.theme));
     let room = second.width.saturating_sub(key.width() as u16);
-    key.extend(stress_key(app, room));
+    key.extend(stress_key(section, room));
     canvas.at(second).show(key);
 }
 
 /// c and a: a short line over the border of each, and its name.
 fn radii(section: &Section, canvas: &mut Canvas) {
-    let moment = &section.app.calm.of(section.frame).observation.moment;
+    let moment = &section.of.calm.observation.moment;
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
     for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {
@@ -234,8 +234,8 @@ fn body_key(theme: &Theme) -> Vec<Span<'static>> {
 }
 
 /// The scale of the stress in as many words as `width` cells have room for; nothing without a stress.
-fn stress_key(app: &App, width: u16) -> Vec<Span<'static>> {
-    let (theme, stress) = (&app.theme, app.stress);
+fn stress_key(section: &Section, width: u16) -> Vec<Span<'static>> {
+    let (theme, stress) = (&section.theme, section.of.stress);
     // Nothing is loaded yet where the scale is that of no stress.
     let Some(bounds) = stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
         return Vec::new();

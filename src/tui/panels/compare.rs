@@ -24,9 +24,8 @@ pub const WORDS: (&str, Symbols) = (
     &[A, C, ("side by side", "the same numbers of both runs")],
 );
 
-/// Draws the comparison over the whole area of the panels.
-pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canvas) {
-    let cursor = app.cursor.radius(frame);
+/// Draws the comparison over the whole area of the panels, with a cursor at a radius, m, if there is one.
+pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut canvas: Canvas) {
     let parts = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]);
     let [top, bottom] = parts.areas(canvas.area);
     let halves = Layout::horizontal([Constraint::Fill(1); 2]);

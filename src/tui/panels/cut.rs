@@ -78,7 +78,9 @@ pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
 /// A frame as a cut in an area: its lengths, m, and how much is magnified.
 pub struct Section<'a> {
     pub frame: &'a Frame,
-    pub app: &'a App,
+    /// Of what, and the look of the terminal.
+    pub of: &'a Shown<'a>,
+    pub theme: Theme,
     pub area: Rect,
     /// The width of a column, and the height of half a cell on the scale of the surfaces.
     pub width: f64,
@@ -101,10 +103,10 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// The cut; `None` where there is nothing to draw.
-    pub fn of(frame: &'a Frame, app: &'a App, area: Rect) -> Option<Self> {
+    pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
+        let frame = of.frame;
         let seen = &frame.observation;
-        let held = app.charts.bounds(Panel::Section);
-        let ([low, high], &edge) = (held?, seen.radii.last()?);
+        let ([low, high], &edge) = (of.bounds?, seen.radii.last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
         }
@@ -120,7 +122,8 @@ impl<'a> Section<'a> {
         let [columns, rows] = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
             frame,
-            app,
+            of,
+            theme: *theme,
             area,
             width,
             half,
@@ -132,7 +135,7 @@ impl<'a> Section<'a> {
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
-            stress: (app.stress).samples(app.calm.of(frame), columns, rows, width),
+            stress: of.stress.samples(of.calm, columns, rows, width),
         };
         section.tall = high - section.cut(0.0).surface;
         Some(section)

@@ -4,17 +4,14 @@
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
 
-use super::app::App;
 use super::canvas::Canvas;
 use super::frame::Frame;
-use super::live_charts::Made;
-use super::shifted;
-use super::theme::{Depth, Look, Role, Theme};
 use crate::charts::{self, Recipe};
 use crate::math::grid::interpolate;
-use crate::math::scan::largest;
+use crate::math::scan::{largest, shifted};
 use crate::plot::colormap::ColorMap;
 use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Depth, Look, Role, Theme};
 use crate::plot::units::{format_number, format_value};
 use crate::plot::{Chart, Plot, Scale};
 use crate::reading::{Curves, Moment};
@@ -34,10 +31,24 @@ pub use stress_map::StressMap;
 pub struct Picture {
     /// Its names and needs.
     recipe: Recipe,
-    /// Draws a frame below a rule with the title, which has this role.
-    draw: fn(&Frame, &App, Role, Canvas),
+    /// Draws it below a rule with the title.
+    pub draw: fn(&Shown, Canvas),
     /// The values that it must hold.
     extent: fn(&Frame) -> Option<[f64; 2]>,
+}
+
+/// What a picture is drawn of.
+pub struct Shown<'a> {
+    /// The frame of the panel.
+    pub frame: &'a Frame,
+    /// The frame of what changes more calmly: stresses and words.
+    pub calm: &'a Frame,
+    /// Which stress is shown.
+    pub stress: StressMap,
+    /// The values that its scale holds.
+    pub bounds: Option<[f64; 2]>,
+    /// The role of its title.
+    pub role: Role,
 }
 
 /// The panels in reading order; the first four fill a small screen.
@@ -66,7 +77,8 @@ macro_rules! panels {
                 }
             }
 
-            fn picture(self) -> Option<&'static Picture> {
+            /// How it is drawn, if it is no chart.
+            pub fn picture(self) -> Option<&'static Picture> {
                 match self {
                     $(Self::$name => $picture,)*
                 }
@@ -109,29 +121,9 @@ impl Panel {
         }
     }
 
-    /// Draws the panel: its picture, or its chart.
-    pub fn draw(self, app: &App, mut canvas: Canvas) {
-        let (recipe, frame) = (self.recipe(), &*app.frame);
-        let role = match app.stage.focus == self {
-            true => Role::Focus,
-            false => Role::Title,
-        };
-        if let Some(picture) = self.picture() {
-            let shown = app.calm.shown(self, &app.stage, frame);
-            return (picture.draw)(shown, app, role, canvas);
-        }
-        match &*app.charts.get(self, frame) {
-            Ok(chart) => {
-                let cursor = app.cursor.radius(frame).filter(|_| recipe.is_over_r());
-                canvas.plot(chart, role, cursor);
-            }
-            Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
-        }
-    }
-
     /// The radius under a place of the screen, m, where the panel in `area` has a chart over r there.
-    pub fn radius_at(self, chart: &Made, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
-        let chart = chart.as_ref().ok().filter(|_| self.recipe().is_over_r())?;
+    pub fn radius_at(self, chart: &Chart, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
+        let chart = Some(chart).filter(|_| self.recipe().is_over_r())?;
         // The first row is the title's.
         let [_, inner] = Layout::vertical([Length(1), Fill(1)]).areas(area);
         Plot::new(chart, theme).abscissa_at(inner, at)

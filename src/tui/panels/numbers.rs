@@ -28,12 +28,12 @@ pub static PICTURE: Picture = Picture {
     extent: |_| None,
 };
 
-fn draw(frame: &Frame, _: &App, role: Role, mut canvas: Canvas) {
-    let mut canvas = canvas.titled(PICTURE.recipe.title, role);
+fn draw(shown: &Shown, mut canvas: Canvas) {
+    let mut canvas = canvas.titled(PICTURE.recipe.title, shown.role);
     let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
-    for ((name, value), i) in rows(frame).into_iter().zip(0..columns * area.height) {
+    for ((name, value), i) in rows(shown.frame).into_iter().zip(0..columns * area.height) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);

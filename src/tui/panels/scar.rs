@@ -58,8 +58,9 @@ fn depths(frame: &Frame) -> Option<[f64; 2]> {
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
-fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
-    let mut canvas = canvas.titled(PICTURE.recipe.title, role);
+fn draw(of: &Shown, mut canvas: Canvas) {
+    let frame = of.frame;
+    let mut canvas = canvas.titled(PICTURE.recipe.title, of.role);
     let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;
@@ -69,8 +70,7 @@ fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
-    let held = app.charts.bounds(Panel::Scar);
-    let deepest = held.map_or(0.0, |[_, high]| high);
+    let deepest = of.bounds.map_or(0.0, |[_, high]| high);
     let deepest = match deepest.max(largest(&seen.wear)) {
         0.0 => frame.facts.expected_wear,
         deepest => deepest,

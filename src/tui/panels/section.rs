@@ -84,7 +84,7 @@ impl Section<'_> {
     /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
     fn lines(&self, canvas: &mut Canvas) {
         let (seen, area) = (&self.frame.observation, self.area);
-        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.app.theme) {
+        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.theme) {
             return;
         }
         let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * self.width;
@@ -105,7 +105,7 @@ impl Section<'_> {
                 for row in rows.filter(|&row| row < area.bottom()) {
                     let cell = &mut canvas.buffer[(column, row)];
                     caption::take_ground(cell);
-                    cell.set_char('┃').set_style(caption::ink(&self.app.theme));
+                    cell.set_char('┃').set_style(caption::ink(&self.theme));
                 }
             }
         }
@@ -113,7 +113,7 @@ impl Section<'_> {
 
     /// The cell whose upper edge is at height `top`.
     fn cell(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
-        if !has_blocks(&self.app.theme) {
+        if !has_blocks(&self.theme) {
             return self.plain(cut, column, top);
         }
         let half = self.half;
@@ -151,7 +151,7 @@ impl Section<'_> {
             }
             Matter::Worn => {
                 let style = ground(ink(color), color);
-                ('╱', style.patch(self.app.theme.style(Role::Profile)))
+                ('╱', style.patch(self.theme.style(Role::Profile)))
             }
             Matter::Indenter => ('█', ink(color)),
             _ => (' ', ground(Style::new(), color)),
@@ -160,7 +160,7 @@ impl Section<'_> {
 
     /// The colour of what is at height `z`; `None` for air.
     fn ink(&self, cut: &Cut, column: usize, z: f64, matter: Matter) -> Option<Color> {
-        let theme = &self.app.theme;
+        let theme = &self.theme;
         match matter {
             Matter::Air => None,
             // Greys, which no colour of the map is, brighter towards the contact.
@@ -172,7 +172,7 @@ impl Section<'_> {
             // Where the indenter was, under the hatching.
             Matter::Worn => Some(color(theme, Color::Black, [58, 229])),
             Matter::HalfSpace => match self.shade(cut, column, z) {
-                Some(shade) => shades::color(theme, self.app.stress.colors(), shade),
+                Some(shade) => shades::color(theme, self.of.stress.colors(), shade),
                 None => theme.style(Role::Open).fg,
             },
             // What slips glows.
@@ -192,7 +192,7 @@ impl Section<'_> {
 
     /// A cell without colour: the bodies as signs, one a cell in ASCII.
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
-        let (theme, half) = (&self.app.theme, self.half);
+        let (theme, half) = (&self.theme, self.half);
         let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
         let is_contact = matches!(lower, Matter::Stick | Matter::Slip);
         let shown = match is_contact && theme.ascii() {
@@ -213,14 +213,14 @@ impl Section<'_> {
     }
 }
 
-fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
+fn draw(shown: &Shown, mut canvas: Canvas) {
     let room = usize::from(canvas.area.width.saturating_sub(2));
-    let inner = canvas.titled(PICTURE.recipe.title, role).area;
+    let inner = canvas.titled(PICTURE.recipe.title, shown.role).area;
     let [picture, below] = caption::beside(inner);
-    let Some(section) = Section::of(frame, app, picture) else {
+    let Some(section) = Section::of(shown, &canvas.theme, picture) else {
         return;
     };
-    canvas.titled(&section.title(PICTURE.recipe.title, room), role);
+    canvas.titled(&section.title(PICTURE.recipe.title, room), shown.role);
     let mut canvas = canvas.at(picture);
     section.bodies(&mut canvas);
     if picture.height >= LARGE {

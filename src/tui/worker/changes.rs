@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::math::abel::AbelMethod;
+use crate::math::scan::shifted;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Level};
-use crate::tui::shifted;
 
 /// Factor by which each key press refines cells and steps.
 const STRIDE: f64 = 1.5;
@@ -168,11 +168,5 @@ mod tests {
         ];
         assert_eq!(parts, expected);
         assert_eq!(assignments("run.note", "a, b"), [pair("run.note", "a, b")]);
-    }
-
-    #[test]
-    fn methods_go_around() {
-        assert_eq!(shifted(&[1, 2, 3], 3, 1), 1);
-        assert_eq!(shifted(&[1, 2, 3], 1, -1), 3);
     }
 }

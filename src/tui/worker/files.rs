@@ -1,7 +1,8 @@
 //! What the user asks for beside the run: files, and a study.
 
 use super::*;
-use crate::tui::map::live::{Live, Range};
+use crate::tui::map::live::Live;
+use crate::tui::map::range::Range;
 use crate::tui::{figure, snapshot};
 
 impl Worker {

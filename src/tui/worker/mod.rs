@@ -15,13 +15,14 @@ use std::time::{Duration, Instant};
 
 use super::autosave::ScreenAutosave;
 use super::beside::{ComparisonRun, Twin};
+use super::event::Event;
 use super::frame::{Activity, Facts, Frame};
 use super::ghosts::Source;
 use super::loops::CycleLoads;
 use super::pace::Clock;
 use super::trend::Recorded;
 use super::undo::Past;
-use super::{Event, locked};
+use crate::panics::locked;
 use crate::reading::Curves;
 use companions::Companions;
 use outlet::Outlet;

@@ -6,13 +6,13 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use mdr_tui::plot::Marker;
+use mdr_tui::plot::theme::{Look, Theme};
 use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
 use mdr_tui::tui::{Stroke, rehearse};
 use ratatui::buffer::Buffer;

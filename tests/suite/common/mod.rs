@@ -18,16 +18,17 @@ use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::plot::Marker;
+use mdr_tui::plot::theme::{Look, Theme};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 use mdr_tui::tui::app::App;
+use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::Frame;
 use mdr_tui::tui::keys::parse_script;
-use mdr_tui::tui::theme::{Look, Theme};
 use mdr_tui::tui::worker::{Orders, Worker};
-use mdr_tui::tui::{Event, Stroke, rehearse};
+use mdr_tui::tui::{Stroke, rehearse};
 use mdr_tui::wear::WearLaw;
 use ratatui::layout::Size;
 
@@ -432,10 +433,10 @@ impl Explorer {
     pub fn press(&mut self, keys: &str) {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
-            self.app.take_frame(self.frame());
+            self.app.explorer.take_frame(self.frame());
             for event in self.worker.events.try_iter() {
                 if let Event::Notice(text) = event {
-                    self.app.notice = Some(text);
+                    self.app.explorer.notice = Some(text);
                 }
             }
         }

@@ -1,0 +1,183 @@
+//! What can be typed after a command that takes an argument, and what that does.
+
+use std::path::Path;
+
+use super::explorer::Explorer;
+use super::frame::Frame;
+use super::map::range::{POINTS, Range};
+use super::settings::Setting;
+use crate::scenario::preset;
+use crate::scenario::schema::Kind;
+
+/// What a completion does.
+type Deed = Box<dyn FnOnce(&mut Explorer)>;
+
+/// One completion of the typed text.
+pub struct Completion {
+    /// The whole line.
+    pub(super) line: String,
+    /// What it means.
+    pub(super) help: String,
+    /// What stands on the right: a key, or a value and its unit.
+    pub(super) right: String,
+    /// What it does when accepted; `None` while more must be typed.
+    pub(super) act: Option<Deed>,
+}
+
+impl Completion {
+    pub(super) fn new(line: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            line: line.into(),
+            help: help.into(),
+            right: String::new(),
+            act: None,
+        }
+    }
+
+    pub(super) fn with_right(self, right: impl Into<String>) -> Self {
+        let right = right.into();
+        Self { right, ..self }
+    }
+
+    fn doing(mut self, act: impl FnOnce(&mut Explorer) + 'static) -> Self {
+        self.act = Some(Box::new(act));
+        self
+    }
+}
+
+/// `KEY`, or `KEY=` with the values that the key takes.
+pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
+    let known = &frame.facts.settings;
+    let Some((key, value)) = typed.split_once('=') else {
+        return keys(known.iter(), typed.trim_end(), |setting| {
+            let line = format!("set {}=", setting.parameter.path);
+            Completion::new(line, setting.parameter.meaning)
+        });
+    };
+    let (key, value) = (key.trim(), value.trim());
+    let found = known.iter().find(|setting| setting.parameter.path == key);
+    let now = found.map_or_else(String::new, |setting| setting.shown(true));
+    let set = |value: &str, help: String| {
+        let (key, given) = (key.to_owned(), value.to_owned());
+        let right = if value == now { "now" } else { "" };
+        Completion::new(format!("set {key}={value}"), help)
+            .with_right(right)
+            .doing(move |explorer| explorer.order(move |run| run.change(&key, &given)))
+    };
+    let words = found.and_then(Setting::words).unwrap_or_default();
+    let begun = words.iter().filter(|word| word.starts_with(value));
+    let meaning = |word: &str| found?.parameter.meaning_of(word);
+    let list: Vec<_> = begun
+        .map(|word| set(word, meaning(word).unwrap_or_default().to_owned()))
+        .collect();
+    if !list.is_empty() {
+        return list;
+    }
+    let help = found.map(|setting| setting.parameter.described());
+    let now = found.map(|_| format!("now {now}")).unwrap_or_default();
+    let mut typed = set(value, help.unwrap_or_default()).with_right(now);
+    typed.act = typed.act.filter(|_| !value.is_empty());
+    vec![typed]
+}
+
+/// `KEY`, or `KEY FROM..TO`.
+pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
+    let numbers = frame
+        .facts
+        .settings
+        .iter()
+        .filter(|setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole));
+    let units = numbers.clone();
+    let units: Vec<_> = units
+        .map(|setting| (setting.parameter.path, setting.unit))
+        .collect();
+    if let Some(range) = Range::parse(typed, &units) {
+        let help = format!("runs {POINTS} values on all cores and shows the curve");
+        let sweep = Completion::new(format!("sweep {typed}"), help)
+            .doing(move |explorer| explorer.order(move |run| run.sweep(&range)));
+        return vec![sweep];
+    }
+    let key = typed.split([' ', '=']).next().unwrap_or_default();
+    keys(numbers, key, |setting| {
+        let line = format!("sweep {} ", setting.parameter.path);
+        Completion::new(line, format!("FROM..TO: {}", setting.parameter.meaning))
+    })
+}
+
+/// The keys that have a text, with their values. Where a key begins with it, or a part of the key after a dot, the key
+/// is likelier than where its middle has it.
+fn keys<'a>(
+    known: impl Iterator<Item = &'a Setting>,
+    text: &str,
+    completion: fn(&Setting) -> Completion,
+) -> Vec<Completion> {
+    let after_dot = format!(".{text}");
+    let mut fitting: Vec<_> = known
+        .filter(|setting| setting.parameter.path.contains(text))
+        .collect();
+    fitting.sort_by_key(|setting| {
+        let path = setting.parameter.path;
+        !(path.starts_with(text) || path.contains(&after_dot))
+    });
+    let shown = |setting: &Setting| completion(setting).with_right(setting.shown(true));
+    fitting.into_iter().map(shown).collect()
+}
+
+/// A file to draw into.
+pub fn figure(typed: &str, _: &Frame) -> Vec<Completion> {
+    let help = "a figure of this state: a file that ends in .svg, .png or .pdf";
+    vec![argument("figure", typed, help, |explorer, file| {
+        explorer.order(move |run| run.write_figure(Path::new(&file)));
+    })]
+}
+
+/// A preset by its name, or a file.
+pub fn load(typed: &str, _: &Frame) -> Vec<Completion> {
+    let help = "a preset's name, or a path to a .toml file";
+    preset_or(typed, "load", help, |explorer, name| explorer.load(&name))
+}
+
+/// Any file or directory; a preset by its name.
+pub fn overlay(typed: &str, _: &Frame) -> Vec<Completion> {
+    let help = "a CSV file, a run's directory, or a scenario";
+    preset_or(typed, "overlay", help, |explorer, given| {
+        explorer.order(move |run| run.overlay(&given));
+    })
+}
+
+/// A note for a snapshot, which may be empty.
+pub fn note(typed: &str, _: &Frame) -> Vec<Completion> {
+    let note = Some(typed.to_owned()).filter(|note| !note.is_empty());
+    let help = "writes state, history and loop with this note";
+    let written = Completion::new(format!("snapshot, note {typed}"), help);
+    vec![written.doing(|explorer| explorer.order(move |run| run.write_snapshot(note.as_deref())))]
+}
+
+/// A command with what is typed, or with a preset whose name has that.
+fn preset_or(
+    typed: &str,
+    command: &str,
+    help: &str,
+    act: fn(&mut Explorer, String),
+) -> Vec<Completion> {
+    let is_path = typed.contains(['/', '.']);
+    let presets = preset::ALL
+        .iter()
+        .filter(|preset| !is_path && preset.name.contains(typed));
+    let mut list = vec![argument(command, typed, help, act)];
+    list.extend(presets.map(|preset| argument(command, preset.name, preset.title(), act)));
+    // What is typed comes first, unless it can only be the beginning of a preset's name.
+    let is_begun = list.len() > 1 && !Path::new(typed).exists();
+    list.rotate_left(usize::from(is_begun && !typed.is_empty()));
+    list
+}
+
+/// A command with an argument, which does nothing without one.
+fn argument(command: &str, given: &str, help: &str, act: fn(&mut Explorer, String)) -> Completion {
+    let completion = Completion::new(format!("{command} {given}"), help);
+    let given = given.to_owned();
+    match given.is_empty() {
+        true => completion,
+        false => completion.doing(move |explorer| act(explorer, given)),
+    }
+}

@@ -1,0 +1,130 @@
+//! The study of `:sweep KEY A..B`: one key around the present scenario.
+
+use std::fmt;
+
+use crate::scenario::{Refusal, Scenario, schema, units};
+use crate::studies::sweep::Study;
+
+/// The points of the study.
+pub const POINTS: usize = 25;
+
+/// From this ratio of its ends on, the axis is logarithmic.
+const DECADES: f64 = 20.0;
+
+/// The columns of the study.
+const COLUMNS: [&str; 7] = [
+    "wear_volume_m3",
+    "scar_depth_m",
+    "dissipated_energy_J",
+    "contact_radius_m",
+    "permanent_stick_radius_m",
+    "energy_ratio",
+    "regime",
+];
+
+/// The argument of `sweep`: a key and the ends of its axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    /// The dotted path.
+    pub key: String,
+    /// From here.
+    pub from: f64,
+    /// To here.
+    pub to: f64,
+}
+
+impl Range {
+    /// Reads `KEY A..B`, and what else it may be written like: `KEY = A .. B`, `KEY A to B`, `KEY A B`,
+    /// each end with a unit if it has one. A part of a key does where one of `keys` alone has it.
+    pub fn parse(text: &str, keys: &[(&str, &'static str)]) -> Option<Self> {
+        let (key, ends) = text
+            .trim()
+            .split_once(|c: char| c.is_whitespace() || c == '=')?;
+        let ends = ends.trim_start_matches([' ', '=']).trim();
+        let mut signs = ["..", " to ", ",", ";"].into_iter();
+        let (from, to) = signs
+            .find_map(|sign| ends.split_once(sign))
+            .or_else(|| ends.split_once(' '))?;
+        let mut of = keys.iter().filter(|(path, _)| path.contains(key));
+        let exact = keys.iter().find(|(path, _)| *path == key);
+        let (key, unit) = match (exact, of.next(), of.next()) {
+            (Some((path, unit)), ..) | (None, Some((path, unit)), None) => (*path, *unit),
+            _ => (key, ""),
+        };
+        let known = schema::find(key);
+        let number = |text: &str| -> Option<f64> {
+            let text = text.trim().trim_start_matches('.');
+            let with_unit = || units::quantity(text, known?, unit == "N")?.ok();
+            let end = text.parse().ok().or_else(with_unit);
+            end.filter(|end: &f64| end.is_finite())
+        };
+        Some(Self {
+            key: key.to_owned(),
+            from: number(from)?,
+            to: number(to)?,
+        })
+    }
+
+    /// The study of a scenario over this range, each point run for this many cycles.
+    pub(super) fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
+        let broken = |error: &dyn fmt::Display| Refusal::from(error.to_string());
+        let base = scenario
+            .with_changes(Vec::new())
+            .with("run.cycles", &cycles.to_string())
+            .map_err(|error| broken(&error))?;
+        let ratio = self.to / self.from;
+        let spread = match self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
+            true => "logspace",
+            false => "linspace",
+        };
+        let Self { key, from, to } = self;
+        let text = format!(
+            "base = \"present\"\ncolumns = {COLUMNS:?}\n[[axis]]\nkey = {key:?}\n\
+             {spread} = [{from:?}, {to:?}, {POINTS}]\n"
+        );
+        Study::read_with_base(&text, "sweep", &base.to_toml())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KEYS: &[(&str, &str)] = &[
+        ("friction.coefficient", ""),
+        ("wear.coefficient", "1/Pa"),
+        ("motion.tangential.amplitude", "m"),
+    ];
+
+    #[test]
+    fn a_range_is_a_key_and_two_ends() {
+        let range = Range::parse(" friction.coefficient 0.1..0.5 ", KEYS).expect("a range");
+        assert_eq!(
+            (range.key.as_str(), range.from, range.to),
+            ("friction.coefficient", 0.1, 0.5)
+        );
+        assert_eq!(
+            Range::parse("wear.coefficient 1e-12 .. 1e-9", KEYS).map(|r| r.to),
+            Some(1e-9)
+        );
+        for text in [
+            "friction 0.1..0.5",
+            "friction.coefficient = 0.1 .. 0.5",
+            "friction 0.1 to 0.5",
+            "friction 0.1 0.5",
+        ] {
+            assert_eq!(Range::parse(text, KEYS), Some(range.clone()), "{text}");
+        }
+        let range = Range::parse("tangential.amplitude 50 nm..0.2 um", KEYS).expect("units");
+        assert_eq!((range.from, range.to), (5e-8, 2e-7));
+        for wrong in [
+            "",
+            "friction.coefficient",
+            "friction.coefficient 1",
+            "a 1..x",
+            "a ..2",
+        ] {
+            assert_eq!(Range::parse(wrong, KEYS), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! A study on the whole screen: its map, and the point that is opened from there.
+
+use super::*;
+use crate::tui::explorer::Next;
+use crate::tui::map::draw;
+
+/// What is told until a point is open.
+pub const OPENING: &str = "opening the point ...";
+
+/// Answers a key; leaving ends the study, or the explorer that was opened for it.
+pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
+    match (key, command::of_key(key)) {
+        (_, Some(Command::Suspend)) => return Answer::Watch(Command::Suspend),
+        (Key::Char('q') | Key::Named(Named::Esc), _) if live.is_of_file() => {
+            explorer.next = Next::Leave;
+        }
+        (Key::Char('q') | Key::Named(Named::Esc), _) => {
+            live.halt();
+            return Answer::Close;
+        }
+        (Key::Named(Named::Enter), _) => {
+            match live.with(|view| view.slice.study.scenario(view.point())) {
+                Ok(scenario) => {
+                    live.halt();
+                    explorer.notice = Some(OPENING.to_owned());
+                    explorer.order_anew(|run| run.open_point(scenario));
+                }
+                Err(error) => explorer.notice = Some(error.to_string()),
+            }
+        }
+        _ => live.with(|view| view.press(key)),
+    }
+    Answer::Stay
+}
+
+/// Draws the study, and what the user is told.
+pub(super) fn draw(live: &Live, told: Option<&str>, canvas: Canvas) {
+    live.with(|view| draw::draw(view, told, canvas));
+}

@@ -120,22 +120,29 @@ impl Skyline {
     /// Writes the product with `input` into `output`, both of the operator's size.
     /// Whatever `output` held before is overwritten.
     pub fn apply(&self, input: &[f64], output: &mut [f64]) {
+        self.apply_from(0, input, output);
+    }
+
+    /// The same for the rows of the panel that has the row `first`, and of those after it; returns the first of them.
+    pub fn apply_from(&self, first: usize, input: &[f64], output: &mut [f64]) -> usize {
         debug_assert_eq!(input.len(), self.size);
         debug_assert_eq!(output.len(), self.size);
+        let panel = (first / ROWS).min(self.panels.len());
         // Compiled once for every instruction set; the processor's own is chosen.
-        let finite = dispatch!(Level::new(), simd => self.multiply(simd, input, output));
+        let finite = dispatch!(Level::new(), simd => self.multiply(simd, panel, input, output));
         if !finite {
             self.apply_not_finite(input, output);
         }
+        panel * ROWS
     }
 
-    /// Tells whether all sums are finite.
+    /// Computes the rows of the panels from `first` on; tells whether all their sums are finite.
     #[inline(always)]
-    fn multiply<S: Simd>(&self, simd: S, input: &[f64], output: &mut [f64]) -> bool {
+    fn multiply<S: Simd>(&self, simd: S, first: usize, input: &[f64], output: &mut [f64]) -> bool {
         let support = support(input);
         let zero = f64x4::splat(simd, 0.0);
         let mut zeros = [zero; ROWS / LANES];
-        let mut sums = self.panels.iter().map(
+        let mut sums = self.panels[first..].iter().map(
             #[inline(always)]
             |panel| {
                 let (at, columns) = panel.within(&support);
@@ -146,7 +153,8 @@ impl Skyline {
                 rows_of(sums)
             },
         );
-        let (whole, rest) = output.as_chunks_mut();
+        let start = (first * ROWS).min(self.size);
+        let (whole, rest) = output[start..].as_chunks_mut();
         for (output, sums) in whole.iter_mut().zip(sums.by_ref()) {
             *output = sums;
         }

@@ -5,7 +5,7 @@
 
 use super::Log;
 use crate::math::abel::worn;
-use crate::simulation::{Simulation, Unworn, cycles_to_settle};
+use crate::simulation::{Simulation, Unworn};
 
 /// The guide's chapter: a section a certificate.
 const GUIDE: &str = include_str!("../guide/checks.md");
@@ -118,7 +118,7 @@ impl Simulation {
             checks.extend(error.map(|error| Check { subject, error }));
         };
         add(Subject::Energy, moment.energy_residual);
-        let period = f64::from(cycles_to_settle(&self.setup().drive));
+        let period = f64::from(self.setup().drive.cycles_to_settle());
         // A scar of a part of a period has edges that the rest of it wears away.
         if moment.cycle >= period {
             let left_out = worn::interpolation_error(&self.setup().grid, self.worn_depth());

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::cycle_figures::{CycleFigures, LoopTally};
-use crate::simulation::{Breakdown, Simulation, cycles_to_settle};
+use crate::simulation::{Breakdown, Simulation};
 
 /// The notes of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -159,5 +159,5 @@ impl Simulation {
 
 /// The period of the motion, in cycles.
 fn period(simulation: &Simulation) -> f64 {
-    f64::from(cycles_to_settle(&simulation.setup().drive))
+    f64::from(simulation.setup().drive.cycles_to_settle())
 }

@@ -166,7 +166,7 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
 /// Runs one period and reads where g reaches `depth`: by a parabola in x² through the last three
 /// nodes inside, which no longer wear.
 fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
-    let period = super::cycles_to_settle(&setup.drive);
+    let period = setup.drive.cycles_to_settle();
     let affordable = PILOT_WORK / (period * setup.drive.turns_of_the_faster());
     let most = affordable.clamp(FEWEST_PILOT_STEPS, PILOT_STEPS);
     let setup = Setup {

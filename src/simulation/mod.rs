@@ -3,7 +3,7 @@
 //! It takes parts that are already valid and knows nothing of scenarios, files or screens.
 //!
 //! Each round has four values: the worn profile and its 1D image in the [`State`], the
-//! [`Contact`](contact::Contact) of the springs, their [`Traction`](traction::Traction), and the
+//! [`Contact`](contact::Contact) of the springs, their stress, and the
 //! wear. A `step` makes the next state from the last one and from a `Model`, which is planned
 //! once per run; a failed step changes nothing.
 //!
@@ -49,13 +49,6 @@
 //! # }
 //! ```
 
-use crate::contact::indenter::Indenter;
-use crate::contact::material::Material;
-use crate::contact::scar::Scar;
-use crate::math::abel::AbelMethod;
-use crate::math::grid::RadialGrid;
-use crate::wear::WearLaw;
-
 pub(crate) mod border;
 pub mod breakdown;
 mod choices;
@@ -66,6 +59,7 @@ mod moments;
 mod reconfigure;
 pub mod running_in;
 mod saved;
+mod setup;
 pub mod stability;
 pub mod state;
 mod step;
@@ -76,87 +70,13 @@ mod wear;
 
 pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
-use drive::{Drive, WITHOUT_REPEAT};
 pub(crate) use model::Model;
 pub use reconfigure::Domain;
-use running_in::RunningIn;
 pub use saved::{Saved, Unfit};
+pub use setup::Setup;
 pub use state::{State, Stats};
+use step::Scratch;
 pub use unworn::Unworn;
-use wear::Increment;
-
-/// The parts that a run is assembled from, each validated on its own floor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setup {
-    /// Nodes of the 3D and of the 1D contact.
-    pub grid: RadialGrid,
-    /// Moduli and friction.
-    pub material: Material,
-    /// The unworn shape.
-    pub indenter: Indenter,
-    /// The motion.
-    pub drive: Drive,
-    /// The law of wear; none: nothing wears, and no stress is computed for it.
-    pub wear: Option<WearLaw>,
-    /// What changes with use; none: friction and wear stay as they are.
-    pub running_in: Option<RunningIn>,
-    /// What is worn when the run begins; none: nothing is.
-    pub scar: Option<Scar>,
-    /// The pressure that the softer body bears, Pa; none: no pressure is computed to be held against it.
-    pub hardness: Option<f64>,
-    /// The way to compute the transforms.
-    pub method: AbelMethod,
-    /// Whether the grid is to be graded towards the stick border; [`grid`](Self::grid) then only
-    /// says how many cells there are and where the domain ends.
-    pub spacing: Spacing,
-    /// How a step in time is taken.
-    pub scheme: Scheme,
-    /// What is done about steps that are too harsh.
-    pub stability: Stability,
-    /// Steps per period of the faster of the two motions, at least 1.
-    pub steps_per_cycle: u32,
-    /// How cycles are gone through.
-    pub integrator: Integrator,
-}
-
-impl Setup {
-    /// Tangential springs: one a node, none without tangential motion.
-    pub fn springs(&self) -> usize {
-        if self.drive.tangential().is_some() {
-            self.grid.len()
-        } else {
-            0
-        }
-    }
-
-    /// The largest depth of the motion, m, where the displacement is prescribed.
-    pub fn largest_depth(&self) -> Option<f64> {
-        match self.drive.normal() {
-            drive::Control::Displacement(oscillation) => Some(oscillation.highest()),
-            drive::Control::Force(_) => None,
-        }
-    }
-
-    /// Steps in a cycle, but for those that end where the motion turns: a normal motion that is faster than the
-    /// tangential one is resolved as well.
-    pub fn steps_in_a_cycle(&self) -> f64 {
-        f64::from(self.steps_per_cycle) * f64::from(self.drive.turns_of_the_faster())
-    }
-
-    /// Brings friction and wear to what use has made of them in `state`.
-    fn run_in(&mut self, state: &State) {
-        if let Some(running_in) = &self.running_in {
-            let (cycle, energy) = (state.cycle, state.ledger.dissipated_energy);
-            running_in.apply(cycle, energy, &mut self.material, &mut self.wear);
-        }
-    }
-
-    /// The depth that wear is measured in, m: the largest of the motion, or the `present` one where the
-    /// force is prescribed.
-    pub fn depth_scale(&self, present: f64) -> f64 {
-        self.largest_depth().unwrap_or(present)
-    }
-}
 
 /// A running simulation.
 #[derive(Debug, Clone)]
@@ -173,22 +93,12 @@ pub struct Simulation {
     is_shortened: bool,
 }
 
-/// What the phases of a step write into and nobody reads afterwards.
-#[derive(Debug, Clone)]
-struct Scratch {
-    /// The 1D profile that the contact is solved on, m.
-    g: Vec<f64>,
-    increment: Increment,
-    /// Transforms computed since they were last counted.
-    transforms: u64,
-}
-
-impl Scratch {
-    fn new(model: &Model) -> Self {
-        Self {
-            g: vec![0.0; model.nodes()],
-            increment: Increment::new(model),
-            transforms: 0,
+impl Setup {
+    /// Brings friction and wear to what use has made of them in `state`.
+    fn run_in(&mut self, state: &State) {
+        if let Some(running_in) = &self.running_in {
+            let (cycle, energy) = (state.cycle, state.ledger.dissipated_energy);
+            running_in.apply(cycle, energy, &mut self.material, &mut self.wear);
         }
     }
 }
@@ -454,9 +364,4 @@ impl Simulation {
     pub fn wear_volume(&self) -> f64 {
         self.model.volume(&self.state.wear)
     }
-}
-
-/// Cycles after which the permanent stick radius is read anew: the common period of the motion.
-pub(crate) fn cycles_to_settle(drive: &Drive) -> u32 {
-    drive.repeats_after().unwrap_or(WITHOUT_REPEAT)
 }

@@ -79,7 +79,7 @@ impl Simulation {
 
 /// Refuses what cannot have come out of a step on this setup.
 fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
-    let (contact, traction): (&Contact, _) = (&state.contact, &state.traction);
+    let contact: &Contact = &state.contact;
     let (nodes, springs) = (setup.grid.len(), setup.springs());
     let settled = state.jump.settled.as_ref();
     for (what, length, due) in [
@@ -95,8 +95,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
             nodes,
         ),
         ("line load", contact.load.nodal.len(), nodes),
-        ("pressure", traction.pressure.len(), springs),
-        ("shear stress", traction.shear.len(), springs),
+        ("pressure", state.pressure.nodal.len(), springs),
     ] {
         if length != due {
             let rule = format!("has {length} values, where the scenario has {due}");

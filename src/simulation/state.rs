@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
-use super::traction::Traction;
+use super::traction::Pressure;
 
 /// What is saved, restored, and carried over when a method or a law is switched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,8 +19,8 @@ pub struct State {
     pub image: Vec<f64>,
     /// The contact as the last step solved it.
     pub contact: Contact,
-    /// Its stresses.
-    pub traction: Traction,
+    /// Its pressure; on no nodes without springs.
+    pub pressure: Pressure,
     /// What a step of second order remembers of the one before.
     pub last: LastStep,
     /// What jumps over cycles go on from.
@@ -129,7 +129,7 @@ impl State {
             wear: vec![0.0; nodes],
             image: vec![0.0; nodes],
             contact: Contact::new(nodes, springs),
-            traction: Traction::zeros(springs),
+            pressure: Pressure::unknown(springs),
             last: LastStep {
                 wear: vec![0.0; nodes],
                 growth: vec![0.0; nodes],

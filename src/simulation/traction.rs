@@ -6,37 +6,44 @@ use super::contact::Contact;
 use super::model::Model;
 use crate::math::vector::vectorized;
 
-/// p and τ of one contact, Pa, nodal; empty where nothing needs them.
+/// p of a solved contact, Pa, at the nodes: as far inwards as a step has needed it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Traction {
-    /// p.
-    pub pressure: Vec<f64>,
-    /// τ.
-    pub shear: Vec<f64>,
+pub struct Pressure {
+    /// The innermost node with a value of this contact.
+    pub from: usize,
+    /// One value a node; 0 before that one.
+    pub nodal: Vec<f64>,
 }
 
-impl Traction {
-    pub(super) fn zeros(nodes: usize) -> Self {
-        Self {
-            pressure: vec![0.0; nodes],
-            shear: vec![0.0; nodes],
-        }
+impl Pressure {
+    /// Of no contact yet, on `nodes` nodes.
+    pub(super) fn unknown(nodes: usize) -> Self {
+        let nodal = vec![0.0; nodes];
+        Self { from: nodes, nodal }
+    }
+
+    /// Forgets the contact, which has become another one.
+    pub(super) fn forget(&mut self) {
+        self.from = self.nodal.len();
+        self.nodal.fill(0.0);
+    }
+
+    /// Becomes that of a contact from the node `first` on.
+    pub(super) fn find(&mut self, model: &Model, contact: &Contact, first: usize) {
+        let (plan, grid, touching) = (&model.plan, &model.grid, contact.normal.nodes);
+        let p = &mut self.nodal;
+        self.from = contact.load.stress_from(first, plan, grid, touching, p);
+        p[..self.from].fill(0.0);
     }
 }
 
-/// p and τ of the solved contact.
-pub(super) fn of(model: &Model, contact: &Contact, traction: &mut Traction) {
-    pressure(model, contact, &mut traction.pressure);
-    shear(model, contact, &mut traction.shear);
-}
-
-/// p alone.
+/// p, Pa, of the solved contact.
 pub(crate) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
     let touching = contact.normal.nodes;
     contact.load.stress(&model.plan, &model.grid, touching, out);
 }
 
-/// τ alone.
+/// τ, Pa, of the solved contact.
 pub(crate) fn shear(model: &Model, contact: &Contact, out: &mut [f64]) {
     let touching = contact.normal.nodes;
     contact

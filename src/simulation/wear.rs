@@ -19,7 +19,7 @@ use std::ops::Range;
 use super::contact::Contact;
 use super::model::Model;
 use super::stability::response;
-use super::traction::Traction;
+use super::traction::{self, Pressure};
 use crate::contact::foundation::NormalContact;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
@@ -49,6 +49,8 @@ pub(super) struct Increment {
     pub friction_work: f64,
     /// What rubs: a line load, N/m, or its work on the slip, J/m.
     rubbing: Field,
+    /// τ at both ends of a step, Pa, where it has been computed.
+    shear_at_ends: [Vec<f64>; 2],
 }
 
 impl Increment {
@@ -67,6 +69,7 @@ impl Increment {
             depth: vec![0.0; model.nodes()],
             stiffness: vec![0.0; wearing],
             rubbing: Field::zeros(springs),
+            shear_at_ends: [vec![0.0; wearing], vec![0.0; wearing]],
             ..Self::default()
         }
     }
@@ -231,52 +234,62 @@ impl Increment {
     }
 
     /// The nodes that wear between two contacts, with the slip of their surface: up to an edge behind the last node
-    /// that carried a stress before or carries one now; method B's stress looks one node across. The first `stuck`
-    /// springs did not slip.
-    pub fn find_sliding(
-        &mut self,
-        model: &Model,
-        before: &Traction,
-        after: &Contact,
-        stuck: usize,
-    ) {
-        let p = &before.pressure;
-        let nodes = p.len() - trailing(p, |&p| p == 0.0);
-        let nodes = (nodes.max(after.normal.nodes) + 1).min(p.len());
+    /// that touches in one of them; method B's stress looks one node across. The first `stuck` springs did not slip.
+    pub fn find_sliding(&mut self, model: &Model, contacts: [&Contact; 2], stuck: usize) {
+        let [before, after] = contacts.map(|contact| contact.normal.nodes);
+        let nodes = (before.max(after) + 1).min(self.surface_slip.len());
         self.slip_of_surface(model);
         // Nothing slips within the innermost spring that does.
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;
     }
 
-    /// The mean of the stress over a step, by zones: of μp in the outermost slip zone, and of τ elsewhere, where both
-    /// have one sign; half of τ where it turned and now works with the slip.
-    pub fn mean_shear(
+    /// The mean of the stress over a step in the outermost slip zone: of μp at its ends.
+    pub fn mean_of_load(
         &mut self,
         friction: f64,
-        before: &Traction,
-        after: &Traction,
-        (zone, sign): (usize, f64),
+        [was, is]: [&Pressure; 2],
+        (first, sign): (usize, f64),
     ) {
-        let friction = sign * friction;
-        let first = self.nodes.start.min(zone);
-        let (inner, outer) = self.shear[first..].split_at_mut(zone - first);
-        let shears = before.shear[first..].iter().zip(&after.shear[first..]);
-        let pressures = before.pressure[zone..].iter();
-        let pressures = pressures.zip(&after.pressure[zone..]);
-        let slips = &self.surface_slip[first..];
+        let half = 0.5 * sign * friction;
+        write_each(
+            &mut self.shear[first..],
+            &was.nodal[first..],
+            &is.nodal[first..],
+            #[inline(always)]
+            move |was, is| half * (was + is),
+        );
+    }
+
+    /// The mean of the stress over a step between the springs that stick in the middle and the `zone` outside: of τ where
+    /// that has one sign, half of τ where it turned and now works with the slip. Returns how many transforms that took:
+    /// none where nothing slips there, as in most steps.
+    pub fn mean_of_shear(&mut self, model: &Model, contacts: [&Contact; 2], zone: usize) -> u64 {
+        let nodes = self.nodes.start.min(zone)..zone;
+        let slips = &self.surface_slip[nodes.clone()];
+        if slips.iter().all(|&slip| slip == 0.0) {
+            self.shear[nodes].fill(0.0);
+            return 0;
+        }
+        for (contact, shear) in contacts.into_iter().zip(&mut self.shear_at_ends) {
+            traction::shear(model, contact, shear);
+        }
+        let [was, is] = self
+            .shear_at_ends
+            .each_ref()
+            .map(|shear| &shear[nodes.clone()]);
+        let means = &mut self.shear[nodes];
         vectorized(
             #[inline(always)]
             move || {
-                for ((mean, (was, is)), slip) in inner.iter_mut().zip(shears).zip(slips) {
+                for ((mean, (was, is)), slip) in means.iter_mut().zip(was.iter().zip(is)).zip(slips)
+                {
                     let with_slip = select(is * slip > 0.0, 0.5 * is, 0.0);
                     *mean = select(was * is > 0.0, 0.5 * (was + is), with_slip);
                 }
-                for (mean, (was, is)) in outer.iter_mut().zip(pressures) {
-                    *mean = 0.5 * friction * (was + is);
-                }
             },
         );
+        2
     }
 }
 

@@ -122,7 +122,7 @@ fn a_million_cycles_cost_a_few_hundred() {
     for (what, count, due) in [
         ("jumps", stats.jumps, 158.0),
         ("cycles looked at", stats.evaluated_cycles, 552.0),
-        ("transforms", stats.transforms, 2608.0),
+        ("transforms", stats.transforms, 2068.0),
     ] {
         near(what, count as f64, due, 0.125);
     }
@@ -213,15 +213,16 @@ fn a_run_with_jumps_and_changes_repeats_itself() {
     assert_eq!(replay.simulation().state(), session.simulation().state());
 }
 
-/// Of direct stepping: four transforms a step of the second-order scheme and one to begin with, three
-/// and one of explicit Euler; nothing but steps.
+/// Of direct stepping: three transforms a step, and one to begin with; now and then the second-order scheme needs another
+/// stress, and explicit Euler never. Nothing but steps.
 #[test]
 fn a_step_costs_its_transforms() {
-    for (setup, transforms) in [(fig3(0.05), 4), (as_published(A, fig3(0.05)), 3)] {
+    for (setup, most) in [(fig3(0.05), 3.5), (as_published(A, fig3(0.05)), 3.0)] {
         let run = run_setup(setup, 10.0);
-        let state = run.state();
-        assert_eq!(state.stats.transforms, transforms * state.steps + 1);
-        assert_eq!(state.stats.contacts, state.steps + 1);
-        assert_eq!((state.stats.evaluated_cycles, state.stats.jumps), (0, 0));
+        let stats = run.state().stats;
+        let a_step = (stats.transforms - 1) as f64 / run.state().steps as f64;
+        assert!((3.0..=most).contains(&a_step), "{a_step}");
+        assert_eq!(stats.contacts, run.state().steps + 1);
+        assert_eq!((stats.evaluated_cycles, stats.jumps), (0, 0));
     }
 }

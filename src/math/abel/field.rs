@@ -41,12 +41,25 @@ impl Field {
     /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m), and nothing beyond the first `touching`
     /// nodes.
     pub fn stress(&self, plan: &AbelPlan, grid: &RadialGrid, touching: usize, p: &mut [f64]) {
-        plan.stress(&self.nodal, p);
-        if has_kinks(plan) {
-            kink::add_to_stress(&self.kinks, grid.squares(), p);
+        self.stress_from(0, plan, grid, touching, p);
+    }
+
+    /// The same from the node `first` on, or from one before it, which is returned.
+    pub fn stress_from(
+        &self,
+        first: usize,
+        plan: &AbelPlan,
+        grid: &RadialGrid,
+        touching: usize,
+        p: &mut [f64],
+    ) -> usize {
+        let first = plan.stress_from(first, &self.nodal, p);
+        if has_kinks(plan) && first < p.len() {
+            kink::add_to_stress(&self.kinks, &grid.squares()[first..], &mut p[first..]);
             // Kinks cancel beyond the edge but for rounding.
-            p[touching..].fill(0.0);
+            p[touching.max(first)..].fill(0.0);
         }
+        first
     }
 
     /// ∫ dx of what the kinks add to the chords between the nodes, from the tip to `radius` (m).

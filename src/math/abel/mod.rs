@@ -280,9 +280,17 @@ impl AbelPlan {
 
     /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
+        self.stress_from(0, q, p);
+    }
+
+    /// The same from the node `first` on, or from one before it, which is returned.
+    pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
         match &self.operators {
-            Operators::Dense { stress, .. } => stress.apply(q, p),
-            Operators::Fast(fast) => fast.stress(q, p),
+            Operators::Dense { stress, .. } => stress.apply_from(first, q, p),
+            Operators::Fast(fast) => {
+                fast.stress(q, p);
+                0
+            }
         }
     }
 }

@@ -21,7 +21,7 @@ pub const LONGEST_REPEAT: u32 = 1000;
 const FEW_CYCLES: u32 = 20;
 
 /// Cycles after which a motion without a common period has come close to everything that it does.
-pub const WITHOUT_REPEAT: u32 = 20;
+const WITHOUT_REPEAT: u32 = 20;
 
 /// Pieces of Simpson's rule for the mean of a power of the rate in a step.
 const PIECES_OF_A_STEP: u32 = 16;
@@ -126,6 +126,11 @@ impl Drive {
             let fits = cycles <= FEW_CYCLES || turns < f64::from(LONGEST_REPEAT) + 0.5;
             fits && turns.round() > 0.0 && (turns - turns.round()).abs() < 1e-9 * turns
         })
+    }
+
+    /// Cycles after which the permanent stick radius is read anew: the common period of the motion.
+    pub fn cycles_to_settle(&self) -> u32 {
+        self.repeats_after().unwrap_or(WITHOUT_REPEAT)
     }
 
     /// How many times faster than the cycle the faster of the two motions is, rounded up; 1 where that is the

@@ -21,9 +21,9 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
+use super::super::setup::Setup;
 use super::super::state::{JumpMemory, Ledger, State, SteadyCycle};
-use super::super::{Scratch, Setup, cycles_to_settle};
-use super::{deepest, refuse, steady_cycle};
+use super::{Scratch, deepest, refuse, steady_cycle};
 use crate::math::chebyshev;
 use crate::math::scan::largest;
 
@@ -155,7 +155,7 @@ impl Search<'_> {
         let Integrator::CycleJump { tolerance } = setup.integrator else {
             return Err(Refused::TooShort(0.0));
         };
-        let period = f64::from(cycles_to_settle(&setup.drive));
+        let period = f64::from(setup.drive.cycles_to_settle());
         // Under a held force the depth of indentation grows with the scar, and says nothing of the contact.
         let depth = setup.depth_scale(first.elastic_depth);
         let near_edge = NEAR_EDGE * setup.grid.radius();
@@ -335,7 +335,7 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
 /// cycles too short may be over by then: the next one tried is twice as long.
 fn rest(setup: &Setup, state: &mut State, length: f64) {
     let patience = state.jump.patience.max(1);
-    state.jump.rest_until = state.cycle + f64::from(patience * cycles_to_settle(&setup.drive));
+    state.jump.rest_until = state.cycle + f64::from(patience * setup.drive.cycles_to_settle());
     state.jump.patience = (2 * patience).min(LONGEST_REST);
     state.jump.length = 2.0 * length;
 }

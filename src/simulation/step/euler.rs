@@ -10,8 +10,8 @@
 
 use super::super::model::Model;
 use super::super::state::State;
-use super::super::{Scratch, traction};
-use super::Bounds;
+use super::super::traction;
+use super::{Bounds, Scratch};
 use crate::math::scan::leading;
 
 /// At its limit of 2 an explicit step rings; up to half of it no error changes its sign.

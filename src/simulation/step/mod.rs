@@ -3,9 +3,9 @@
 //! ```text
 //! g        = model.profile(state.image)            Eq. (1), Model::profile
 //! contact  = Problem(g, state.contact).solve()     the springs of both directions
-//! traction = traction::of(contact)                 Eq. (3)
-//! wear     = increment.wear(traction, slip)        Eqs. (2) and (15)
-//! next     = accept(state, contact, traction, wear)
+//! stress   = traction::{Pressure, shear}(contact)  Eq. (3)
+//! wear     = increment.wear(stress, slip)          Eqs. (2) and (15)
+//! next     = accept(state, contact, wear)
 //! ```
 //!
 //! A step reads `state` and writes into `next`, which reuses the buffers of the state before the
@@ -17,10 +17,13 @@
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
+use super::contact;
 use super::drive::Control;
 use super::model::Model;
+use super::setup::Setup;
 use super::state::State;
-use super::{Scratch, Setup, contact, cycles_to_settle, traction};
+use super::traction::Pressure;
+use super::wear::Increment;
 use crate::math::scan::largest;
 use crate::math::vector::{vectorized, write_each};
 
@@ -32,6 +35,29 @@ mod trapezoid;
 
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
 pub(super) use substep::step;
+
+/// What the phases of a step write into and nobody reads afterwards.
+#[derive(Debug, Clone)]
+pub(super) struct Scratch {
+    /// The 1D profile that the contact is solved on, m.
+    pub(super) g: Vec<f64>,
+    pub(super) increment: Increment,
+    /// Of the contact that a step begins with, where the state has too little of it.
+    pub(super) pressure: Pressure,
+    /// Transforms computed since they were last counted.
+    pub(super) transforms: u64,
+}
+
+impl Scratch {
+    pub(super) fn new(model: &Model) -> Self {
+        Self {
+            g: vec![0.0; model.nodes()],
+            increment: Increment::new(model),
+            pressure: Pressure::unknown(model.springs()),
+            transforms: 0,
+        }
+    }
+}
 
 /// How stiff the steps of a scheme may be.
 struct Bounds {
@@ -60,11 +86,7 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     state.last.stiffness = 0.0;
     state.last.wear.fill(0.0);
     state.last.growth.fill(0.0);
-    // Only steps that wear by a mean need the stress that they begin with.
-    let setup = &model.setup;
-    if model.springs() > 0 && setup.wear.is_some() && setup.scheme == Scheme::Trapezoid {
-        traction::of(model, &state.contact, &mut state.traction);
-    }
+    state.pressure.forget();
     state.stats.contacts += 1;
     state.stats.transforms += 1;
     Ok(())
@@ -78,7 +100,7 @@ fn wear(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch, c
     }
 }
 
-/// Makes `next`, whose contact and tractions are solved, the state after `state`: adds what the step has worn.
+/// Makes `next`, whose contact and pressure are solved, the state after `state`: adds what the step has worn.
 fn accept(
     model: &Model,
     state: &State,
@@ -182,7 +204,7 @@ fn follow_stick(model: &Model, state: &mut State, cycle: f64) {
     if cycle.floor() == state.cycle.floor() {
         return;
     }
-    let period = f64::from(cycles_to_settle(&model.setup.drive));
+    let period = f64::from(model.setup.drive.cycles_to_settle());
     if (cycle / period).floor() > (state.cycle / period).floor() {
         state.ledger.settled_stick_radius = Some(state.ledger.smallest_stick_radius);
         state.ledger.smallest_stick_radius = f64::INFINITY;

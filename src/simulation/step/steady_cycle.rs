@@ -15,15 +15,14 @@
 //!
 //! On an unworn profile that is the 4μkps of Cattaneo and Mindlin.
 
-use super::super::Setup;
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::drive::{Control, Oscillation};
 use super::super::model::Model;
-use super::super::moments;
+use super::super::setup::Setup;
 use super::super::state::{State, SteadyCycle};
-use super::super::{Scratch, contact, cycles_to_settle, traction};
-use super::wear;
+use super::super::{contact, moments};
+use super::{Scratch, wear};
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::scan::{largest, leading};
@@ -82,19 +81,13 @@ fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
     memory.stats.contacts += 1;
 }
 
-/// p and τ of the solved contact, for the next step to begin with.
-fn find_tractions(model: &Model, memory: &mut State) {
-    traction::of(model, &memory.contact, &mut memory.traction);
-    memory.stats.transforms += 2;
-}
-
 fn period(
     model: &Model,
     memory: &mut State,
     spare: &mut State,
     scratch: &mut Scratch,
 ) -> Result<SteadyCycle, Cause> {
-    let cycles = cycles_to_settle(&model.setup.drive);
+    let cycles = model.setup.drive.cycles_to_settle();
     let touch = moments::Touch::on(&model.setup, memory, scratch.g.iter().copied());
     let moments = moments::of_period(&model.setup, touch, cycles);
     memory.cycle = 0.0;
@@ -102,10 +95,7 @@ fn period(
         solve(model, memory, spare, scratch, moment)?;
         take_over(memory, spare, moment);
     }
-    let by_mean = model.setup.scheme == Scheme::Trapezoid;
-    if by_mean {
-        find_tractions(model, memory);
-    }
+    memory.pressure.forget();
     memory.cycle = 0.0;
     let mut steady = SteadyCycle {
         wear: vec![0.0; model.nodes()],
@@ -130,9 +120,7 @@ fn period(
         let compression = spare.contact.normal.strongest / modulus;
         steady.elastic_depth = steady.elastic_depth.max(compression);
         take_over(memory, spare, moment);
-        if by_mean {
-            std::mem::swap(&mut memory.traction, &mut spare.traction);
-        }
+        std::mem::swap(&mut memory.pressure, &mut spare.pressure);
         memory.stats.transforms += std::mem::take(&mut scratch.transforms);
     }
     let cycles = memory.cycle;
@@ -174,7 +162,6 @@ fn plain_cycle(
     settle_springs(&model.setup, memory, &spare.contact.load, swing);
     solve(model, memory, spare, scratch, 0.0)?;
     take_over(memory, spare, 0.0);
-    find_tractions(model, memory);
 
     let increment = &mut scratch.increment;
     let material = &model.setup.material;
@@ -200,9 +187,10 @@ fn plain_cycle(
     }
     slip.displacement(&model.plan, &model.grid, &mut increment.surface_slip);
     increment.surface_slip[..stuck].fill(0.0);
-    memory.stats.transforms += 1;
+    memory.pressure.find(model, contact, stuck);
+    memory.stats.transforms += 2;
     increment.slip.copy_from_slice(&slip.nodal);
-    increment.wear_by_load(model, contact, &memory.traction.pressure, stuck);
+    increment.wear_by_load(model, contact, &memory.pressure.nodal, stuck);
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,

@@ -15,10 +15,10 @@
 
 use super::super::breakdown::Cause;
 use super::super::choices::{Scheme, Stability};
+use super::super::contact;
 use super::super::model::Model;
 use super::super::state::State;
-use super::super::{Scratch, contact};
-use super::{Bounds, accept, euler, trapezoid, wear};
+use super::{Bounds, Scratch, accept, euler, trapezoid, wear};
 
 /// By how much a sub-step may be longer than the one before it.
 const GROWTH: f64 = 1.5;

@@ -60,39 +60,57 @@ fn may_import(floor: &str, target: &str) -> bool {
     }
 }
 
-/// The first names after every `crate::`, groups in braces taken apart.
+/// The first names after every `crate::`.
 fn imports(code: &str) -> Vec<String> {
-    let mut names = Vec::new();
-    for (at, _) in code.match_indices("crate::") {
-        let rest = code[at + "crate::".len()..].trim_start();
-        if let Some(group) = rest.strip_prefix('{') {
-            names.extend(heads(group));
-        } else {
-            names.push(head(rest));
-        }
-    }
-    names
+    let of_ours = paths(code).into_iter().filter(|path| path[0] == "crate");
+    of_ours.filter_map(|path| path.into_iter().nth(1)).collect()
 }
 
-/// The first name of each member of a group, whose opening brace is already gone.
-fn heads(group: &str) -> Vec<String> {
-    let (mut depth, mut names, mut fresh) = (1, Vec::new(), true);
-    for (at, sign) in group.char_indices() {
-        match sign {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            ',' if depth == 1 => fresh = true,
-            _ if fresh && !sign.is_whitespace() => {
-                names.push(head(&group[at..]));
-                fresh = false;
+/// Every path that is imported by `use`, or begins with `crate` or `super`, as its names; groups in braces are taken
+/// apart.
+pub fn paths(code: &str) -> Vec<Vec<String>> {
+    let mut found = Vec::new();
+    let mut before = ' ';
+    for (at, sign) in code.char_indices() {
+        let begins = !(before.is_alphanumeric() || before == '_' || before == ':');
+        before = sign;
+        match head(&code[at..]).as_str() {
+            "use" if begins => _ = members(&code[at + 3..], &[], &mut found),
+            // How far something is seen is no import.
+            "crate" | "super" if begins && !code[..at].ends_with("(in ") => {
+                members(&code[at..], &[], &mut found);
             }
             _ => {}
         }
-        if depth == 0 {
-            break;
+    }
+    found.retain(|path| path.len() > 1);
+    found.sort();
+    found.dedup();
+    found
+}
+
+/// The paths in `text`, a name or a group after the names `before`; returns what follows them.
+fn members<'t>(text: &'t str, before: &[String], found: &mut Vec<Vec<String>>) -> &'t str {
+    let mut text = text.trim_start();
+    if text.starts_with('{') {
+        while !text.is_empty() && !text.starts_with('}') {
+            text = members(&text[1..], before, found);
+            text = text.trim_start_matches(|sign| sign != ',' && sign != '}');
+        }
+        return text.get(1..).unwrap_or_default();
+    }
+    let name = head(text);
+    let rest = &text[name.len()..];
+    let is_empty = name.is_empty() && !text.starts_with('*');
+    let path = [before, &[name]].concat();
+    match rest.strip_prefix("::") {
+        Some(rest) => members(rest, &path, found),
+        None => {
+            // Behind the last comma of a group nothing follows.
+            found.extend((!is_empty).then_some(path));
+            rest
         }
     }
-    names
 }
 
 fn head(path: &str) -> String {
@@ -124,7 +142,7 @@ fn foreign_to_the_judge(code: &str) -> Vec<String> {
 
 /// The code without comments, and without what stands under `#[cfg(test)]` up to where `rustfmt` ends an item: a line as
 /// far to the left that ends it.
-fn without_tests(text: &str) -> String {
+pub fn without_tests(text: &str) -> String {
     let mut kept = String::new();
     let mut lines = text.lines();
     while let Some(line) = lines.next() {
@@ -152,12 +170,12 @@ fn floor_of(path: &Path) -> Option<String> {
 }
 
 /// Files that hold nothing but tests, by their name.
-fn is_test_file(path: &Path) -> bool {
+pub fn is_test_file(path: &Path) -> bool {
     let stem = path.file_stem().and_then(|stem| stem.to_str());
     stem.is_some_and(|stem| stem == "tests" || stem.ends_with("_tests"))
 }
 
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder of sources") {
         let path = entry.expect("an entry").path();

@@ -21,6 +21,7 @@ mod allocations;
 mod ansi_writer;
 mod changes;
 mod checkpoint;
+mod circles;
 mod cli;
 mod conformance;
 mod convergence;

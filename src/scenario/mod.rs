@@ -38,7 +38,6 @@ pub(crate) mod values;
 mod write;
 
 pub use complete::USUAL_ACCURACY;
-pub use derive::Pressed;
 use error::{Faults, Origin, echo};
 pub use error::{Refusal, ScenarioError, printable};
 pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};

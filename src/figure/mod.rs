@@ -126,9 +126,12 @@ impl Sheet {
 
     /// Draws all charts on paper of a size in mm; several are lettered.
     pub fn draw(&self, size: [f64; 2], look: &Look) -> Canvas {
-        let mut canvas = Canvas::new(size);
-        canvas.title.clone_from(&self.title);
-        canvas.facts.clone_from(&self.facts);
+        let mut canvas = Canvas {
+            size,
+            shapes: Vec::new(),
+            title: self.title.clone(),
+            facts: self.facts.clone(),
+        };
         let columns = self.columns();
         let rows = self.charts.len().div_ceil(columns).max(1);
         let place = [size[0] / columns as f64, size[1] / rows as f64];

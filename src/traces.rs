@@ -1,7 +1,7 @@
 //! What is known of a run, or of another source, as named columns in SI units: over the radius, over cycles, over a
 //! loop. A column has the same name in a file, in memory and on an axis.
 
-use crate::scenario::columns::Columns;
+use crate::scenario::columns::{Columns, OWN};
 
 /// Two columns that make a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,16 +54,8 @@ impl Axes {
 
 /// The unit that ends the name of a column.
 pub fn unit_of(column: &str) -> &'static str {
-    let ends = [
-        ("_m3_per_J", "m³/J"),
-        ("_m3", "m³"),
-        ("_m", "m"),
-        ("_N", "N"),
-        ("_J", "J"),
-        ("_Pa", "Pa"),
-        ("_s", "s"),
-    ];
-    let found = ends.into_iter().find(|(end, _)| column.ends_with(end));
+    let ends_with = |unit: &str| column.strip_suffix(unit)?.strip_suffix('_');
+    let found = OWN.iter().find(|(unit, _)| ends_with(unit).is_some());
     found.map_or("", |(_, unit)| unit)
 }
 
@@ -72,8 +64,7 @@ pub fn unit_of(column: &str) -> &'static str {
 pub struct Table {
     /// The `# key: value` lines.
     pub header: Vec<(String, String)>,
-    names: Vec<String>,
-    columns: Vec<Vec<f64>>,
+    columns: Vec<(String, Vec<f64>)>,
 }
 
 impl Table {
@@ -82,14 +73,11 @@ impl Table {
         header: Vec<(String, String)>,
         columns: impl IntoIterator<Item = (N, Vec<f64>)>,
     ) -> Self {
-        let (names, columns) = columns
-            .into_iter()
-            .map(|(name, values)| (name.into(), values))
-            .unzip();
+        let columns = columns.into_iter();
+        let columns = columns.map(|(name, values)| (name.into(), values));
         Self {
             header,
-            names,
-            columns,
+            columns: columns.collect(),
         }
     }
 
@@ -107,8 +95,8 @@ impl Table {
 
     /// A column, if there is one of that name.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let at = self.names.iter().position(|column| column == name)?;
-        Some(&self.columns[at])
+        let (_, values) = self.columns.iter().find(|(column, _)| column == name)?;
+        Some(values)
     }
 
     /// Whether it has all of these columns.
@@ -140,7 +128,7 @@ impl Table {
 
     /// The number of rows.
     pub fn rows(&self) -> usize {
-        self.columns.first().map_or(0, Vec::len)
+        self.columns.first().map_or(0, |(_, values)| values.len())
     }
 }
 

@@ -130,15 +130,10 @@ impl Run {
         ghost
     }
 
-    /// The radius of the outermost node, m; `None` without a state.
-    pub fn reach(&self) -> Option<f64> {
-        let radii = self.states.last()?.column("r_m")?;
-        radii.last().copied()
-    }
-
-    /// The same, 0 without a state.
+    /// The radius of the outermost node, m; 0 without a state.
     pub fn edge(&self) -> f64 {
-        self.reach().unwrap_or(0.0)
+        let radii = self.states.last().and_then(|state| state.column("r_m"));
+        radii.and_then(<[f64]>::last).copied().unwrap_or(0.0)
     }
 
     /// f₀ at a radius, m; NaN where the shape is not known.

@@ -30,9 +30,7 @@ fn of_states(run: &Run) -> Option<Curve> {
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
     let depth = series(run, "scar_depth_m", "", Role::Profile).ok();
-    let depth = depth
-        .or_else(|| of_states(run))
-        .ok_or("there is no state.csv")?;
+    let depth = depth.or_else(|| of_states(run)).ok_or(NO_STATE)?;
     let ordinate = Axis::new(run.pick("depth", "worn depth"), "m")
         .from_zero()
         .expecting(run.expected_wear());

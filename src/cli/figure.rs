@@ -215,8 +215,8 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     let ending = path.extension();
     if path.is_dir() || ending.is_some_and(|end| !end.eq_ignore_ascii_case("toml")) {
         let ghost = Ghost::read(path)?;
-        if let Some(reach) = run.reach() {
-            ghost.check_radii(reach)?;
+        if !run.states.is_empty() {
+            ghost.check_radii(run.edge())?;
         }
         return Ok(ghost);
     }

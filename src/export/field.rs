@@ -23,8 +23,8 @@ pub const COLUMNS: [&str; 11] = [
 ];
 
 /// Half the intervals along x, and the intervals in depth.
-const HALF_WIDTH: usize = 100;
-const DEPTH: usize = 100;
+const HALF_WIDTH: i32 = 100;
+const DEPTH: i32 = 100;
 
 /// How far the plane reaches to either side and downwards, in contact radii.
 const REACH: f64 = 1.5;
@@ -47,22 +47,20 @@ pub fn rows(session: &Session) -> Vec<Vec<f64>> {
         _ => seen.radii.last().copied().unwrap_or_default(),
     };
     let cycle = StressCycle::of(simulation);
-    let step = REACH * radius / HALF_WIDTH as f64;
+    let step = REACH * radius / f64::from(HALF_WIDTH);
     let mut rows = Vec::new();
     for k in 0..=DEPTH {
-        let z = REACH * radius * k as f64 / DEPTH as f64;
-        let at = |i: usize| {
-            let r = step * i as f64;
-            (
-                load.mirrored(r, z),
-                cycle.as_ref().map(|cycle| cycle.mirrored(r, z)),
-            )
-        };
-        let row: Vec<_> = (0..=HALF_WIDTH).map(at).collect();
-        let left = (1..=HALF_WIDTH).rev().map(|i| (-step * i as f64, i, 1));
-        let right = (0..=HALF_WIDTH).map(|i| (step * i as f64, i, 0));
-        rows.extend(left.chain(right).map(|(x, i, side)| {
-            let (at, fatigue) = (row[i].0[side], row[i].1.map(|both| both[side]));
+        let z = REACH * radius * f64::from(k) / f64::from(DEPTH);
+        let radii = (0..=HALF_WIDTH).map(|i| step * f64::from(i));
+        let both_sides = radii.map(|r| {
+            let fatigue = cycle.as_ref().map(|cycle| cycle.mirrored(r, z));
+            (load.mirrored(r, z), fatigue)
+        });
+        let both_sides: Vec<_> = both_sides.collect();
+        rows.extend((-HALF_WIDTH..=HALF_WIDTH).map(|i| {
+            let (x, side) = (step * f64::from(i), usize::from(i < 0));
+            let (at, fatigue) = both_sides[i.unsigned_abs() as usize];
+            let (at, fatigue) = (at[side], fatigue.map(|both| both[side]));
             let invariants = [at.von_mises(), at.max_principal()];
             let fatigue = fatigue.map_or([f64::NAN; 3], |fatigue: Fatigue| {
                 [fatigue.swt, fatigue.shear_amplitude, fatigue.hydrostatic]

@@ -73,12 +73,22 @@ pub fn shell_word(path: &Path) -> String {
 /// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
 /// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
-    write_with(path, |file| {
-        file.write_all(contents).map_err(WriteError::io(path))
-    })
+    write_whole_with(path, |out| out.write_all(contents))
 }
 
 /// [`write_whole`] with what `fill` writes, which need not be in memory at once.
+pub fn write_whole_with(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    write_with(path, |file| {
+        let mut out = io::BufWriter::new(file);
+        let filled = fill(&mut out).and_then(|()| out.flush());
+        filled.map_err(WriteError::io(path))
+    })
+}
+
+/// [`write_whole`] with what `fill` writes and makes of the file that is to be there.
 pub fn write_with<T, E: From<WriteError>>(
     path: &Path,
     fill: impl FnOnce(&mut fs::File) -> Result<T, E>,

@@ -150,7 +150,7 @@ impl History {
 
     /// Writes the whole table up to the present state of `session`, of which its header tells; the
     /// rows that are not in memory are read from the file at `rows`.
-    pub fn write(&self, session: &Session, rows: &Path, out: &mut impl Write) -> io::Result<()> {
+    pub fn write(&self, session: &Session, rows: &Path, out: &mut dyn Write) -> io::Result<()> {
         let names: Vec<&str> = self.names().collect();
         out.write_all(head(session, &names).as_bytes())?;
         if self.written > 0 {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::claim::Claim;
-use super::file::{IRREGULAR, WriteError, directory_of, sweep, temporary_of, write_with};
+use super::file::{IRREGULAR, WriteError, directory_of, sweep, temporary_of, write_whole_with};
 
 /// The name under which a result goes to the standard output.
 const STDOUT: &str = "/dev/stdout";
@@ -140,11 +140,7 @@ impl Target {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
         if !self.is_stdout() {
-            return write_with(&self.path, |file| {
-                let mut out = io::BufWriter::new(file);
-                let filled = fill(&mut out).and_then(|()| out.flush());
-                filled.map_err(WriteError::io(&self.path))
-            });
+            return write_whole_with(&self.path, fill);
         }
         let mut out = io::stdout().lock();
         let written = fill(&mut out).and_then(|()| out.flush());

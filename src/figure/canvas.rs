@@ -79,7 +79,7 @@ pub enum Shape {
 }
 
 /// A sheet of paper with what is on it.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Canvas {
     /// Width and height, mm.
     pub size: [f64; 2],
@@ -92,14 +92,6 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// An empty sheet of this width and height, mm.
-    pub fn new(size: [f64; 2]) -> Self {
-        Self {
-            size,
-            ..Self::default()
-        }
-    }
-
     /// Draws a line.
     pub fn line(&mut self, points: Vec<[f64; 2]>, ink: Rgb, width: f64, dashes: &'static [f64]) {
         let line = Line {

@@ -27,11 +27,11 @@ use draw::Ordinate;
 use look::Look;
 
 use crate::export::file::WriteError;
-use crate::export::header::{field, number};
+use crate::export::header::{field, line, number};
 use crate::export::target::{Target, write_all};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
-use crate::scenario::{Refusal, printable};
+use crate::scenario::Refusal;
 use crate::studies::table::csv_line;
 
 /// The kinds of files, by what their names end in.
@@ -126,9 +126,12 @@ impl Sheet {
 
     /// Draws all charts on paper of a size in mm; several are lettered.
     pub fn draw(&self, size: [f64; 2], look: &Look) -> Canvas {
-        let mut canvas = Canvas::new(size);
-        canvas.title.clone_from(&self.title);
-        canvas.facts.clone_from(&self.facts);
+        let mut canvas = Canvas {
+            size,
+            shapes: Vec::new(),
+            title: self.title.clone(),
+            facts: self.facts.clone(),
+        };
         let columns = self.columns();
         let rows = self.charts.len().div_ceil(columns).max(1);
         let place = [size[0] / columns as f64, size[1] / rows as f64];
@@ -173,10 +176,8 @@ impl Sheet {
 
     /// The drawn data: one row per point of each curve and per point of each map.
     pub fn csv(&self) -> String {
-        let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
-        for (key, value) in &self.facts {
-            let _ = writeln!(text, "# {key}: {}", printable(value));
-        }
+        let mut text = line("mdr-tui", env!("CARGO_PKG_VERSION"));
+        text.extend(self.facts.iter().map(|(key, value)| line(key, value)));
         for (k, chart) in self.charts.iter().enumerate() {
             let (panel, title) = (letter(k), &chart.title);
             let [x, y] = [&chart.x, &chart.y].map(Axis::in_data_units);

@@ -35,7 +35,7 @@ fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
             factor: 1.0,
             text: axis.unit.to_owned(),
         },
-        _ => axis_unit(largest, axis.unit, false),
+        _ => axis_unit(largest, axis.unit),
     }
 }
 

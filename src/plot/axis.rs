@@ -61,12 +61,12 @@ impl Axis {
     }
 
     /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.
-    pub(super) fn unit_for(&self, [low, high]: [f64; 2], ascii: bool) -> AxisUnit {
+    pub(super) fn unit_for(&self, [low, high]: [f64; 2]) -> AxisUnit {
         let most = low.abs().max(high.abs());
-        let expected = axis_unit(self.expects.max(most), self.unit, ascii);
+        let expected = axis_unit(self.expects.max(most), self.unit);
         match most >= LEAST * expected.factor {
             true => expected,
-            false => axis_unit(most, self.unit, ascii),
+            false => axis_unit(most, self.unit),
         }
     }
 

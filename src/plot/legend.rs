@@ -7,7 +7,7 @@ use ratatui::text::Span;
 
 use super::raster::Raster;
 use super::theme::Role;
-use super::units::{AxisUnit, format_number, format_value_in};
+use super::units::{AxisUnit, format_number, format_value};
 use super::{Axis, Plot, Scale};
 
 /// Significant digits of a reading.
@@ -112,26 +112,27 @@ impl Line {
 
 /// The reading of the cursor itself, and a line for each curve that has a name.
 fn lines(plot: &Plot<'_>, [x_unit, y_unit]: [&AxisUnit; 2], reading: Reading) -> Vec<Line> {
-    let (theme, chart, ascii) = (plot.theme, plot.chart, plot.theme.ascii());
+    let (theme, chart) = (plot.theme, plot.chart);
     let x = plot.cursor.filter(|_| reading != Reading::None);
     let header = x.map(|x| Line {
         left: theme.printable(&chart.x.label),
-        right: with_unit(x, &chart.x, x_unit, ascii),
+        right: theme.printable(&with_unit(x, &chart.x, x_unit)),
         style: theme.style(Role::Quiet),
     });
     let named = chart.curves.iter().filter(|curve| !curve.name.is_empty());
     let curves = named.map(|curve| {
-        let swatch = curve.stroke().swatch(ascii);
+        let swatch = curve.stroke().swatch(theme.ascii());
         let name = theme.printable(&curve.name);
         let name: String = name.chars().take(LONGEST_NAME).collect();
+        let read = match x.map(|x| curve.value_at(x)) {
+            None => String::new(),
+            Some(None) => "–".to_owned(),
+            Some(Some(y)) if reading == Reading::Full => with_unit(y, &chart.y, y_unit),
+            Some(Some(y)) => format_number(y / y_unit.factor, DIGITS),
+        };
         Line {
             left: format!("{swatch} {name}"),
-            right: match x.map(|x| curve.value_at(x)) {
-                None => String::new(),
-                Some(None) => if ascii { "-" } else { "–" }.to_owned(),
-                Some(Some(y)) if reading == Reading::Full => with_unit(y, &chart.y, y_unit, ascii),
-                Some(Some(y)) => format_number(y / y_unit.factor, DIGITS),
-            },
+            right: theme.printable(&read),
             style: theme.style(curve.role),
         }
     });
@@ -140,12 +141,12 @@ fn lines(plot: &Plot<'_>, [x_unit, y_unit]: [&AxisUnit; 2], reading: Reading) ->
 
 /// A reading in the unit its axis is labelled in; in one of its own where the axis has none
 /// for it (log axes, powers of ten, values far below the axis' range).
-fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit, ascii: bool) -> String {
+fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit) -> String {
     let scaled = value / unit.factor;
     let power = unit.text.starts_with(|c: char| c.is_ascii_digit());
     let small = scaled.abs() < 1e-3 && scaled != 0.0;
     if axis.scale == Scale::Log || power || small {
-        return format_value_in(value, axis.unit, DIGITS, ascii);
+        return format_value(value, axis.unit, DIGITS);
     }
     let text = format!("{} {}", format_number(scaled, DIGITS), unit.text);
     text.trim_end().to_owned()

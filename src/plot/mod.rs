@@ -42,6 +42,8 @@ pub mod window;
 mod words;
 
 #[cfg(test)]
+mod dot_tests;
+#[cfg(test)]
 mod tests;
 
 pub use axis::{Axis, Scale, nice_bounds, sticky_bounds};

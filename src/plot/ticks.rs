@@ -87,9 +87,7 @@ impl Ruler {
             _ => self,
         }
     }
-}
 
-impl Ruler {
     /// Values of ticks between those with labels: on a linear axis two steps of the grid finer, which makes four or
     /// five to a step; 2 to 9 in a decade.
     pub fn minor(&self) -> Vec<f64> {

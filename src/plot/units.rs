@@ -6,14 +6,8 @@
 //! a thousand is written in its place: `[1e-6 1/Pa]`.
 
 use std::borrow::Cow;
-use std::f64::consts::TAU;
 
-use crate::scenario::units::SHOWN_PREFIXES;
-
-/// Units that take a prefix; any other word (cycles, %, deg) stands alone.
-const PREFIXABLE: [&str; 14] = [
-    "m", "s", "N", "Pa", "J", "W", "Hz", "rad", "K", "V", "A", "B", "g", "L",
-];
+use crate::scenario::units::{SHOWN_PREFIXES, shown_in, takes_prefix};
 
 /// The prefix for values up to `max` of `unit`, and what the unit with it is worth without: 1e-18 for µ before m³.
 /// Some units (an empty one, `1/Pa`, `cycles`) take none.
@@ -36,9 +30,8 @@ fn leading_power(unit: &str) -> Option<i32> {
         .find(|c: char| !c.is_alphabetic())
         .unwrap_or(unit.len());
     let (symbol, rest) = unit.split_at(end);
-    if !PREFIXABLE.contains(&symbol) {
-        return None;
-    }
+    // Other words (cycles, %, deg) stand alone.
+    takes_prefix(symbol).then_some(())?;
     match rest.trim_start_matches('^').chars().next() {
         Some('²' | '2') => Some(2),
         Some('³' | '3') => Some(3),
@@ -57,26 +50,26 @@ pub struct AxisUnit {
 }
 
 /// The common unit of an axis whose largest absolute value is `max` (in `unit`).
-pub fn axis_unit(max: f64, unit: &str, ascii: bool) -> AxisUnit {
+pub fn axis_unit(max: f64, unit: &str) -> AxisUnit {
     let (symbol, factor) = prefix(max, unit);
     let scaled = max.abs() / factor;
     if scaled == 0.0 || !scaled.is_finite() || (0.01..1e5).contains(&scaled) {
-        let text = shown(&format!("{symbol}{unit}"), ascii);
+        let text = format!("{symbol}{unit}");
         return AxisUnit { factor, text };
     }
     let power = 3 * ((max.abs() * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
     AxisUnit {
         factor: 10f64.powi(power),
-        text: shown(format!("1e{power} {unit}").trim_end(), ascii),
+        text: format!("1e{power} {unit}").trim_end().to_owned(),
     }
 }
 
 /// The ends of a range (in `unit`) for its key, `digits` significant digits each: in one unit, which the second end
 /// names, or each with its own where that has a power of ten.
-pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize, ascii: bool) -> [String; 2] {
-    let AxisUnit { factor, text } = axis_unit(high.abs().max(low.abs()), unit, ascii);
+pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize) -> [String; 2] {
+    let AxisUnit { factor, text } = axis_unit(high.abs().max(low.abs()), unit);
     if text.starts_with("1e") {
-        return [low, high].map(|end| format_value_in(end, unit, digits, ascii));
+        return [low, high].map(|end| format_value(end, unit, digits));
     }
     let [low, high] = [low, high].map(|end| format_number(end / factor, digits));
     [low, format!("{high} {text}").trim_end().to_owned()]
@@ -86,11 +79,6 @@ pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize, ascii: bool)
 /// point are never rounded away), the prefix chosen after rounding, scientific notation
 /// beyond pico and giga.
 pub fn format_value(value: f64, unit: &str, digits: usize) -> String {
-    format_value_in(value, unit, digits, false)
-}
-
-/// [`format_value`], in ASCII where `ascii` asks for it.
-pub fn format_value_in(value: f64, unit: &str, digits: usize, ascii: bool) -> String {
     let digits = digits.clamp(1, 17);
     let (mut symbol, factor) = prefix(round_to(value, digits), unit);
     let mut number = format_number(value / factor, digits);
@@ -98,7 +86,7 @@ pub fn format_value_in(value: f64, unit: &str, digits: usize, ascii: bool) -> St
         (symbol, number) = ("", format_number(value, digits));
     }
     let text = format!("{number} {symbol}{unit}");
-    shown(text.trim_end(), ascii)
+    text.trim_end().to_owned()
 }
 
 /// A bare number with `digits` significant digits; scientific outside 1e-3..1e6.
@@ -114,11 +102,8 @@ pub fn format_number(value: f64, digits: usize) -> String {
     let size = rounded.abs();
     if (1e-3..1e6).contains(&size) {
         let decimals = digits as i32 - 1 - (size * (1.0 + 1e-12)).log10().floor() as i32;
-        format!(
-            "{:.*}",
-            decimals.max(0) as usize,
-            if decimals < 0 { value } else { rounded }
-        )
+        let shown = if decimals < 0 { value } else { rounded };
+        format!("{shown:.*}", decimals.max(0) as usize)
     } else {
         format!("{rounded:.*e}", digits - 1)
     }
@@ -127,22 +112,18 @@ pub fn format_number(value: f64, digits: usize) -> String {
 /// A value (in `unit`) as an engineer reads it, in up to seven digits: the number, and the unit it is in, which a
 /// scenario takes back: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/J`.
 pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
-    let (number, unit) = match unit {
-        "rad" => (value.to_degrees(), "°".to_owned()),
-        "rad/s" => (value / TAU, "Hz".to_owned()),
-        // 1/Pa = m³/J: per friction work, where m³/(N·m) is per load and distance.
-        "1/Pa" => (value * 1e9, "mm³/J".to_owned()),
-        "m^3/(N*m)" => (value * 1e9, "mm³/(N·m)".to_owned()),
-        _ => {
+    let (unit, factor) = match shown_in(unit) {
+        Some((unit, factor)) => (unit.to_owned(), factor),
+        None => {
             let (symbol, factor) = prefix(value, unit);
-            (value / factor, format!("{symbol}{unit}"))
+            (format!("{symbol}{unit}"), factor)
         }
     };
     let unit = match ascii {
-        true => unit.replace('³', "^3"),
+        true => to_ascii(&unit.replace('³', "^3")).into_owned(),
         false => unit,
     };
-    (plain(number), shown(&unit, ascii))
+    (plain(value / factor), unit)
 }
 
 /// A number in up to seven digits, without trailing zeros.
@@ -161,15 +142,6 @@ fn round_to(value: f64, digits: usize) -> f64 {
     match rounded {
         Ok(number) if f64::is_finite(number) => number,
         _ => value,
-    }
-}
-
-/// `text`, in ASCII where `ascii` asks for it.
-fn shown(text: &str, ascii: bool) -> String {
-    if ascii {
-        to_ascii(text).into_owned()
-    } else {
-        text.to_owned()
     }
 }
 
@@ -225,6 +197,8 @@ pub fn to_ascii(text: &str) -> Cow<'_, str> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::scenario::schema::parameters;
     use crate::scenario::units::quantity;
@@ -250,7 +224,6 @@ mod tests {
         for (max, symbol) in cases {
             assert_eq!(prefix(max, "m").0, symbol, "{max}");
         }
-        assert_eq!(axis_unit(2e-6, "m", true).text, "um");
     }
 
     #[test]
@@ -270,7 +243,6 @@ mod tests {
     #[test]
     fn readings() {
         assert_eq!(format_value(1.234e-6, "m", 3), "1.23 µm");
-        assert_eq!(format_value_in(1.234e-6, "m", 3, true), "1.23 um");
         assert_eq!(format_value(999.96e-6, "m", 3), "1.00 mm");
         assert_eq!(format_value(-2.3077e11, "Pa", 4), "-230.8 GPa");
         assert_eq!(format_value(0.0, "Pa", 4), "0 Pa");
@@ -285,18 +257,18 @@ mod tests {
 
     #[test]
     fn axis_units_keep_labels_short() {
-        let text = |max, unit| axis_unit(max, unit, false).text;
+        let text = |max, unit| axis_unit(max, unit).text;
         assert_eq!(text(1.5e-4, "m"), "µm");
         assert_eq!(text(3e9, "Pa"), "GPa");
         assert_eq!(text(4e-7, ""), "1e-9");
         assert_eq!(text(1e6, "cycles"), "1e6 cycles");
         assert_eq!(text(200.0, "cycles"), "cycles");
         assert_eq!(text(1e-300, "N"), "1e-300 N");
-        assert_eq!(axis_unit(1e-3, "m³", true).text, "1e-3 m3");
+        assert_eq!(text(1e-3, "m³"), "1e-3 m³");
         for exponent in -300..=300 {
             let max = 10f64.powi(exponent);
             for unit in ["", "m", "m²", "m³", "cycles"] {
-                let scaled = max / axis_unit(max, unit, false).factor;
+                let scaled = max / axis_unit(max, unit).factor;
                 assert!((0.009..1.1e5).contains(&scaled), "{max} {unit}: {scaled}");
             }
         }
@@ -344,13 +316,14 @@ mod tests {
             ([0.0, 3e-9], "1/Pa", ["0 1/Pa", "3.00e-9 1/Pa"]),
             ([0.1, 0.7], "", ["0.100", "0.700"]),
         ] {
-            assert_eq!(range_ends(range, unit, 3, false), ends);
+            assert_eq!(range_ends(range, unit, 3), ends);
         }
     }
 
     #[test]
     fn ascii_has_no_other_character() {
         assert_eq!(to_ascii("τ [µm²]"), "tau [um2]");
+        assert_eq!(to_ascii("1e-3 m³"), "1e-3 m3");
         assert!(to_ascii("∂ ⌀ 漢").is_ascii());
     }
 }

@@ -108,7 +108,6 @@ impl<'p> Frame<'p> {
             chart.x.resolve(x_data, false),
             chart.y.resolve(y_data, true),
         );
-        let ascii = plot.theme.ascii();
         let (across, down) = plot.theme.marker.dots();
 
         // Rows, from the bottom up: labels, axis line, band, plot; the title on top.
@@ -125,7 +124,7 @@ impl<'p> Frame<'p> {
         let rows = bottom.saturating_sub(top);
 
         let window = Window::new(y_bounds, chart.y.scale, rows, down);
-        let unit = chart.y.unit_for(y_bounds, ascii);
+        let unit = chart.y.unit_for(y_bounds);
         let mut y = Ruler::new(window, unit, Labels::Column);
         if chart.map.is_none() {
             y = y.even();
@@ -139,7 +138,7 @@ impl<'p> Frame<'p> {
         let left = if bare { 0 } else { gutter + 1 };
         let inner = Rect::new(area.x + left, top, area.width - left, rows);
         let window = Window::new(x_bounds, chart.x.scale, inner.width, across);
-        let unit = chart.x.unit_for(x_bounds, ascii);
+        let unit = chart.x.unit_for(x_bounds);
         Frame {
             plot,
             area,

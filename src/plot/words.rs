@@ -32,8 +32,8 @@ impl Frame<'_> {
             legend.render(buf);
         }
 
-        let title = theme.printable(&plot.chart.y.label);
-        let title = titled(&title, &self.y.unit.text, ['[', ']']);
+        let title = titled(&plot.chart.y.label, &self.y.unit.text, ['[', ']']);
+        let title = theme.printable(&title);
         self.write(buf, area.x, area.y, &title, quiet);
         let left = (area.x + cells(&title)).min(area.right());
         let mut free = left + u16::from(left > area.x)..area.right();
@@ -88,13 +88,12 @@ impl Frame<'_> {
     fn x_title(&self, free: Range<u16>, buf: &mut Buffer) -> u16 {
         let theme = self.plot.theme;
         let arrow = if theme.ascii() { '>' } else { '→' };
-        let label = theme.printable(&self.plot.chart.x.label);
         let title = |label: &str| match titled(label, &self.x.unit.text, ['[', ']']) {
             title if title.is_empty() => title,
-            title => format!(" {title} {arrow}"),
+            title => format!(" {} {arrow}", theme.printable(&title)),
         };
         let quiet = theme.style(Role::Quiet);
-        let whole = title(&label);
+        let whole = title(&self.plot.chart.x.label);
         if let Some(rule) = self.plot.rule.filter(|rule| cells(&whole) <= rule.width) {
             // The rule is dim; what stands in it is not.
             let style = Style::reset().patch(quiet);

@@ -1,7 +1,5 @@
 //! Warnings, given before the run, about scenarios outside the theory.
 
-use std::f64::consts::PI;
-
 use super::Log;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
@@ -95,7 +93,7 @@ impl Simulation {
 }
 
 fn warnings(setup: &Setup) -> Vec<String> {
-    let unworn = Unworn(setup);
+    let unworn = Unworn::of(setup);
     let depth = unworn.deepest();
     let radius = unworn.radius(depth);
     let mut lines = Vec::new();
@@ -106,8 +104,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
              {slope:.2}; a half-space with small slopes needs less than {STEEP}"
         ));
     }
-    let area = (PI * radius * radius).max(f64::MIN_POSITIVE);
-    let pressure = unworn.force(depth) / area / setup.material.normal_modulus();
+    let pressure = unworn.mean_pressure(depth) / setup.material.normal_modulus();
     // The largest pressure of a sphere is 3/2 of the mean; tips and rims bear more, in theory without bound.
     if 1.5 * pressure > STRONG {
         lines.push(format!(

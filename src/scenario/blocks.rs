@@ -53,9 +53,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioE
             if i == 0 {
                 values::insert(table, &path, value);
             } else {
-                let set = format!("{path} = {}", values::literal(&value));
-                let at_cycle = cycle;
-                changes.push(Change { at_cycle, set });
+                changes.push(Change::new(cycle, &path, &values::literal(&value)));
             }
         }
         cycle += cycles;

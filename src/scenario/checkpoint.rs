@@ -15,15 +15,16 @@
 use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::changes::{Change, at_one_cycle};
 use super::limited::Unread;
-use super::session::{Session, at_one_cycle};
-use super::{Change, Refusal, Scenario, echo, printable};
+use super::session::Session;
+use super::{Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
 use crate::reading::Log;
 use crate::simulation::{Saved, Simulation};
@@ -105,12 +106,8 @@ fn seal(length: u64, checksum: u32) -> String {
 /// One line: a file that cannot be read, is no checkpoint of this version, is damaged, or holds no valid run.
 pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, Refusal> {
     let name = printable(&path.display().to_string());
-    let refuse = |cause| match Unread::from(cause) {
-        Unread::Directory => Refusal::new(&name, "is a directory; a checkpoint is a file"),
-        why => Refusal::new(&name, why),
-    };
-    let file = File::open(path).map_err(refuse)?;
-    decode(BufReader::new(file), &name, refuse)
+    let file = File::open(path).map_err(|cause| Refusal::new(&name, Unread::from(cause)))?;
+    decode(BufReader::new(file), &name)
 }
 
 /// Reads a checkpoint from bytes that messages call `name`.
@@ -119,19 +116,22 @@ pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, Refusal> 
 ///
 /// As [`read`].
 pub fn from_bytes<E: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<Checkpoint<E>, Refusal> {
-    decode(bytes, name, |cause| Refusal::new(name, cause))
+    decode(bytes, name)
 }
 
-/// Reads the two lines, checks that what follows is whole, and restores it; `unread` is the error of a failed read.
+/// Reads the two lines, checks that what follows is whole, and restores it.
 fn decode<E: DeserializeOwned>(
     mut from: impl BufRead,
     name: &str,
-    unread: impl Fn(io::Error) -> Refusal,
 ) -> Result<Checkpoint<E>, Refusal> {
+    let unread = |cause| match Unread::from(cause) {
+        Unread::Directory => Refusal::new(name, "is a directory; a checkpoint is a file"),
+        why => Refusal::new(name, why),
+    };
     let mut line = || -> Result<String, Refusal> {
         let mut line = Vec::new();
         let mut start = from.by_ref().take(LONGEST_LINE);
-        start.read_until(b'\n', &mut line).map_err(&unread)?;
+        start.read_until(b'\n', &mut line).map_err(unread)?;
         Ok(String::from_utf8_lossy(&line).into_owned())
     };
     let refuse = |rule: String| Err(Refusal::new(name, rule));
@@ -164,7 +164,7 @@ fn decode<E: DeserializeOwned>(
     let mut contents = Vec::new();
     // One byte more shows that there is more.
     let mut rest = from.take(length + 1);
-    rest.read_to_end(&mut contents).map_err(&unread)?;
+    rest.read_to_end(&mut contents).map_err(unread)?;
     match contents.len() as u64 {
         found if found > length => return torn(&format!("it continues after its {length} bytes")),
         found if found < length => return torn(&format!("it has {found} of {length} bytes")),

@@ -14,8 +14,17 @@ use super::units;
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
 
-/// The units that all columns of a file are converted to.
-const OWN: [&str; 6] = ["m", "m3", "N", "s", "J", "Pa"];
+/// The units of this program's own columns, which those of a file are converted to, as they end a column's name, and as
+/// they are written.
+pub const OWN: [(&str, &str); 7] = [
+    ("m3_per_J", "m³/J"),
+    ("m3", "m³"),
+    ("m", "m"),
+    ("N", "N"),
+    ("J", "J"),
+    ("Pa", "Pa"),
+    ("s", "s"),
+];
 
 /// A file of columns, read whole.
 #[derive(Debug, Clone)]
@@ -184,7 +193,7 @@ impl Columns {
 /// The name of a column in one of the units of [`OWN`], and what one of the unit in its name is worth in that.
 fn in_own_unit(name: &str) -> (String, f64) {
     let found = name.rsplit_once('_').and_then(|(base, unit)| {
-        let of = |own: &&str| Some((format!("{base}_{own}"), units::ratio(unit, own)?));
+        let of = |(own, _): &(&str, _)| Some((format!("{base}_{own}"), units::ratio(unit, own)?));
         OWN.iter().find_map(of)
     });
     found.unwrap_or_else(|| (name.to_owned(), 1.0))

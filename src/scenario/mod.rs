@@ -15,6 +15,7 @@ use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
 pub(crate) mod blocks;
+mod changes;
 mod check;
 pub mod checkpoint;
 pub mod columns;
@@ -23,6 +24,7 @@ mod derive;
 mod embed;
 mod error;
 pub mod hints;
+mod kind;
 pub(crate) mod limited;
 pub mod nearest;
 mod parts;
@@ -37,11 +39,11 @@ pub mod units;
 pub(crate) mod values;
 mod write;
 
+pub use changes::{Change, MOST_CHANGES};
 pub use complete::USUAL_ACCURACY;
-pub use derive::Pressed;
 use error::{Faults, Origin, echo};
 pub use error::{Refusal, ScenarioError, printable};
-pub use run::{Change, MOST_CHANGES, MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
+pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
 #[derive(Debug, Clone)]
@@ -126,12 +128,6 @@ impl Scenario {
             assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
         }
         Self::build(table, origin, &self.origin)
-    }
-
-    /// The scenario that holds after `changes` of one cycle, which are only right together; it has no changes of its
-    /// own. Applied to those of one cycle after the other, it gives the stages of a run.
-    pub fn after(&self, changes: &[Change]) -> Result<Self, ScenarioError> {
-        self.changed(changes, |at| echo(&changes[at].set))
     }
 
     /// Where the domain radius comes from.
@@ -309,79 +305,6 @@ impl Scenario {
             scenario.run.stated = None;
         }
         Ok(scenario)
-    }
-
-    /// Walks through the stages of a run, so that a change that cannot be made is found before it.
-    fn check_changes(&self, changes: &[Change], from: &Origin) -> Result<(), ScenarioError> {
-        let mut before = 0.0;
-        for (i, change) in changes.iter().enumerate() {
-            if change.at_cycle < before {
-                let at = format!("changes[{i}].at_cycle");
-                let rule = format!("must be {before} or greater: changes must be in order");
-                return Err(from.refuse(&at, &change.at_cycle.to_string(), rule));
-            }
-            before = change.at_cycle;
-        }
-        let (mut stage, mut first) = (self.clone(), 0);
-        for together in session::at_one_cycle(changes) {
-            stage = stage.changed(together, |at| {
-                let path = format!("changes[{}].set", first + at);
-                from.place(&path, &format!("\"{}\"", echo(&together[at].set)))
-            })?;
-            first += together.len();
-        }
-        Ok(())
-    }
-
-    /// The scenario after `changes` of one cycle; `place` is what messages call each.
-    fn changed(
-        &self,
-        changes: &[Change],
-        place: impl Fn(usize) -> String,
-    ) -> Result<Self, ScenarioError> {
-        let mut origin = Origin::new(&self.origin);
-        let mut table = self.with_changes(Vec::new()).whole();
-        for (at, change) in changes.iter().enumerate() {
-            let written = place(at);
-            let (key, value) =
-                assign::split(&change.set, "").map_err(|_| assign::no_assignment(&written))?;
-            if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
-                let rule = format!("{key} cannot change during a run: {because}");
-                return Err(Refusal::new(written, rule).into());
-            }
-            assign::assign(&mut table, &mut origin, key, value, &written)?;
-        }
-        self.refuse_values_in_other_units(&table, changes, place)?;
-        Self::build(table, origin, &self.origin)
-    }
-
-    /// A control that changes measures the motion in another unit: metres that were given for the old one
-    /// must not be read as newtons.
-    fn refuse_values_in_other_units(
-        &self,
-        table: &Table,
-        changes: &[Change],
-        place: impl Fn(usize) -> String,
-    ) -> Result<(), ScenarioError> {
-        let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
-        for motion in ["motion.normal", "motion.tangential"] {
-            let key = values::join(motion, "control");
-            let [control, before] = [table, &self.table].map(|of| schema::read::<String>(of, &key));
-            let Some(at) = changes_at(&key).filter(|_| control != before) else {
-                continue;
-            };
-            for key in ["mean", "amplitude"] {
-                let path = values::join(motion, key);
-                let value: f64 = schema::read(&self.table, &path).unwrap_or(0.0);
-                if value != 0.0 && changes_at(&path).is_none() {
-                    let is_force = control.as_deref() == Some("force");
-                    let unit = units::unit_of(schema::known(&path), is_force);
-                    let rule = format!("needs {path} in {unit}, changed at the same cycle");
-                    return Err(Refusal::new(place(at), rule).into());
-                }
-            }
-        }
-        Ok(())
     }
 
     /// All keys, `[run]` and `[[changes]]` included.

@@ -65,16 +65,12 @@ pub(super) fn hint(name: &str) -> String {
 impl Preset {
     /// The scenario's title.
     pub fn title(&self) -> &'static str {
-        self.about(0)
+        &ABOUT[self.name][0]
     }
 
     /// What it shows, on one line.
     pub fn summary(&self) -> &'static str {
-        self.about(1)
-    }
-
-    fn about(&self, at: usize) -> &'static str {
-        ABOUT.get(self.name).map_or("", |texts| &texts[at])
+        &ABOUT[self.name][1]
     }
 }
 

@@ -1,4 +1,4 @@
-//! The `[run]` table and recorded changes: length, snapshots, and changes made during the run.
+//! The `[run]` table: length, snapshots, and what the files of the run state.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,10 +7,6 @@ pub const MOST_CYCLES: f64 = 1e9;
 
 /// Maximum number of snapshots of a run.
 pub const MOST_SNAPSHOTS: usize = 10_000;
-
-/// Maximum number of changes of a run. Each is checked by assembling the scenario that holds from
-/// it on.
-pub const MOST_CHANGES: usize = 1_000;
 
 /// `[run]`: how far a run goes and where it is written out.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -51,37 +47,5 @@ impl RunPlan {
             Some((key.to_owned(), value.to_owned()))
         });
         Some((entries.collect::<Option<_>>()?, seal))
-    }
-}
-
-/// `[[changes]]`: one key that was changed during the run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Change {
-    /// When, in cycles since the start.
-    pub at_cycle: f64,
-    /// The key and its new value, `KEY = VALUE` with the value as TOML.
-    pub set: String,
-}
-
-impl Change {
-    /// The change of `key` to `value` (as TOML, or a bare word) at `at_cycle` cycles.
-    pub fn new(at_cycle: f64, key: &str, value: &str) -> Self {
-        Self {
-            at_cycle,
-            set: format!("{key} = {value}"),
-        }
-    }
-
-    /// The dotted path of what changes.
-    pub fn key(&self) -> &str {
-        self.set.split_once('=').map_or("", |(key, _)| key.trim())
-    }
-
-    /// The new value, as TOML or as a bare word.
-    pub fn value(&self) -> &str {
-        self.set
-            .split_once('=')
-            .map_or("", |(_, value)| value.trim())
     }
 }

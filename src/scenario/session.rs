@@ -7,7 +7,8 @@ use std::collections::VecDeque;
 
 use thiserror::Error;
 
-use super::{Change, MOST_CHANGES, Refusal, RunPlan, Scenario, ScenarioError};
+use super::changes::{Change, MOST_CHANGES};
+use super::{Refusal, RunPlan, Scenario, ScenarioError};
 use crate::reading::{Check, CycleFigures, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
 
@@ -312,9 +313,4 @@ impl Session {
             }
         }
     }
-}
-
-/// Changes in their order, those of one cycle together.
-pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]> {
-    changes.chunk_by(|a, b| a.at_cycle == b.at_cycle)
 }

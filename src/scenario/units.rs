@@ -17,6 +17,12 @@ struct Unit {
     factor: f64,
 }
 
+/// Whether a symbol is a unit that takes a prefix.
+pub fn takes_prefix(symbol: &str) -> bool {
+    let mut units = UNITS.iter();
+    units.any(|(name, _, takes_prefix)| *name == symbol && *takes_prefix)
+}
+
 const fn unit(powers: [i32; 5], factor: f64) -> Unit {
     Unit { powers, factor }
 }
@@ -229,19 +235,30 @@ pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     (is_number && goes_on && !fraction.contains(',')).then(|| format!("{whole}.{fraction}"))
 }
 
+/// The units of keys: how a value may be written, and the unit that it is shown in where no prefix does.
+const USUAL: [(&str, &str, Option<&str>); 8] = [
+    ("m", "\"10 mm\"", None),
+    ("N", "\"5 mN\"", None),
+    ("rad", "\"45 deg\"", Some("°")),
+    ("rad/s", "\"50 Hz\"", Some("Hz")),
+    ("Pa", "\"210 GPa\"", None),
+    // 1/Pa = m³/J: per friction work, where m³/(N·m) is per load and distance.
+    ("1/Pa", "\"0.13 mm^3/J\"", Some("mm³/J")),
+    ("m^3/(N*m)", "\"1e-5 mm^3/(N*m)\"", Some("mm³/(N·m)")),
+    ("m/s", "\"10 um/s\"", None),
+];
+
 /// How a value of a unit may be written.
 fn example(unit: &str) -> &'static str {
-    match unit {
-        "m" => "\"10 mm\"",
-        "N" => "\"5 mN\"",
-        "rad" => "\"45 deg\"",
-        "rad/s" => "\"50 Hz\"",
-        "Pa" => "\"210 GPa\"",
-        "1/Pa" => "\"0.13 mm^3/J\"",
-        "m^3/(N*m)" => "\"1e-5 mm^3/(N*m)\"",
-        "m/s" => "\"10 um/s\"",
-        _ => "\"10 mm\" for a length",
-    }
+    let known = USUAL.iter().find(|(known, ..)| *known == unit);
+    known.map_or("\"10 mm\" for a length", |(_, example, _)| example)
+}
+
+/// The unit that values of `unit` are shown in instead of it, and what one of that is worth; `None` where prefixes do.
+pub fn shown_in(unit: &str) -> Option<(&'static str, f64)> {
+    let (.., shown) = USUAL.iter().find(|(known, ..)| *known == unit)?;
+    let shown = (*shown)?;
+    Some((shown, ratio(shown, unit)?))
 }
 
 /// The unit of what a motion prescribes.

@@ -15,11 +15,6 @@ pub(crate) fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// A list of such numbers.
-pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
-    value.as_array()?.iter().map(number).collect()
-}
-
 /// The value at a dotted path.
 pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     match path.split_once('.') {

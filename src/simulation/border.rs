@@ -78,7 +78,7 @@ pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
 /// towards the border of the unworn contact where wear will move it, and where the ring of slip is thin. No node
 /// is the border's own.
 fn towards_ring(uniform: &Setup) -> Option<Setup> {
-    let ring = Unworn(uniform).ring()?;
+    let ring = Unworn::of(uniform).ring()?;
     let border = ring.stick_radius;
     let is_held = matches!(uniform.drive.normal(), Control::Force(_));
     let moves = uniform.wear.is_some() && is_held;
@@ -110,7 +110,7 @@ fn thin_ring(grid: &RadialGrid, border: f64, edge: f64) -> Option<usize> {
 
 /// The width, m, of the ring of slip of a held load, where it is thinner than any cell can be.
 pub(crate) fn unseen_ring(setup: &Setup) -> Option<f64> {
-    let ring = Unworn(setup).ring()?;
+    let ring = Unworn::of(setup).ring()?;
     let width = ring.contact_radius - ring.stick_radius;
     (setup.indenter.rim().is_none() && width < THINNEST * setup.grid.radius()).then_some(width)
 }
@@ -132,7 +132,7 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
     {
         return None;
     }
-    let (depth, border) = Unworn(setup).melan()?;
+    let (depth, border) = Unworn::of(setup).melan()?;
     (border < setup.grid.radius()).then_some((depth, border))
 }
 
@@ -141,7 +141,7 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
 fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<Setup> {
     let radius = setup.grid.radius();
     let rough = RadialGrid::graded(cells, border, radius).ok()?;
-    let unworn = Unworn(setup);
+    let unworn = Unworn::of(setup);
     let edge = unworn.radius(unworn.deepest());
     if let Some(within) = thin_ring(&rough, border, edge) {
         let hair = INSIDE_CELL * (edge - border) / RING_CELLS as f64;

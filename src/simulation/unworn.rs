@@ -14,14 +14,25 @@
 //! C. Cattaneo (1938), R. D. Mindlin and H. Deresiewicz (1953), for any shape M. Ciavarella (1998); by springs
 //! V. L. Popov and M. Heß (2015), ch. 5.
 
+use std::f64::consts::PI;
+
 use super::Setup;
-use super::drive::Control;
+use super::drive::{Control, Drive};
+use crate::contact::indenter::Indenter;
+use crate::contact::material::Material;
 use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
 
-/// The unworn contact of a setup.
+/// What makes a contact, before anything is worn.
 #[derive(Clone, Copy)]
-pub struct Unworn<'a>(pub &'a Setup);
+pub struct Unworn<'a> {
+    /// The unworn shape.
+    pub indenter: &'a Indenter,
+    /// What both bodies are made of.
+    pub material: &'a Material,
+    /// The motion.
+    pub drive: &'a Drive,
+}
 
 /// A contact that slips in a ring, under a normal load that is held.
 #[derive(Debug, Clone, Copy)]
@@ -36,10 +47,19 @@ pub(crate) struct Ring {
     pub energy: f64,
 }
 
-impl Unworn<'_> {
+impl<'a> Unworn<'a> {
+    /// The unworn contact of a setup.
+    pub fn of(setup: &'a Setup) -> Self {
+        Self {
+            indenter: &setup.indenter,
+            material: &setup.material,
+            drive: &setup.drive,
+        }
+    }
+
     /// a, m, where g(a) is the `depth` (m), or the rim.
     pub fn radius(&self, depth: f64) -> f64 {
-        let indenter = &self.0.indenter;
+        let indenter = self.indenter;
         if let Some(rim) = indenter.rim() {
             return if depth > 0.0 { rim } else { 0.0 };
         }
@@ -50,22 +70,37 @@ impl Unworn<'_> {
 
     /// F_z, N, at a `depth` (m).
     pub fn force(&self, depth: f64) -> f64 {
-        let gap = |x: f64| (depth - self.0.indenter.profile_1d(x)).max(0.0);
-        2.0 * self.0.material.normal_modulus() * gauss_in_pieces([0.0, self.radius(depth)], gap)
+        let gap = |x: f64| (depth - self.indenter.profile_1d(x)).max(0.0);
+        2.0 * self.material.normal_modulus() * gauss_in_pieces([0.0, self.radius(depth)], gap)
     }
 
-    /// The depth, m, that carries a `force` (N).
+    /// F_z/(π a²), Pa, at a `depth` (m).
+    pub fn mean_pressure(&self, depth: f64) -> f64 {
+        let area = PI * self.radius(depth).powi(2);
+        self.force(depth) / area.max(f64::MIN_POSITIVE)
+    }
+
+    /// The depth, m, that carries a `force` (N); infinite where none does.
     pub fn depth(&self, force: f64) -> f64 {
-        let mut end = 1e-15;
-        while self.force(end) < force && end < 1e15 {
-            end *= 2.0;
+        let modulus = self.material.normal_modulus();
+        if let Some(radius) = self.indenter.rim() {
+            return force / (2.0 * modulus * radius);
         }
-        root::first([0.0, end], |depth| self.force(depth) >= force)
+        if force <= 0.0 {
+            return 0.0;
+        }
+        // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1, and a flat tip adds to it.
+        let carries = |&a: &f64| modulus * self.indenter.profile(a) * a >= force;
+        let mut radii = std::iter::successors(Some(1e-15), |a| (*a < 1e15).then_some(2.0 * a));
+        let deepest = radii.find(carries).map(|a| self.indenter.profile_1d(a));
+        let missing = |depth: f64| self.force(depth) / force - 1.0;
+        let depth = deepest.and_then(|end| root::bracketed(missing, 0.0, end, 1e-15 * end));
+        depth.unwrap_or(f64::INFINITY)
     }
 
     /// The deepest indentation of the motion, m.
     pub fn deepest(&self) -> f64 {
-        match self.0.drive.normal() {
+        match self.drive.normal() {
             Control::Displacement(depth) => depth.highest(),
             Control::Force(force) => self.depth(force.highest().max(0.0)),
         }
@@ -74,24 +109,23 @@ impl Unworn<'_> {
     /// By Melan's theorem, where both displacements are prescribed: g at the border of the permanent stick zone, m, and
     /// the radius c at which the unworn indenter has it, m. `None` without such a zone.
     pub(crate) fn melan(&self) -> Option<(f64, f64)> {
-        let ratio = self.0.material.stick_ratio();
-        let depth = self.0.drive.shakedown_depth(ratio);
+        let ratio = self.material.stick_ratio();
+        let depth = self.drive.shakedown_depth(ratio);
         let depth = depth.filter(|&depth| depth > 0.0)?;
         Some((depth, self.radius(depth)))
     }
 
     /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
     pub(crate) fn ring(&self) -> Option<Ring> {
-        let setup = self.0;
-        let normal = setup.drive.normal().oscillation();
+        let normal = self.drive.normal().oscillation();
         if normal.amplitude() != 0.0 || normal.mean() <= 0.0 {
             return None;
         }
         let depth = self.deepest();
-        let friction = setup.material.friction();
-        let modulus = setup.material.tangential_modulus();
-        let yields = friction * setup.material.normal_modulus() / modulus;
-        let swing = setup.drive.tangential()?;
+        let friction = self.material.friction();
+        let modulus = self.material.tangential_modulus();
+        let yields = friction * self.material.normal_modulus() / modulus;
+        let swing = self.drive.tangential()?;
         let border = match swing {
             Control::Displacement(shift) => depth - shift.amplitude() / yields,
             Control::Force(force) => {
@@ -110,7 +144,7 @@ impl Unworn<'_> {
         };
         let reach = yields * (depth - border);
         let slipping = |x: f64| {
-            let limit = yields * (depth - setup.indenter.profile_1d(x)).max(0.0);
+            let limit = yields * (depth - self.indenter.profile_1d(x)).max(0.0);
             limit * (reach - limit).max(0.0)
         };
         Some(Ring {
@@ -119,5 +153,90 @@ impl Unworn<'_> {
             force: friction * (self.force(depth) - self.force(border.max(0.0))),
             energy: 8.0 * modulus * gauss_in_pieces([stick_radius, contact_radius], slipping),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::drive::Oscillation;
+
+    fn with<T>(indenter: &Indenter, of: impl Fn(Unworn) -> T) -> T {
+        let still = Oscillation::new(1.0, 0.0, 1.0, 0.0).expect("a motion");
+        of(Unworn {
+            indenter,
+            material: &Material::new(2.3077e11, 0.3, 0.1).expect("a material"),
+            drive: &Drive::new(Control::Force(still), None),
+        })
+    }
+
+    /// Of Hertz, for R = 10 mm and d = 1 µm.
+    const FORCE: f64 = 4.0 / 3.0 * 2.3077e11 * 0.1 * 1e-9;
+
+    fn is_near(found: f64, due: f64, error: f64) {
+        assert!((found / due - 1.0).abs() < error, "{found:e} {due:e}");
+    }
+
+    #[test]
+    fn a_force_finds_the_depth_and_the_radius_of_hertz() {
+        let ball = Indenter::paraboloid(0.01).expect("a shape");
+        with(&ball, |contact| {
+            let depth = contact.depth(FORCE);
+            is_near(depth, 1e-6, 1e-12);
+            is_near(contact.radius(depth), 1e-4, 1e-12);
+            is_near(contact.force(1e-6), FORCE, 1e-12);
+            is_near(contact.mean_pressure(1e-6), FORCE / (PI * 1e-8), 1e-12);
+        });
+    }
+
+    #[test]
+    fn every_shape_and_size_carries_its_load() {
+        for indenter in [
+            Indenter::paraboloid(1e-9),
+            Indenter::paraboloid(1e6),
+            Indenter::cone(1e-6),
+            Indenter::cone(1.5),
+            Indenter::power(1e30, 20.0),
+            Indenter::power(1e-30, 1.0),
+            Indenter::flat_punch(1e-6),
+            Indenter::truncated_paraboloid(0.01, 1e-3),
+            Indenter::truncated_paraboloid(1e3, 1e-9),
+            Indenter::truncated_cone(0.02, 1e-3),
+        ] {
+            let indenter = indenter.expect("a shape");
+            for force in [1e-9, 1.0, 1e6] {
+                let depth = with(&indenter, |contact| contact.depth(force));
+                let [radius, carried] = with(&indenter, |contact| {
+                    [contact.radius(depth), contact.force(depth)]
+                });
+                // A flat tip of 1 mm bears a nanonewton at a depth that its radius has no digits for.
+                assert!(
+                    depth > 0.0 && radius > 0.0 && (carried / force - 1.0).abs() < 0.02,
+                    "{indenter:?} {force}: {depth:e} {radius:e} {carried:e}"
+                );
+            }
+            with(&indenter, |contact| assert_eq!(contact.depth(0.0), 0.0));
+        }
+    }
+
+    /// F = 2E*(d a − ∫g dx) for both shapes with a flat face.
+    #[test]
+    fn a_flat_face_sinks_by_its_force_over_its_width() {
+        let punch = Indenter::flat_punch(1e-4).expect("a shape");
+        with(&punch, |contact| {
+            let depth = contact.depth(FORCE);
+            is_near(depth, 2e-6 / 3.0, 1e-12);
+            assert_eq!(contact.radius(depth), 1e-4);
+            is_near(contact.force(depth), FORCE, 1e-12);
+        });
+        // F = 2E*/(3R) (2a² + b²) √(a² − b²) with b = 1e-4, a = 1.25e-4.
+        let tip = Indenter::truncated_paraboloid(0.01, 1e-4).expect("a shape");
+        let (a, b) = (1.25e-4f64, 1e-4f64);
+        let load = 2.0 * 2.3077e11 / 0.03 * (2.0 * a * a + b * b) * (a * a - b * b).sqrt();
+        with(&tip, |contact| {
+            let depth = contact.depth(load);
+            is_near(contact.radius(depth), a, 2e-3);
+            is_near(depth, tip.profile_1d(a), 2e-3);
+        });
     }
 }

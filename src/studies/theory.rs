@@ -6,7 +6,6 @@ use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
 use crate::oracle::fretting_loop::Branch;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::power_law::PowerLaw;
-use crate::scenario::Pressed;
 use crate::simulation::drive::{Control, Oscillation};
 use crate::simulation::waveform::Waveform;
 use crate::simulation::{Setup, Unworn};
@@ -45,7 +44,7 @@ impl Theory {
         if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
             return theory;
         }
-        theory.stick_radius = Unworn(setup).melan().map(|(_, radius)| radius);
+        theory.stick_radius = Unworn::of(setup).melan().map(|(_, radius)| radius);
         let Indenter::Paraboloid { radius } = setup.indenter else {
             return theory;
         };
@@ -87,13 +86,13 @@ impl Theory {
             let worn = limit.iter().zip(nodes).map(|(f, &r)| f - unworn(r));
             worn.filter(|worn| worn.is_finite()).fold(0.0, f64::max)
         });
-        let pressed = Pressed::of(&setup.indenter, &setup.material, &setup.drive);
         let by_law = || {
-            let (pressed, Control::Displacement(shift)) = (pressed?, setup.drive.tangential()?)
-            else {
+            let Control::Displacement(shift) = setup.drive.tangential()? else {
                 return None;
             };
-            let stress = setup.material.friction() * pressed.mean_pressure();
+            let unworn = Unworn::of(setup);
+            let pressure = unworn.mean_pressure(unworn.deepest());
+            let stress = setup.material.friction() * pressure;
             Some(4.0 * law.coefficient() * stress * shift.amplitude() * cycles?)
         };
         let reached = by_law().into_iter().chain(settled).reduce(f64::min)?;

@@ -2,8 +2,9 @@
 //! whether it will stick in the middle or slip as a whole.
 
 use crate::contact::indenter::Indenter;
-use crate::plot::units::{format_value_in, plain};
-use crate::scenario::{Pressed, Scenario};
+use crate::plot::units::{format_value, plain};
+use crate::scenario::Scenario;
+use crate::simulation::Unworn;
 use crate::simulation::drive::Control;
 
 /// Seconds of a day.
@@ -12,7 +13,14 @@ const DAY: f64 = 86_400.0;
 /// The closed forms of a scenario.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
-    pressed: Pressed,
+    /// d, m.
+    depth: f64,
+    /// a, m.
+    radius: f64,
+    /// F_z, N.
+    force: f64,
+    /// F_z/(π a²), Pa.
+    mean_pressure: f64,
     is_ball: bool,
     /// The amplitude from which the whole contact slips, m.
     threshold: f64,
@@ -22,27 +30,31 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// What is known of a scenario; `None` where its bodies never touch or nothing is moved by a displacement.
+    /// What is known of a scenario; `None` where nothing is moved by a displacement.
     pub fn of(scenario: &Scenario) -> Option<Self> {
         let setup = scenario.setup();
         let Some(Control::Displacement(shift)) = setup.drive.tangential() else {
             return None;
         };
-        let pressed = Pressed::of(&setup.indenter, &setup.material, &setup.drive)?;
+        let unworn = Unworn::of(setup);
+        let depth = unworn.deepest();
         Some(Self {
+            depth,
+            radius: unworn.radius(depth),
+            force: unworn.force(depth),
+            mean_pressure: unworn.mean_pressure(depth),
             is_ball: matches!(setup.indenter, Indenter::Paraboloid { .. }),
             // By Ciavarella and Jäger: u_t = (μ E*/G*) d, whatever the shape.
-            threshold: pressed.depth / setup.material.stick_ratio(),
+            threshold: depth / setup.material.stick_ratio(),
             amplitude: shift.amplitude(),
             frequency: shift.angular_frequency() / std::f64::consts::TAU,
-            pressed,
         })
     }
 
     /// Size and pressure of the unworn contact.
     pub fn contact(&self) -> String {
-        let value = |value: f64, unit: &str| format_value_in(value, unit, 3, false);
-        let mean = self.pressed.mean_pressure();
+        let value = |value: f64, unit: &str| format_value(value, unit, 3);
+        let mean = self.mean_pressure;
         let (what, pressure, place) = match self.is_ball {
             // Hertz: p0 = 3/2 of the mean.
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
@@ -50,16 +62,16 @@ impl Forecast {
         };
         format!(
             "contact radius {}, depth {}, load {}, {what} {}{place}",
-            value(self.pressed.radius, "m"),
-            value(self.pressed.depth, "m"),
-            value(self.pressed.force, "N"),
+            value(self.radius, "m"),
+            value(self.depth, "m"),
+            value(self.force, "N"),
             value(pressure, "Pa"),
         )
     }
 
     /// The regime that the unworn contact is in.
     pub fn regime(&self) -> String {
-        let threshold = format_value_in(self.threshold, "m", 3, false);
+        let threshold = format_value(self.threshold, "m", 3);
         let share = self.amplitude / self.threshold;
         if share >= 1.0 {
             return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
@@ -99,9 +111,9 @@ mod tests {
     fn the_contact_is_that_of_hertz() {
         let found = forecast(&["motion.normal.amplitude=0"]);
         // a = √(R d), F = 4/3 E* √R d^1.5, p0 = 2 E* √(d/R)/π.
-        assert!((found.pressed.radius / 1e-4 - 1.0).abs() < 1e-3);
+        assert!((found.radius / 1e-4 - 1.0).abs() < 1e-3);
         let peak = 2.0 * 2.3077e11 * 1e-2 / std::f64::consts::PI;
-        let found = 1.5 * found.pressed.mean_pressure();
+        let found = 1.5 * found.mean_pressure;
         assert!((found / peak - 1.0).abs() < 2e-3, "{found}");
     }
 

@@ -316,11 +316,9 @@ impl Job<'_> {
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
         let rows = self.directory.rows();
-        let mut outcome = self.directory.write_with("history.csv", |file| {
-            let mut out = io::BufWriter::new(file);
-            job.history.write(session, &rows, &mut out)?;
-            out.flush()
-        });
+        let mut outcome = self
+            .directory
+            .write_with("history.csv", |out| job.history.write(session, &rows, out));
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
         let last_loop = is_done.then(|| job.last_loop.table(session)).flatten();

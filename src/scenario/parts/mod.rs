@@ -12,7 +12,7 @@ use toml::{Table, Value};
 
 use super::check::{self, length, show};
 use super::complete;
-use super::derive::{self, Contact};
+use super::derive;
 use super::error::{Faults, Origin, ScenarioError};
 use super::schema::{self, Parameter};
 use super::values::{self, join};
@@ -22,7 +22,7 @@ use crate::contact::scar::Scar;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
-use crate::simulation::{Integrator, Setup, Spacing};
+use crate::simulation::{Integrator, Setup, Spacing, Unworn};
 use crate::wear::{Powers, WearLaw};
 
 mod bodies;
@@ -85,7 +85,7 @@ impl Parts<'_> {
         let indenter = self.indenter()?;
         let drive = self.drive()?;
         let material = self.material()?;
-        let contact = Contact {
+        let contact = Unworn {
             indenter: &indenter,
             material: &material,
             drive: &drive,
@@ -212,7 +212,7 @@ impl Parts<'_> {
 
     /// The law of wear. Keys of the power law are judged under either law, so that the law can be
     /// switched during a run.
-    fn wear(&self, contact: &Contact) -> Result<Option<WearLaw>, ScenarioError> {
+    fn wear(&self, contact: &Unworn) -> Result<Option<WearLaw>, ScenarioError> {
         if !self.has("wear") {
             return Ok(None);
         }

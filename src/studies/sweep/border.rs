@@ -42,7 +42,7 @@ impl Border {
         let Control::Displacement(shift) = setup.drive.tangential()? else {
             return None;
         };
-        let unworn = Unworn(setup);
+        let unworn = Unworn::of(setup);
         let rig = setup.drive.rig_compliance();
         let steady = normal.oscillation().amplitude() == 0.0;
         let lowest = normal.oscillation().lowest();
@@ -102,12 +102,12 @@ mod tests {
                 material,
                 ..setup.clone()
             };
-            let found = Unworn(&setup).depth(force);
+            let found = Unworn::of(&setup).depth(force);
             assert!(
                 (found / depth - 1.0).abs() < 1e-6,
                 "{indenter:?}: {found:e} {depth:e}"
             );
-            let back = Unworn(&setup).force(depth);
+            let back = Unworn::of(&setup).force(depth);
             assert!(
                 (back / force - 1.0).abs() < 1e-6,
                 "{indenter:?}: {back:e} {force:e}"

@@ -188,8 +188,8 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     let Some(range) = range else {
         return line;
     };
-    let [low, high] = range_ends(range, quantity.unit, 3, theme.ascii());
-    line.push_span(format!("  {low} "));
+    let [low, high] = range_ends(range, quantity.unit, 3);
+    line.push_span(theme.printable(&format!("  {low} ")));
     line.extend(shades::key(theme, ColorMap::Sequential, map::sign));
     line.push_span(theme.printable(&format!(" {high}")));
     if quantity.scale == Scale::Log {

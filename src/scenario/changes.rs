@@ -1,0 +1,132 @@
+//! Changes made during a run: `[[changes]]`, and the scenario that holds after them.
+
+use serde::{Deserialize, Serialize};
+use toml::Table;
+
+use super::error::{Origin, echo};
+use super::{Refusal, Scenario, ScenarioError, assign, schema, units, values};
+
+/// Maximum number of changes of a run. Each is checked by assembling the scenario that holds from
+/// it on.
+pub const MOST_CHANGES: usize = 1_000;
+
+/// `[[changes]]`: one key that was changed during the run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// When, in cycles since the start.
+    pub at_cycle: f64,
+    /// The key and its new value, `KEY = VALUE` with the value as TOML.
+    pub set: String,
+}
+
+impl Change {
+    /// The change of `key` to `value` (as TOML, or a bare word) at `at_cycle` cycles.
+    pub fn new(at_cycle: f64, key: &str, value: &str) -> Self {
+        Self {
+            at_cycle,
+            set: format!("{key} = {value}"),
+        }
+    }
+
+    /// The dotted path of what changes.
+    pub fn key(&self) -> &str {
+        self.set.split_once('=').map_or("", |(key, _)| key.trim())
+    }
+
+    /// The new value, as TOML or as a bare word.
+    pub fn value(&self) -> &str {
+        self.set
+            .split_once('=')
+            .map_or("", |(_, value)| value.trim())
+    }
+}
+
+/// Changes in their order, those of one cycle together.
+pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]> {
+    changes.chunk_by(|a, b| a.at_cycle == b.at_cycle)
+}
+
+impl Scenario {
+    /// The scenario that holds after `changes` of one cycle, which are only right together; it has no changes of its
+    /// own. Applied to those of one cycle after the other, it gives the stages of a run.
+    pub fn after(&self, changes: &[Change]) -> Result<Self, ScenarioError> {
+        self.changed(changes, |at| echo(&changes[at].set))
+    }
+
+    /// Walks through the stages of a run, so that a change that cannot be made is found before it.
+    pub(super) fn check_changes(
+        &self,
+        changes: &[Change],
+        from: &Origin,
+    ) -> Result<(), ScenarioError> {
+        for (k, pair) in changes.windows(2).enumerate() {
+            let [before, cycle] = [&pair[0], &pair[1]].map(|change| change.at_cycle);
+            if cycle < before {
+                let at = format!("changes[{}].at_cycle", k + 1);
+                let rule = format!("must be {before} or greater: changes must be in order");
+                return Err(from.refuse(&at, &cycle.to_string(), rule));
+            }
+        }
+        let (mut stage, mut first) = (self.clone(), 0);
+        for together in at_one_cycle(changes) {
+            stage = stage.changed(together, |at| {
+                let path = format!("changes[{}].set", first + at);
+                from.place(&path, &format!("\"{}\"", echo(&together[at].set)))
+            })?;
+            first += together.len();
+        }
+        Ok(())
+    }
+
+    /// The scenario after `changes` of one cycle; `place` is what messages call each.
+    fn changed(
+        &self,
+        changes: &[Change],
+        place: impl Fn(usize) -> String,
+    ) -> Result<Self, ScenarioError> {
+        let mut origin = Origin::new(&self.origin);
+        let mut table = self.with_changes(Vec::new()).whole();
+        for (at, change) in changes.iter().enumerate() {
+            let written = place(at);
+            let (key, value) =
+                assign::split(&change.set, "").map_err(|_| assign::no_assignment(&written))?;
+            if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
+                let rule = format!("{key} cannot change during a run: {because}");
+                return Err(Refusal::new(written, rule).into());
+            }
+            assign::assign(&mut table, &mut origin, key, value, &written)?;
+        }
+        self.refuse_values_in_other_units(&table, changes, place)?;
+        Self::build(table, origin, &self.origin)
+    }
+
+    /// A control that changes measures the motion in another unit: metres that were given for the old one
+    /// must not be read as newtons.
+    fn refuse_values_in_other_units(
+        &self,
+        table: &Table,
+        changes: &[Change],
+        place: impl Fn(usize) -> String,
+    ) -> Result<(), ScenarioError> {
+        let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
+        for motion in ["motion.normal", "motion.tangential"] {
+            let key = values::join(motion, "control");
+            let [control, before] = [table, &self.table].map(|of| schema::read::<String>(of, &key));
+            let Some(at) = changes_at(&key).filter(|_| control != before) else {
+                continue;
+            };
+            for key in ["mean", "amplitude"] {
+                let path = values::join(motion, key);
+                let value: f64 = schema::read(&self.table, &path).unwrap_or(0.0);
+                if value != 0.0 && changes_at(&path).is_none() {
+                    let is_force = control.as_deref() == Some("force");
+                    let unit = units::unit_of(schema::known(&path), is_force);
+                    let rule = format!("needs {path} in {unit}, changed at the same cycle");
+                    return Err(Refusal::new(place(at), rule).into());
+                }
+            }
+        }
+        Ok(())
+    }
+}

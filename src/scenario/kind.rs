@@ -1,0 +1,177 @@
+//! What the value of a key may be: its kind, its range, its default.
+
+use std::fmt;
+
+use serde::{Deserialize, Deserializer};
+use toml::Value;
+
+use super::values::{literal, number};
+
+/// The type of a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case", bound(deserialize = "'de: 'static"))]
+pub enum Kind {
+    /// A finite number.
+    #[default]
+    Number,
+    /// A whole number.
+    Whole,
+    /// `true` or `false`.
+    Flag,
+    /// Any text.
+    Text,
+    /// One of these words.
+    Choice(#[serde(deserialize_with = "leaked")] &'static [Word]),
+    /// A list of finite numbers.
+    Numbers,
+}
+
+/// A word that a value is chosen from.
+#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Word {
+    /// The word.
+    pub word: &'static str,
+    /// What it means, in a line.
+    #[serde(default)]
+    pub(super) meaning: &'static str,
+    /// What people write in its place.
+    #[serde(default)]
+    pub(super) also: Vec<&'static str>,
+}
+
+/// A list that lives as long as the table of keys.
+fn leaked<'de: 'static, D: Deserializer<'de>>(list: D) -> Result<&'static [Word], D::Error> {
+    Ok(Vec::deserialize(list)?.leak())
+}
+
+impl Kind {
+    /// The rule as words after "must be".
+    pub fn wanted(self) -> String {
+        match self {
+            Self::Number => "a finite number".into(),
+            Self::Whole => "a whole number".into(),
+            Self::Flag => "true or false".into(),
+            Self::Text => "a text".into(),
+            Self::Choice([only]) => format!("\"{}\"", only.word),
+            Self::Choice(words) => {
+                let words = words.iter().map(|known| format!("\"{}\"", known.word));
+                format!("one of {}", words.collect::<Vec<_>>().join(", "))
+            }
+            Self::Numbers => "a list of finite numbers".into(),
+        }
+    }
+
+    /// Whether `value` is of this kind. Numbers must be finite, words known.
+    pub fn fits(self, value: &Value) -> bool {
+        let is_number = |value: &Value| number(value).is_some();
+        match self {
+            Self::Number => is_number(value),
+            Self::Whole => value.is_integer(),
+            Self::Flag => value.is_bool(),
+            Self::Text => value.is_str(),
+            Self::Choice(words) => words.iter().any(|known| value.as_str() == Some(known.word)),
+            Self::Numbers => value
+                .as_array()
+                .is_some_and(|list| list.iter().all(is_number)),
+        }
+    }
+
+    /// The words that a value is chosen from, if it is.
+    pub fn words(self) -> Option<Vec<&'static str>> {
+        match self {
+            Self::Choice(words) => Some(words.iter().map(|known| known.word).collect()),
+            Self::Flag => Some(vec!["true", "false"]),
+            _ => None,
+        }
+    }
+}
+
+/// The numbers that are allowed; for a list, each of them.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Range {
+    /// Every finite number, and whatever is no number.
+    #[default]
+    Any,
+    /// Greater than 0.
+    Positive,
+    /// 0 or greater.
+    NotNegative,
+    /// From the first to the second, both included.
+    Within(f64, f64),
+    /// Greater than 0, at most this.
+    UpTo(f64),
+    /// An angle of a flank: greater than 0 and less than π/2.
+    Acute,
+}
+
+impl Range {
+    /// Whether the number is allowed.
+    pub fn holds(self, number: f64) -> bool {
+        match self {
+            Self::Any => true,
+            Self::Positive => number > 0.0,
+            Self::NotNegative => number >= 0.0,
+            Self::Within(least, most) => (least..=most).contains(&number),
+            Self::UpTo(most) => number > 0.0 && number <= most,
+            Self::Acute => number > 0.0 && number < std::f64::consts::FRAC_PI_2,
+        }
+    }
+}
+
+/// As it stands after "must be"; nothing where every number is allowed.
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Any => Ok(()),
+            Self::Positive => f.write_str("greater than 0"),
+            Self::NotNegative => f.write_str("0 or greater"),
+            Self::Within(least, most) => {
+                let short = |end: f64| match end == 0.0 || (1e-3..1e9).contains(&end) {
+                    true => end.to_string(),
+                    false => format!("{end:e}"),
+                };
+                write!(f, "from {} to {}", short(*least), short(*most))
+            }
+            Self::UpTo(most) => write!(f, "greater than 0, at most {most}"),
+            Self::Acute => f.write_str("greater than 0 and less than pi/2"),
+        }
+    }
+}
+
+/// The default of a key.
+#[derive(Debug, PartialEq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Default {
+    /// Nothing: the key must be given where it is needed.
+    #[default]
+    None,
+    /// This TOML value, written into a scenario that is saved, since it may change between versions.
+    Written(Value),
+    /// This TOML value.
+    Implied(Value),
+    /// Depends on the rest of the scenario, as described.
+    Derived(&'static str),
+}
+
+impl Default {
+    /// The value that can be written down, if there is one.
+    pub fn value(&self) -> Option<&Value> {
+        match self {
+            Self::Written(value) | Self::Implied(value) => Some(value),
+            Self::None | Self::Derived(_) => None,
+        }
+    }
+}
+
+/// As a scenario has it, or as described.
+impl fmt::Display for Default {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => Ok(()),
+            Self::Written(value) | Self::Implied(value) => f.write_str(&literal(value)),
+            Self::Derived(words) => f.write_str(words),
+        }
+    }
+}

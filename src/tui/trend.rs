@@ -131,8 +131,6 @@ pub struct Trend {
     pub step_cost: Option<f64>,
     /// Cycle and worn volume (m³) of the first moment.
     start: Option<[f64; 2]>,
-    /// Amplitude and load of the last cycle.
-    condition: Option<[f64; 2]>,
     /// Fretting loops.
     pub loops: Loops,
 }
@@ -184,7 +182,8 @@ impl Trend {
     fn take(&mut self, moment: &Moment, [depth, radius]: [f64; 2]) -> bool {
         let [start, _] = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
         self.loops.record(moment);
-        let [amplitude, load] = self.condition.unwrap_or([f64::NAN; 2]);
+        let before = self.cycles.last().map(|last| last.values);
+        let of_last = |k: usize| before.map_or(f64::NAN, |values| values[k]);
         let now = Cycle {
             values: [
                 moment.cycle,
@@ -196,8 +195,8 @@ impl Trend {
                 moment.dissipated_energy,
                 moment.energy_residual.unwrap_or(f64::NAN),
                 self.step_cost.unwrap_or(f64::NAN),
-                amplitude,
-                load,
+                of_last(AMPLITUDE),
+                of_last(LOAD),
             ],
             fields: None,
         };
@@ -205,13 +204,12 @@ impl Trend {
             Some(open) => open.merged(&now),
             None => now,
         };
-        let merged = Arc::new(merged);
-        let before = self.cycles.last().map_or(start, |last| last.end());
+        let before = before.map_or(start, |values| values[0]);
         if merged.end() < before + self.stride.max(1.0) - 1e-9 {
-            self.open = Some(merged);
+            self.open = Some(Arc::new(merged));
             return false;
         }
-        self.cycles.push(merged);
+        self.cycles.push(Arc::new(merged));
         if self.cycles.len() >= CAPACITY {
             let pairs = self.cycles.chunks(2).map(|pair| match pair {
                 [one, other] => Arc::new(one.merged(other)),
@@ -225,10 +223,10 @@ impl Trend {
 
     /// Notes the end of the last entry, which is the moment that is read.
     fn end(&mut self, reading: &Reading) {
-        let condition = [AMPLITUDE, LOAD].map(|k| reading.number(COLUMNS[k].0));
-        self.condition = Some(condition);
         if let Some(entry) = self.cycles.last_mut().map(Arc::make_mut) {
-            [entry.values[AMPLITUDE], entry.values[LOAD]] = condition;
+            for k in [AMPLITUDE, LOAD] {
+                entry.values[k] = reading.number(COLUMNS[k].0);
+            }
             entry.fields = Some(Arc::new(history::fields(reading)));
         }
     }

@@ -7,11 +7,10 @@
 
 use std::time::{Duration, Instant};
 
-use super::frame::Comparison;
 use super::trend::Recorded;
 use crate::math::abel::AbelMethod;
-use crate::math::grid::MIN_CELLS;
-use crate::reading::Curves;
+use crate::math::grid::{MIN_CELLS, RadialGrid};
+use crate::reading::{Curves, Observation};
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Difference, Outcome};
 
@@ -138,22 +137,31 @@ impl ComparisonRun {
         })
     }
 
-    /// Method and cells.
-    pub fn name(&self) -> String {
-        let setup = self.beside.run.simulation().setup();
-        format!("{}, N = {}", setup.method.spoken(), setup.grid.cells())
-    }
-
     /// The part that the screen shows.
     pub fn seen(&self) -> Comparison {
         let simulation = self.beside.run.simulation();
         Comparison {
-            name: self.name(),
             observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
             step_cost: self.beside.step_cost(),
             stopped: self.beside.stopped.clone(),
         }
     }
+}
+
+/// A second run in lockstep with the first.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Its curves and scalars.
+    pub observation: Observation,
+    /// Its time per step, s.
+    pub step_cost: Option<f64>,
+    /// Why it stopped, if it did.
+    pub stopped: Option<String>,
+}
+
+/// What two runs are told apart by: method and cells.
+pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
+    format!("{}, N = {}", method.spoken(), grid.cells())
 }
 
 /// What a run can be compared with: every other method, and itself on half the cells.

@@ -3,6 +3,7 @@
 
 use std::sync::{Arc, Mutex};
 
+use super::beside::Comparison;
 use super::locked;
 use super::settings::Setting;
 use crate::charts::Run;
@@ -24,19 +25,6 @@ pub enum Activity {
     Done,
     /// Failed, with the reason.
     Stopped(String),
-}
-
-/// A second run in lockstep with the first.
-#[derive(Debug, Clone)]
-pub struct Comparison {
-    /// Method and cells.
-    pub name: String,
-    /// Its curves and scalars.
-    pub observation: Observation,
-    /// Its time per step, s.
-    pub step_cost: Option<f64>,
-    /// Why it stopped, if it did.
-    pub stopped: Option<String>,
 }
 
 /// Everything that the screen shows of the simulation.

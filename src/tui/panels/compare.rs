@@ -5,7 +5,7 @@ use super::*;
 use crate::charts::{A, C, Live, Symbols, ghosts};
 use crate::plot::{Axis, Curve, nice_bounds};
 use crate::traces::Axes;
-use crate::tui::frame::Comparison;
+use crate::tui::beside::{Comparison, name_of};
 
 /// Least width of a column of numbers, cells.
 const COLUMN: usize = 11;
@@ -41,7 +41,9 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canva
         points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());
         curve.errors.clear();
     }
-    let rows = rows(frame, comparison, &differences[differences.len() - 1].ys);
+    let names = [seen, other].map(|seen| name_of(seen.method, &seen.grid));
+    let difference = &differences[differences.len() - 1].ys;
+    let rows = rows(frame, comparison, &names, difference);
     let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
     let widths = cells.map(|cell| cell.chars().count());
     let column = widths.fold(COLUMN, usize::max);
@@ -53,12 +55,11 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canva
         true => [Rect::ZERO, bottom],
         false => columns.spacing(1).areas(bottom),
     };
-    let names = (this_name(frame), comparison.name.as_str());
     let mut render = |chart: &Chart, place| canvas.at(place).plot(chart, Role::Title, cursor);
     let pair = |there: &[f64], here: &[f64], role| {
         [
-            Curve::new(&*names.0, &seen.radii[..], here, role),
-            Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
+            Curve::new(&*names[0], &seen.radii[..], here, role),
+            Curve::new(&*names[1], &other.radii[..], there, Role::Slip).dashed(),
         ]
     };
     let mut profiles = Chart::new("3D profile", Axis::new("r", "m"), Axis::new("f", "m"))
@@ -105,15 +106,11 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canva
     }
 }
 
-fn this_name(frame: &Frame) -> String {
-    let (method, nodes) = (frame.observation.method, frame.observation.radii.len());
-    format!("{}, N = {}", method.spoken(), nodes - 1)
-}
-
 /// The numbers of both runs: a name and the two values.
 fn rows(
     frame: &Frame,
     comparison: &Comparison,
+    [here, there]: &[String; 2],
     difference: &[f64],
 ) -> Vec<(&'static str, String, String)> {
     let moments = [&frame.observation.moment, &comparison.observation.moment];
@@ -129,7 +126,7 @@ fn rows(
     let residual = |moment: &Moment| Some(format_number(moment.energy_residual?, 2));
     let costs = [frame.step_cost, comparison.step_cost];
     vec![
-        ("", this_name(frame), comparison.name.clone()),
+        ("", here.clone(), there.clone()),
         both("stick c", "m", |moment| moment.permanent_stick_radius),
         both("contact a", "m", |moment| Some(moment.contact_radius)),
         both("wear volume", "m³", |moment| Some(moment.wear_volume)),

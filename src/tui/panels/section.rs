@@ -116,8 +116,7 @@ impl Section<'_> {
         if !has_blocks(&self.app.theme) {
             return self.plain(cut, column, top);
         }
-        let half = self.half;
-        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * half / PARTS as f64;
+        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * self.half / PARTS as f64;
         let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.thick));
         // The two that have most of the cell, in their order.
         let mut runs: Vec<&[Matter]> = matter.chunk_by(PartialEq::eq).collect();
@@ -126,35 +125,32 @@ impl Section<'_> {
             runs.remove(least.unwrap_or(0));
         }
         let (upper, lower) = (runs[0], runs[runs.len() - 1]);
+        let ink = |place, matter| self.ink(cut, column, place, matter);
+        let above = ink(part(0), upper[0]);
         if upper[0] != lower[0] {
             let count = lower.len() * PARTS / (lower.len() + upper.len());
             let block = LOWER[count.clamp(1, PARTS - 1)];
-            let above = self.ink(cut, column, part(0), upper[0]);
-            return match self.ink(cut, column, part(PARTS - 1), lower[0]) {
+            return match ink(part(PARTS - 1), lower[0]) {
                 // Air has the colour of the screen, which nobody knows: the block is cut out of the other.
-                None => (block, ink(above).add_modifier(Modifier::REVERSED)),
-                below => (block, ground(ink(below), above)),
+                None => (block, colors(above, None).add_modifier(Modifier::REVERSED)),
+                below => (block, colors(below, above)),
             };
         }
-        let color = self.ink(cut, column, part(0), upper[0]);
         match upper[0] {
             Matter::HalfSpace => {
-                let at =
-                    |halves: f64| self.ink(cut, column, top - halves * half, Matter::HalfSpace);
-                match [at(0.5), at(1.5)] {
+                let [upper, lower] = [0.5, 1.5].map(|at| ink(top - at * self.half, upper[0]));
+                match upper == lower && upper.is_some() {
                     // A blank: a byte instead of three, and one colour to change.
-                    [upper, lower] if upper == lower && upper.is_some() => {
-                        (' ', ground(Style::new(), upper))
-                    }
-                    [upper, lower] => ('▀', ground(ink(upper), lower)),
+                    true => (' ', colors(None, upper)),
+                    false => ('▀', colors(upper, lower)),
                 }
             }
             Matter::Worn => {
-                let style = ground(ink(color), color);
-                ('╱', style.patch(self.app.theme.style(Role::Profile)))
+                let hatching = self.app.theme.style(Role::Profile);
+                ('╱', colors(above, above).patch(hatching))
             }
-            Matter::Indenter => ('█', ink(color)),
-            _ => (' ', ground(Style::new(), color)),
+            Matter::Indenter => ('█', colors(above, None)),
+            _ => (' ', colors(None, above)),
         }
     }
 
@@ -238,10 +234,11 @@ fn color(theme: &Theme, sixteen: Color, [dark, light]: [u8; 2]) -> Color {
     }
 }
 
-fn ink(color: Option<Color>) -> Style {
-    color.map_or(Style::new(), |color| Style::new().fg(color))
-}
-
-fn ground(style: Style, color: Option<Color>) -> Style {
-    color.map_or(style, |color| style.bg(color))
+/// A style of these colours, where there are some.
+fn colors(fg: Option<Color>, bg: Option<Color>) -> Style {
+    Style {
+        fg,
+        bg,
+        ..Style::new()
+    }
 }

@@ -33,10 +33,11 @@ pub(super) fn mark(session: &Session) -> Mark {
 
 impl ScreenAutosave {
     /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the
-    /// end if `None`.
-    pub fn new(directory: PathBuf, every: Option<Duration>, session: &Session) -> Self {
+    /// end if `None`; without a directory nothing is saved.
+    pub fn new(directory: Option<PathBuf>, every: Option<Duration>, session: &Session) -> Self {
+        let every = every.filter(|_| directory.is_some());
         Self {
-            autosave: Autosave::new(None, Some(directory), every),
+            autosave: Autosave::new(None, directory, every),
             kept: mark(session),
             copy: Recent::new(session.clone()),
             is_finished: false,
@@ -98,9 +99,8 @@ impl ScreenAutosave {
 
     /// Saves a session; returns a message when that begins to fail.
     fn save(&mut self, session: &Session) -> Option<String> {
-        let word = self
-            .autosave
-            .save(session, &checkpoint::encode(session, None::<&()>));
+        let checkpoint = checkpoint::encode(session, None::<&()>);
+        let word = self.autosave.save(session, &checkpoint);
         if self.autosave.failure().is_none() {
             self.kept = mark(session);
         }

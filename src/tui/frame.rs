@@ -9,8 +9,8 @@ use super::settings::Setting;
 use crate::charts::Run;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, CycleFigures, Observation, Passed};
-use crate::scenario::Scenario;
 use crate::scenario::session::Session;
+use crate::scenario::{Change, Scenario};
 use crate::studies::refinement::Difference;
 use crate::studies::theory::Theory;
 
@@ -50,8 +50,8 @@ pub struct Frame {
     pub step_cost: Option<f64>,
     /// The cycle of the present, while the screen shows a state of the past.
     pub present: Option<f64>,
-    /// The changes of the run up to the present: the cycle of each, and `KEY = VALUE`.
-    pub changes: Vec<(f64, String)>,
+    /// The changes of the run up to the present.
+    pub changes: Vec<Change>,
     /// The cycles at which snapshots were written.
     pub snapshots: Vec<f64>,
     /// The load on the half-space, where its stresses are shown.
@@ -89,8 +89,6 @@ impl Slot {
 pub struct Facts {
     /// The scenario that the run follows now.
     pub scenario: Scenario,
-    /// Where the scenario's plan ends, cycles.
-    pub planned_cycles: Option<f64>,
     /// About the deepest wear at the planned end of the scenario as it was loaded, m; 0 where it is not known. An
     /// edit does not change it: wear is drawn by one factor from the start of a run to its end.
     pub expected_wear: f64,
@@ -108,12 +106,10 @@ impl Facts {
     /// Those of the scenario that `session` runs now.
     pub fn of(session: &Session) -> Arc<Self> {
         let scenario = session.scenario();
-        let planned_cycles = session.loaded().run().cycles;
         let loaded = session.loaded().setup();
-        let expected_wear = Theory::of(loaded).expected_wear(loaded, planned_cycles);
+        let expected_wear = Theory::of(loaded).expected_wear(loaded, scenario.run().cycles);
         Arc::new(Self {
             scenario: scenario.clone(),
-            planned_cycles,
             expected_wear: expected_wear.unwrap_or(0.0),
             settings: Setting::all(scenario),
             warnings: session.warnings(),

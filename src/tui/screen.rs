@@ -117,7 +117,7 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
     let mut cycle = format!("cycle {:.2}", moment.cycle);
     let mut widest = "cycle 0000.00".len();
-    if let Some(planned) = frame.facts.planned_cycles {
+    if let Some(planned) = frame.facts.scenario.run().cycles {
         cycle.push_str(&format!("/{planned}"));
         widest = format!("cycle {planned:.2}/{planned}").len();
     }

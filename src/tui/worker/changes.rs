@@ -120,9 +120,8 @@ impl Worker {
     /// Another run takes the place of this one: one that begins, or goes on from a state that was read.
     pub fn replace_run(&mut self, run: Recorded) {
         self.keep();
-        if let Some(keeping) = &self.keeping {
-            locked(keeping).turn_over(&self.past.line(&self.run).session, &run.session);
-        }
+        let left = &self.past.line(&self.run).session;
+        locked(&self.autosave).turn_over(left, &run.session);
         self.past.leave();
         self.snapshots.clear();
         self.run = run;

@@ -44,7 +44,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canva
     let names = [seen, other].map(|seen| name_of(seen.method, &seen.grid));
     let difference = &differences[differences.len() - 1].ys;
     let rows = rows(frame, comparison, &names, difference);
-    let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
+    let cells = rows.iter().flat_map(|(_, cells)| cells);
     let widths = cells.map(|cell| cell.chars().count());
     let column = widths.fold(COLUMN, usize::max);
     // The numbers must not be cut; the difference gets the rest, if that is wide enough.
@@ -79,12 +79,9 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canva
     render(&pressures, right);
     let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
     if highest == 0.0 {
-        let words = ["equal so far", "C: from the start"];
         let mut canvas = canvas.at(below);
         let mut inside = canvas.titled(DIFFERENCE, Role::Title);
-        for (text, row) in words.iter().zip(inside.area.rows()) {
-            inside.at(row).say(text, Role::Quiet);
-        }
+        inside.say("equal so far\nC: from the start", Role::Quiet);
     } else {
         // Six decades: what lies below is rounding.
         let decade = highest.log10().ceil();
@@ -99,41 +96,35 @@ pub fn draw(frame: &Frame, comparison: &Comparison, app: &App, mut canvas: Canva
     let mut inside = canvas.titled("side by side", Role::Title);
     let lines = rows
         .iter()
-        .map(|(name, here, there)| format!("{name:14} {here:>column$} {there:>column$}"));
-    let lines = lines.chain(comparison.stopped.clone());
-    for (line, row) in lines.zip(inside.area.rows()) {
-        inside.at(row).say(&line, Role::Quiet);
-    }
+        .map(|(name, [here, there])| format!("{name:14} {here:>column$} {there:>column$}"));
+    let lines: Vec<String> = lines.chain(comparison.stopped.clone()).collect();
+    inside.say(&lines.join("\n"), Role::Quiet);
 }
 
 /// The numbers of both runs: a name and the two values.
 fn rows(
     frame: &Frame,
     comparison: &Comparison,
-    [here, there]: &[String; 2],
+    names: &[String; 2],
     difference: &[f64],
-) -> Vec<(&'static str, String, String)> {
+) -> [(&'static str, [String; 2]); 7] {
     let moments = [&frame.observation.moment, &comparison.observation.moment];
-    let value = |value: f64, unit: &str| format_value(value, unit, 4);
-    let maybe = |number: Option<f64>, unit: &str| number.map(|number| value(number, unit));
-    let row = |name, values: [Option<String>; 2]| {
-        let [here, there] = values.map(|value| value.unwrap_or_else(|| "-".into()));
-        (name, here, there)
-    };
-    let both = |name, unit: &str, of: fn(&Moment) -> Option<f64>| {
-        row(name, moments.map(|moment| maybe(of(moment), unit)))
-    };
+    let value = |value: Option<f64>, unit| Some(format_value(value?, unit, 4));
+    let both = |of: fn(&Moment) -> Option<f64>, unit| moments.map(|at| value(of(at), unit));
     let residual = |moment: &Moment| Some(format_number(moment.energy_residual?, 2));
     let costs = [frame.step_cost, comparison.step_cost];
-    vec![
-        ("", here.clone(), there.clone()),
-        both("stick c", "m", |moment| moment.permanent_stick_radius),
-        both("contact a", "m", |moment| Some(moment.contact_radius)),
-        both("wear volume", "m³", |moment| Some(moment.wear_volume)),
-        row("1 - V/(k E_d)", moments.map(residual)),
-        row("time per step", costs.map(|cost| maybe(cost, "s"))),
-        ("rms difference", value(rms(difference), "m"), String::new()),
-    ]
+    let rms = value(Some(rms(difference)), "m");
+    let rows = [
+        ("", names.clone().map(Some)),
+        ("stick c", both(|moment| moment.permanent_stick_radius, "m")),
+        ("contact a", both(|moment| Some(moment.contact_radius), "m")),
+        ("wear volume", both(|moment| Some(moment.wear_volume), "m³")),
+        ("1 - V/(k E_d)", moments.map(residual)),
+        ("time per step", costs.map(|cost| value(cost, "s"))),
+        ("rms difference", [rms, Some(String::new())]),
+    ];
+    let cell = |value: Option<String>| value.unwrap_or_else(|| "-".into());
+    rows.map(|(name, values)| (name, values.map(cell)))
 }
 
 /// Root mean square of differences; 0 of none.

@@ -123,9 +123,8 @@ impl ComparisonRun {
             }
             From::Start => {
                 let run = session.as_run(Vec::new());
-                let changes = run.changes().iter();
-                let others = changes.filter(|change| change.key() != *key).cloned();
-                let others = others.collect();
+                let mut others = run.changes().to_vec();
+                others.retain(|change| change.key() != *key);
                 let scenario = run.with_changes(Vec::new()).with(key, value)?;
                 Session::start(scenario.with_changes(others))?
             }
@@ -167,17 +166,14 @@ pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
 /// What a run can be compared with: every other method, and itself on half the cells.
 fn choices(session: &Session) -> Vec<(&'static str, String)> {
     let setup = session.simulation().setup();
-    let others = AbelMethod::ALL
-        .into_iter()
-        .filter(|method| *method != setup.method);
-    let mut list: Vec<_> = others
-        .map(|method| ("numerics.method", format!("\"{method}\"")))
-        .collect();
+    let mut others = AbelMethod::ALL.to_vec();
+    others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
-    list.sort_by_key(|(_, value)| value != "\"b\"");
+    others.sort_by_key(|method| *method != AbelMethod::B);
+    let change = |method| ("numerics.method", format!("\"{method}\""));
     let half = (setup.grid.cells() / 2).max(MIN_CELLS);
-    list.push(("numerics.points", half.to_string()));
-    list
+    let half = ("numerics.points", half.to_string());
+    others.into_iter().map(change).chain([half]).collect()
 }
 
 /// The run is this many times longer at the next comparison.

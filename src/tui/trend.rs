@@ -156,11 +156,11 @@ impl Trend {
         }
     }
 
-    /// Its memory beside that of an earlier one, with which it shares its first cycles or none; bytes.
-    pub fn bytes_beside(&self, earlier: Option<&Self>) -> usize {
+    /// Its memory beside that of another one, with which it shares its first cycles or none; bytes.
+    pub fn bytes_beside(&self, other: Option<&Self>) -> usize {
         let first = |trend: &Self| trend.cycles.first().map(Arc::as_ptr);
-        let earlier = earlier.filter(|earlier| first(earlier) == first(self));
-        let shared = earlier.map_or(0, |earlier| earlier.cycles.len());
+        let other = other.filter(|other| first(other) == first(self));
+        let shared = other.map_or(0, |other| other.cycles.len());
         let fields = 32 * history::COLUMNS.len();
         let own = self.cycles.len().saturating_sub(shared) * (size_of::<Cycle>() + fields);
         let places = size_of::<Arc<Cycle>>() * self.cycles.len();

@@ -22,10 +22,8 @@ const LONGEST: u16 = 54;
 
 /// The picture and the rows of its captions.
 pub fn beside(area: Rect) -> [Rect; 2] {
-    let rows = match area.width >= ROOMY[0] && area.height >= ROOMY[1] {
-        true => ROWS,
-        false => 0,
-    };
+    let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
+    let rows = ROWS * u16::from(is_roomy);
     Layout::vertical([Constraint::Min(0), Constraint::Length(rows)]).areas(area)
 }
 
@@ -37,10 +35,8 @@ fn speed(frame: &Frame) -> Option<f64> {
     let fastest = steps.clone().map(f64::abs).fold(0.0, f64::max);
     // Rounding is no motion.
     let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
-    steps
-        .next_back()
-        .filter(|_| is_seen)
-        .map(|step| step / fastest)
+    let last = steps.next_back().filter(|_| is_seen)?;
+    Some(last / fastest)
 }
 
 /// What the contact does at the moment, for someone who has never heard of fretting; the same in capitals, for

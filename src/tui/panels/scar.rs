@@ -69,9 +69,8 @@ fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
-    let held = app.charts.bounds(Panel::Scar);
-    let deepest = held.map_or(0.0, |[_, high]| high);
-    let deepest = match deepest.max(largest(&seen.wear)) {
+    let held = app.charts.bounds(Panel::Scar).map_or(0.0, |[_, high]| high);
+    let deepest = match held.max(largest(&seen.wear)) {
         0.0 => frame.facts.expected_wear,
         deepest => deepest,
     };
@@ -99,12 +98,10 @@ fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
 /// Where the sliding parts of the indenter move: with the traction that they exert.
 fn slip_direction(frame: &Frame) -> Option<f64> {
     let seen = &frame.observation;
-    let moment = &seen.moment;
-    let slips = moment.stick_radius? < moment.contact_radius;
-    let (load, ring) = (&seen.tangential_load, &seen.radii);
-    let outermost = (0..load.len().min(ring.len())).rev();
-    let mut loaded = outermost.filter(|&j| ring[j] < moment.contact_radius && load[j] != 0.0);
-    loaded.next().filter(|_| slips).map(|j| load[j].signum())
+    let (a, stick) = (seen.moment.contact_radius, seen.moment.stick_radius?);
+    let mut outermost_first = seen.radii.iter().zip(&seen.tangential_load).rev();
+    let (_, load) = outermost_first.find(|(r, load)| **r < a && **load != 0.0)?;
+    (stick < a).then(|| load.signum())
 }
 
 /// The lines of the legend.

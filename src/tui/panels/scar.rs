@@ -77,19 +77,17 @@ fn draw(frame: &Frame, app: &App, role: Role, mut canvas: Canvas) {
     // Half a cell is about as high as a cell is wide.
     let across = f64::from(disc.width.min(2 * disc.height));
     let size = 2.0 * edge / across;
-    let x = |column: u16| (f64::from(column) + 0.5 - f64::from(disc.width) / 2.0) * size;
-    let y = |half: u16| (f64::from(half) + 0.5 - f64::from(disc.height)) * size;
-    for row in 0..disc.height {
-        for column in 0..disc.width {
-            let halves = [2 * row, 2 * row + 1]
-                .map(|half| shown(frame, &theme, deepest, [x(column), y(half)]));
-            let Some(cell) = canvas.cell(column, row) else {
-                continue;
-            };
-            match has_blocks(&theme) {
-                true => paint_halves(cell, halves.map(|(color, _)| color)),
-                false => _ = cell.set_char(halves[0].1),
-            }
+    for at in disc.positions() {
+        let (column, row) = (f64::from(at.x - disc.x), f64::from(at.y - disc.y));
+        let x = (column + 0.5 - f64::from(disc.width) / 2.0) * size;
+        let halves = [0.5, 1.5].map(|half| {
+            let y = (2.0 * row + half - f64::from(disc.height)) * size;
+            shown(frame, &theme, deepest, [x, y])
+        });
+        let cell = &mut canvas.buffer[at];
+        match has_blocks(&theme) {
+            true => paint_halves(cell, halves.map(|(color, _)| color)),
+            false => _ = cell.set_char(halves[0].1),
         }
     }
     legend(frame, [size, deepest], canvas);

@@ -17,7 +17,8 @@
 
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
 use super::*;
-use crate::charts::U_X;
+use crate::charts::{U_X, look_of};
+use crate::reading::Zone;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -54,11 +55,10 @@ impl Matter {
     /// Its colour, and a whole cell of it, in Unicode and in ASCII.
     fn look(self) -> (Role, [char; 2]) {
         match self {
+            Self::Contact(zone) => (look_of(zone).0, ['▀', look_of(zone).1]),
             Self::Air => (Role::Quiet, [' ', ' ']),
             Self::Indenter => (Role::Profile, ['█', '#']),
             Self::Worn => (Role::Notice, ['╱', '/']),
-            Self::Stick => (Role::Stick, ['▀', 's']),
-            Self::Slip => (Role::Slip, ['▀', '~']),
             Self::HalfSpace => (Role::Open, ['░', '.']),
         }
     }
@@ -74,9 +74,8 @@ impl Section<'_> {
             for row in 0..area.height {
                 let top = self.high - 2.0 * f64::from(row) * self.half;
                 let (glyph, style) = self.cell(&cut, usize::from(column), top);
-                if let Some(cell) = canvas.cell(column, row) {
-                    cell.set_char(glyph).set_style(style);
-                }
+                let cell = &mut canvas.buffer[(area.x + column, area.y + row)];
+                cell.set_char(glyph).set_style(style);
             }
         }
     }
@@ -172,11 +171,11 @@ impl Section<'_> {
                 None => theme.style(Role::Open).fg,
             },
             // What slips glows.
-            Matter::Slip => {
+            Matter::Contact(Zone::Slip) => {
                 let plain = theme.style(Role::Slip).fg?;
                 Some(color(theme, plain, [208, 202]))
             }
-            Matter::Stick => theme.style(Role::Stick).fg,
+            Matter::Contact(zone) => theme.style(look_of(zone).0).fg,
         }
     }
 
@@ -190,10 +189,9 @@ impl Section<'_> {
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         let (theme, half) = (&self.app.theme, self.half);
         let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
-        let is_contact = matches!(lower, Matter::Stick | Matter::Slip);
-        let shown = match is_contact && theme.ascii() {
-            true => lower,
-            false => upper,
+        let shown = match lower {
+            Matter::Contact(_) if theme.ascii() => lower,
+            _ => upper,
         };
         if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
             return (shades::sign(shade), Style::new());

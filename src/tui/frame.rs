@@ -38,8 +38,8 @@ pub struct Frame {
     pub observation: Observation,
     /// What a fretting test reports of the last cycle.
     pub figures: Option<CycleFigures>,
-    /// The phase of the tangential motion at which frames are taken, degrees; `None` while the motion is shown.
-    pub phase: Option<f64>,
+    /// Whether frames are taken at the ends of cycles, phase 0 of the motion; else the motion is shown.
+    pub shows_ends: bool,
     /// What the worker does.
     pub activity: Activity,
     /// The requested pace, cycles per second; infinite without limit.

@@ -120,7 +120,7 @@ impl Worker {
             peaks,
             observation,
             figures,
-            phase: self.clock.held_phase(simulation),
+            shows_ends: self.clock.shows_ends(simulation),
             activity: self.activity.clone(),
             pace: self.clock.pace(),
             speed: self.clock.speed.filter(|_| is_running),

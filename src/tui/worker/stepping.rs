@@ -71,24 +71,21 @@ impl Worker {
                 crate::failpoint::stall("long step");
             }
             self.step();
-            if ends_cycle(before, self.run.cycle()) && self.holds_phase() && self.screen.is_due() {
+            let simulation = self.run.simulation();
+            let is_end = ends_cycle(before, simulation.cycle());
+            if is_end && self.clock.shows_ends(simulation) && self.screen.is_due() {
                 self.publish();
             }
         }
         let simulation = self.run.simulation();
         self.clock.measure(simulation, start.elapsed());
         let cycle = simulation.cycle();
+        let waits = self.clock.shows_ends(simulation) && !self.screen.is_due_after(AT_LEAST);
         self.run.trend.step_cost = self.clock.step_cost;
         self.companions.follow_with_twin(cycle, TWIN_STINT);
-        let waits = self.holds_phase() && !self.screen.is_due_after(AT_LEAST);
         if self.screen.is_due() && !waits || self.activity != Activity::Running {
             self.publish();
         }
-    }
-
-    /// Whether frames are taken at the ends of cycles.
-    fn holds_phase(&self) -> bool {
-        self.clock.held_phase(self.run.simulation()).is_some()
     }
 
     fn step(&mut self) {

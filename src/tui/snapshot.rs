@@ -138,6 +138,6 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let [cycles, shifts, forces] =
         ["cycle", "u_m", "F_N"].map(|name| steps.column(name).unwrap_or_default());
     let steps = cycles.iter().zip(shifts).zip(forces);
-    let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force]);
+    let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force, f64::NAN]);
     Some(Trend::of_past(entries, steps, initial))
 }

@@ -136,24 +136,25 @@ pub struct Trend {
 }
 
 impl Trend {
-    /// A past of `cycles`, oldest first, and of the steps of the last one: cycle, u_x⁽⁰⁾ (m), F_x (N).
-    /// The run began with a worn volume `initial` (m³).
+    /// A past of `cycles`, oldest first, and of the [steps](Loops::steps) of the last one. The run began with a worn
+    /// volume `initial` (m³).
     pub fn of_past(
         cycles: impl Iterator<Item = Cycle>,
-        steps: impl Iterator<Item = [f64; 3]>,
+        steps: impl Iterator<Item = [f64; 4]>,
         initial: f64,
     ) -> Self {
         let mut cycles: Vec<_> = cycles.take(CAPACITY - 1).map(Arc::new).collect();
         // What is not whole yet stays open.
         let whole = cycles.iter().rev().nth(1).map_or(0.0, |entry| entry.end());
         let is_open = |last: &mut Arc<Cycle>| last.end() < whole + 1.0 - 1e-9;
-        Self {
+        let mut trend = Self {
             open: cycles.pop_if(is_open),
             cycles,
             start: Some([0.0, initial]),
-            loops: Loops::of_steps(steps),
             ..Self::default()
-        }
+        };
+        trend.loops.steps.extend(steps);
+        trend
     }
 
     /// Its memory beside that of another one, with which it shares its first cycles or none; bytes.

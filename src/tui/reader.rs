@@ -83,9 +83,7 @@ impl Reader {
     fn lone_escape(&mut self) {
         self.parser = Parser::new();
         self.is_escape = false;
-        if self.found.paste.is_none() {
-            self.found.inputs.push(Input::Key(Key::Named(Named::Esc)));
-        }
+        self.found.key(Key::Named(Named::Esc));
     }
 
     /// How long to wait for more before [`rest`](Self::rest); `None`: forever.

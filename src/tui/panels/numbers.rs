@@ -33,7 +33,7 @@ fn draw(frame: &Frame, _: &App, role: Role, mut canvas: Canvas) {
     let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
-    for ((name, value), i) in rows(frame).into_iter().zip(0..columns * area.height) {
+    for ((name, value), i) in rows(frame).zip(0..columns * area.height) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
@@ -53,7 +53,7 @@ fn draw(frame: &Frame, _: &App, role: Role, mut canvas: Canvas) {
 }
 
 /// The numbers that there are at the moment: names and values.
-fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
+fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
     let (facts, moment, figures) = (&frame.facts, &frame.observation.moment, &frame.figures);
     let figures = figures.as_ref();
     let setup = facts.scenario.setup();
@@ -100,8 +100,6 @@ fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
         ("cells", Some(cells.to_string())),
         ("steps per cycle", Some(steps.to_string())),
     ];
-    let there = rows
-        .into_iter()
-        .filter_map(|(name, value)| Some((name, value?)));
-    there.collect()
+    let rows = rows.into_iter();
+    rows.filter_map(|(name, value)| Some((name, value?)))
 }

@@ -67,9 +67,7 @@ impl ScreenAutosave {
         if self.is_finished {
             return;
         }
-        if self.kept != mark(from) {
-            self.save(from);
-        }
+        self.save(from);
         self.autosave.turn_over();
         self.kept = mark(to);
         self.copy = Recent::new(to.clone());
@@ -82,10 +80,7 @@ impl ScreenAutosave {
             return None;
         }
         let copy = self.copy.get().clone();
-        let session = session.unwrap_or(&copy);
-        if self.kept != mark(session) {
-            self.save(session);
-        }
+        self.save(session.unwrap_or(&copy));
         let place = self.autosave.kept().map(|(path, cycle)| {
             let (cycle, path) = (number(cycle), shell_word(path));
             format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")
@@ -97,8 +92,11 @@ impl ScreenAutosave {
         }
     }
 
-    /// Saves a session; returns a message when that begins to fail.
+    /// Saves a session, once; returns a message when that begins to fail.
     fn save(&mut self, session: &Session) -> Option<String> {
+        if self.kept == mark(session) {
+            return None;
+        }
         let checkpoint = checkpoint::encode(session, None::<&()>);
         let word = self.autosave.save(session, &checkpoint);
         if self.autosave.failure().is_none() {

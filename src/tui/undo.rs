@@ -29,7 +29,7 @@ const TEXTS: usize = 24 << 10;
 const CHANGE: usize = 256;
 
 /// One state of the past.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Kept {
     /// The run as it was.
     pub run: Recorded,
@@ -44,9 +44,8 @@ impl Kept {
         self.run.cycle()
     }
 
-    /// An upper bound of what it holds and the state `after` it does not, in bytes: nodal values and texts, what a
-    /// merge has changed in the trend, and the operators, which a run plans again for another method or grid. What is
-    /// newest is there in any case; nothing is counted for its operators.
+    /// An upper bound of what it holds and the state `after` it does not, in bytes. A run plans its operators again for
+    /// another method or grid; those of the newest state are in use in any case.
     fn bytes(&self, after: Option<&Self>) -> usize {
         let setup = self.run.simulation().setup();
         let nodes = setup.grid.len();
@@ -93,8 +92,12 @@ impl Past {
         if self.at.is_some() || self.is_kept(run) {
             return;
         }
+        self.push(run.clone());
+    }
+
+    fn push(&mut self, run: Recorded) {
         self.kept.push(Arc::new(Kept {
-            run: run.clone(),
+            run,
             stretch: self.stretch,
             scenario: self.scenario,
         }));
@@ -193,12 +196,7 @@ impl Past {
         let is_other_run = end.scenario != from.scenario;
         self.stretch += 1;
         self.scenario += u32::from(is_other_run);
-        self.kept.push(Arc::new(Kept {
-            stretch: self.stretch,
-            scenario: self.scenario,
-            ..Kept::clone(&from)
-        }));
-        self.make_room(BUDGET);
+        self.push(from.run.clone());
         Some(Left { end, is_other_run })
     }
 

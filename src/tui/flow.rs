@@ -169,10 +169,8 @@ impl Flow {
 
     /// Whether an answer is outstanding. One that is late for too long is no longer expected.
     pub fn is_awaited(&self, now: Instant) -> bool {
-        let is_new = self
-            .opened
-            .is_some_and(|opened| now < opened + LONGEST_REST);
-        !self.unanswered.is_empty() && (self.answers() || is_new)
+        let new = self.opened.filter(|opened| now < *opened + LONGEST_REST);
+        !self.unanswered.is_empty() && (self.answers() || new.is_some())
     }
 
     /// The terminal was used by another program: outstanding answers will never come.

@@ -69,11 +69,10 @@ impl Source {
         let Some(beside) = &self.beside else {
             return Arc::clone(&self.ghost);
         };
-        let end = match beside.stopped {
-            Some(_) => format!(" (ends at {:.2})", beside.run.cycle()),
-            None => String::new(),
-        };
-        let name = format!("{}{end}", self.name());
+        let mut name = self.name().to_owned();
+        if beside.stopped.is_some() {
+            name += &format!(" (ends at {:.2})", beside.run.cycle());
+        }
         Arc::new(ghost(&name, &beside.run, curves))
     }
 }

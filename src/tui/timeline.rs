@@ -38,8 +38,8 @@ fn edit(frame: &Frame, room: usize) -> Option<String> {
     let change = latest_first.find(|change| change.at_cycle <= shown)?;
     let set = change.set.as_str();
     let whole = format!("at cycle {}: {set}", short(change.at_cycle));
-    let dots = change.key().match_indices('.');
-    let ends = dots.map(|(at, _)| &set[at + 1..]);
+    let key = set.split('=').next().unwrap_or_default();
+    let ends = key.match_indices('.').map(|(at, _)| &set[at + 1..]);
     let mut shorter = [whole.as_str(), set].into_iter().chain(ends);
     let fits = shorter.find(|text| Line::raw(*text).width() <= room);
     Some(fits.unwrap_or(set).to_owned())

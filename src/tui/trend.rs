@@ -1,5 +1,6 @@
 //! The explorer's record of a run, cycle by cycle: older ones ever more coarsely.
 
+use std::array::from_fn;
 use std::sync::Arc;
 
 use super::loops::Loops;
@@ -110,12 +111,10 @@ impl Cycle {
     }
 
     fn merged(&self, later: &Self) -> Self {
-        let mut values = later.values;
-        for (k, (_, merge)) in COLUMNS.into_iter().enumerate() {
-            values[k] = merge(self.values[k], values[k]);
+        Self {
+            values: from_fn(|k| (COLUMNS[k].1)(self.values[k], later.values[k])),
+            fields: later.fields.clone(),
         }
-        let fields = later.fields.clone();
-        Self { values, fields }
     }
 }
 

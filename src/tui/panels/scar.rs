@@ -53,8 +53,7 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
 
 /// The depths that the colours span, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
-    let wear = &frame.observation.wear;
-    let deepest = largest(wear);
+    let deepest = largest(&frame.observation.wear);
     (deepest > 0.0).then_some([0.0, deepest])
 }
 

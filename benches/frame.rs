@@ -51,7 +51,7 @@ impl Stage {
         let (orders, to_worker) = Orders::channel();
         let (sender, events) = channel();
         let interval = Duration::from_millis(100);
-        let worker = Worker::new(session, sender, interval, false);
+        let mut worker = Worker::new(session, sender, interval, false);
         thread::spawn(move || worker.serve(&to_worker));
         let (theme, frame) = (Theme::new(Look::Dark, Marker::Braille), orders.frame());
         let mut app = App::new(theme, orders.clone(), frame.expect("a worker"));

@@ -49,8 +49,9 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
     };
     let reach = run.simulation().setup().grid.radius();
-    let load = |given: &String| Source::load(given, reach).map_err(Refusal::from);
-    let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
+    let load = |given: &String| Source::load(given, reach);
+    let ghosts: Result<Vec<Source>, _> = options.overlay.iter().map(load).collect();
+    let ghosts = ghosts.map_err(|error| Refusal::from(error.to_string()))?;
     if ghosts.len() > MOST {
         let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
         bail!(Refusal::new("--overlay", rule));

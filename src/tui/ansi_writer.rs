@@ -87,23 +87,21 @@ fn way(at: Option<Position>, goal: Position) -> String {
     let Some(at) = at.filter(|at| at.y <= goal.y) else {
         return absolute;
     };
-    let along = |from: u16| match (goal.x.saturating_sub(from), from.saturating_sub(goal.x)) {
+    let along = match (goal.x.saturating_sub(at.x), at.x.saturating_sub(goal.x)) {
         (0, 0) => String::new(),
         (1, _) => "\x1b[C".to_owned(),
         (right, 0) => format!("\x1b[{right}C"),
         (_, back) => "\x08".repeat(usize::from(back)),
     };
+    let column = match goal.x {
+        0 => "\r".to_owned(),
+        x => format!("\x1b[{}G", x + 1),
+    };
     // In raw mode a line feed does not return.
     let down = "\n".repeat(usize::from(goal.y - at.y));
-    let ways = [
-        along(at.x),
-        format!("\r{}", along(0)),
-        format!("\x1b[{}G", goal.x + 1),
-    ];
-    let ways = ways.into_iter().map(|along| down.clone() + &along);
-    ways.chain([absolute])
-        .min_by_key(String::len)
-        .unwrap_or_default()
+    let ways = [down.clone() + &along, down + &column, absolute];
+    let shortest = ways.into_iter().min_by_key(String::len);
+    shortest.unwrap_or_default()
 }
 
 /// Whether all terminals agree on the width of a cell's sign.

@@ -5,10 +5,9 @@ use crate::plot::theme::{Depth, Look, Theme};
 
 /// The theme of this terminal, unless one was chosen.
 pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look>) -> Theme {
-    let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    let colored = colored.unwrap_or(!no_color);
+    let colored = colored.unwrap_or(variable("NO_COLOR").is_empty());
     // The console of Linux has half blocks in its fonts, but no Braille.
-    let is_console = std::env::var("TERM").is_ok_and(|term| term == "linux");
+    let is_console = variable("TERM") == "linux";
     let marker = marker.unwrap_or(match utf8_locale() {
         true if is_console => Marker::HalfBlock,
         true => Marker::Braille,
@@ -22,7 +21,6 @@ pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look
         None if light_background() => Look::Light,
         None => Look::Dark,
     };
-    let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let depth = Depth::of(&variable("COLORTERM"), &variable("TERM"));
     Theme {
         follows_background,
@@ -30,20 +28,22 @@ pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look
     }
 }
 
+/// The value of an environment variable; empty where it is not set.
+fn variable(name: &str) -> String {
+    let value = std::env::var_os(name).unwrap_or_default();
+    value.to_string_lossy().into_owned()
+}
+
 /// Whether the terminal says that its background is light: the last number of COLORFGBG.
 fn light_background() -> bool {
-    let colors = std::env::var("COLORFGBG").unwrap_or_default();
+    let colors = variable("COLORFGBG");
     matches!(colors.rsplit(';').next(), Some("7" | "15"))
 }
 
 /// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides;
 /// without any, the terminal is assumed to be a modern one.
 fn utf8_locale() -> bool {
-    ["LC_ALL", "LC_CTYPE", "LANG"]
-        .iter()
-        .find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()))
-        .is_none_or(|locale| {
-            let locale = locale.to_ascii_lowercase();
-            locale.contains("utf-8") || locale.contains("utf8")
-        })
+    let locales = ["LC_ALL", "LC_CTYPE", "LANG"].map(|name| variable(name).to_ascii_lowercase());
+    let decisive = locales.iter().find(|locale| !locale.is_empty());
+    decisive.is_none_or(|locale| locale.contains("utf-8") || locale.contains("utf8"))
 }

@@ -33,10 +33,11 @@ pub(super) fn mark(session: &Session) -> Mark {
 
 impl ScreenAutosave {
     /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the
-    /// end if `None`.
-    pub fn new(directory: PathBuf, every: Option<Duration>, session: &Session) -> Self {
+    /// end if `None`; without a directory nothing is saved.
+    pub fn new(directory: Option<PathBuf>, every: Option<Duration>, session: &Session) -> Self {
+        let every = every.filter(|_| directory.is_some());
         Self {
-            autosave: Autosave::new(None, Some(directory), every),
+            autosave: Autosave::new(None, directory, every),
             kept: mark(session),
             copy: Recent::new(session.clone()),
             is_finished: false,
@@ -66,9 +67,7 @@ impl ScreenAutosave {
         if self.is_finished {
             return;
         }
-        if self.kept != mark(from) {
-            self.save(from);
-        }
+        self.save(from);
         self.autosave.turn_over();
         self.kept = mark(to);
         self.copy = Recent::new(to.clone());
@@ -81,10 +80,7 @@ impl ScreenAutosave {
             return None;
         }
         let copy = self.copy.get().clone();
-        let session = session.unwrap_or(&copy);
-        if self.kept != mark(session) {
-            self.save(session);
-        }
+        self.save(session.unwrap_or(&copy));
         let place = self.autosave.kept().map(|(path, cycle)| {
             let (cycle, path) = (number(cycle), shell_word(path));
             format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")
@@ -96,11 +92,13 @@ impl ScreenAutosave {
         }
     }
 
-    /// Saves a session; returns a message when that begins to fail.
+    /// Saves a session, once; returns a message when that begins to fail.
     fn save(&mut self, session: &Session) -> Option<String> {
-        let word = self
-            .autosave
-            .save(session, &checkpoint::encode(session, None::<&()>));
+        if self.kept == mark(session) {
+            return None;
+        }
+        let checkpoint = checkpoint::encode(session, None::<&()>);
+        let word = self.autosave.save(session, &checkpoint);
         if self.autosave.failure().is_none() {
             self.kept = mark(session);
         }

@@ -7,11 +7,10 @@
 
 use std::time::{Duration, Instant};
 
-use super::frame::Comparison;
 use super::trend::Recorded;
 use crate::math::abel::AbelMethod;
-use crate::math::grid::MIN_CELLS;
-use crate::reading::Curves;
+use crate::math::grid::{MIN_CELLS, RadialGrid};
+use crate::reading::{Curves, Observation};
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Difference, Outcome};
 
@@ -124,9 +123,8 @@ impl ComparisonRun {
             }
             From::Start => {
                 let run = session.as_run(Vec::new());
-                let changes = run.changes().iter();
-                let others = changes.filter(|change| change.key() != *key).cloned();
-                let others = others.collect();
+                let mut others = run.changes().to_vec();
+                others.retain(|change| change.key() != *key);
                 let scenario = run.with_changes(Vec::new()).with(key, value)?;
                 Session::start(scenario.with_changes(others))?
             }
@@ -138,17 +136,10 @@ impl ComparisonRun {
         })
     }
 
-    /// Method and cells.
-    pub fn name(&self) -> String {
-        let setup = self.beside.run.simulation().setup();
-        format!("{}, N = {}", setup.method.spoken(), setup.grid.cells())
-    }
-
     /// The part that the screen shows.
     pub fn seen(&self) -> Comparison {
         let simulation = self.beside.run.simulation();
         Comparison {
-            name: self.name(),
             observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
             step_cost: self.beside.step_cost(),
             stopped: self.beside.stopped.clone(),
@@ -156,20 +147,33 @@ impl ComparisonRun {
     }
 }
 
+/// A second run in lockstep with the first.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Its curves and scalars.
+    pub observation: Observation,
+    /// Its time per step, s.
+    pub step_cost: Option<f64>,
+    /// Why it stopped, if it did.
+    pub stopped: Option<String>,
+}
+
+/// What two runs are told apart by: method and cells.
+pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
+    format!("{}, N = {}", method.spoken(), grid.cells())
+}
+
 /// What a run can be compared with: every other method, and itself on half the cells.
 fn choices(session: &Session) -> Vec<(&'static str, String)> {
     let setup = session.simulation().setup();
-    let others = AbelMethod::ALL
-        .into_iter()
-        .filter(|method| *method != setup.method);
-    let mut list: Vec<_> = others
-        .map(|method| ("numerics.method", format!("\"{method}\"")))
-        .collect();
+    let mut others = AbelMethod::ALL.to_vec();
+    others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
-    list.sort_by_key(|(_, value)| value != "\"b\"");
+    others.sort_by_key(|method| *method != AbelMethod::B);
+    let change = |method| ("numerics.method", format!("\"{method}\""));
     let half = (setup.grid.cells() / 2).max(MIN_CELLS);
-    list.push(("numerics.points", half.to_string()));
-    list
+    let half = ("numerics.points", half.to_string());
+    others.into_iter().map(change).chain([half]).collect()
 }
 
 /// The run is this many times longer at the next comparison.

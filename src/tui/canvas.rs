@@ -72,10 +72,11 @@ impl<'a> Canvas<'a> {
         widget.render(self.area, self.buffer);
     }
 
-    /// Writes a line behind a blank.
+    /// Writes lines, each behind a blank.
     pub fn say(&mut self, text: &str, role: Role) {
-        let text = format!(" {}", self.printable(text));
-        self.show(Line::styled(text, self.style(role)));
+        let line = |line| Line::styled(format!(" {}", self.printable(line)), self.style(role));
+        let lines: Text<'static> = text.lines().map(line).collect();
+        self.show(lines);
     }
 
     /// What is told, or else keys and what they do: as many of `keys` as fit, and those of `always`.
@@ -177,10 +178,7 @@ impl<'a> Canvas<'a> {
         let (theme, taken) = (self.theme, self.printable(&chart.title).chars().count());
         let lengths = [Length(taken as u16 + 2), Fill(1)];
         let [_, behind] = Layout::horizontal(lengths).areas(self.area);
-        let rule = Rect {
-            height: 1,
-            ..behind
-        };
+        let rule = Rect::new(behind.x, behind.y, behind.width, 1);
         let plot = Plot::new(chart, &theme).cursor(cursor).rule(rule);
         self.titled(&chart.title, role).show(plot);
     }

@@ -16,7 +16,6 @@ use signal_hook::iterator::Signals;
 use super::app::App;
 use super::event::Event;
 use super::explorer::Next;
-use super::flow::When;
 use super::input::{self, Waiting};
 use super::reader::Input;
 use super::terminal::{self, Screen};
@@ -92,7 +91,7 @@ fn handle_events(
     loop {
         let wait = match screen.flow.when(Instant::now()) {
             _ if !held.is_empty() => Some(Duration::ZERO),
-            When::At(then) if is_due && !is_away => {
+            Some(then) if is_due && !is_away => {
                 Some(then.saturating_duration_since(Instant::now()))
             }
             _ => None,
@@ -161,7 +160,8 @@ fn handle_events(
                 screen.take_back()?;
             }
         }
-        if !is_away && is_due && screen.flow.when(Instant::now()) == When::Now {
+        let then = screen.flow.when(Instant::now());
+        if !is_away && is_due && then.is_some_and(|then| then <= Instant::now()) {
             is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
         }
     }

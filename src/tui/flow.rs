@@ -42,17 +42,6 @@ const DRAWINGS: u32 = 2;
 /// whole screen.
 const SETTLED: Duration = Duration::from_millis(50);
 
-/// When to draw.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum When {
-    /// At once.
-    Now,
-    /// Then, unless something happens before.
-    At(Instant),
-    /// When something has happened.
-    Told,
-}
-
 /// The state of the line to the terminal.
 #[derive(Debug, Default)]
 pub struct Flow {
@@ -73,32 +62,20 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// When a drawing may be made.
-    pub fn when(&self, now: Instant) -> When {
+    /// From when on a drawing may be made, unless something happens before; `None` while the writer is busy.
+    pub fn when(&self, now: Instant) -> Option<Instant> {
         if self.unwritten > 0 {
-            return When::Told;
+            return None;
         }
         let hurries = self.hurries(now);
-        let Some(give_up) = self.give_up() else {
-            return When::Now;
+        let most = if hurries { MOST_UNDER_WAY } else { 1 };
+        let is_free = match self.hurry.filter(|_| hurries) {
+            _ if self.answers() => self.unanswered.len() < most,
+            Some((until, 1)) => return Some(until - ANSWERED + SETTLED),
+            hurry => hurry.is_some(),
         };
-        let is_free = match self.answers() {
-            true => {
-                let count = self.unanswered.len();
-                count == 0 || (hurries && count < MOST_UNDER_WAY)
-            }
-            false => match self.hurry.filter(|_| hurries) {
-                Some((until, 1)) if now < until - ANSWERED + SETTLED => {
-                    return When::At(until - ANSWERED + SETTLED);
-                }
-                hurry => hurry.is_some(),
-            },
-        };
-        if is_free || now >= give_up {
-            When::Now
-        } else {
-            When::At(give_up)
-        }
+        let give_up = self.give_up().filter(|_| !is_free);
+        Some(give_up.unwrap_or(now))
     }
 
     /// From when on an answer that has not come is taken for lost; none if nothing was sent.
@@ -192,10 +169,8 @@ impl Flow {
 
     /// Whether an answer is outstanding. One that is late for too long is no longer expected.
     pub fn is_awaited(&self, now: Instant) -> bool {
-        let is_new = self
-            .opened
-            .is_some_and(|opened| now < opened + LONGEST_REST);
-        !self.unanswered.is_empty() && (self.answers() || is_new)
+        let new = self.opened.filter(|opened| now < *opened + LONGEST_REST);
+        !self.unanswered.is_empty() && (self.answers() || new.is_some())
     }
 
     /// The terminal was used by another program: outstanding answers will never come.
@@ -216,33 +191,37 @@ mod tests {
         flow.written();
     }
 
+    fn is_free(flow: &Flow, now: Instant) -> bool {
+        flow.when(now).is_some_and(|then| then <= now)
+    }
+
     #[test]
     fn no_frame_is_sent_while_the_last_is_not_gone() {
         let (mut flow, now) = (Flow::default(), Instant::now());
-        assert_eq!(flow.when(now), When::Now);
+        assert!(is_free(&flow, now));
         sent(&mut flow, now);
         flow.answered(now);
-        assert_eq!(flow.when(now), When::Now);
+        assert!(is_free(&flow, now));
         flow.sent(now, FRAME, 1);
         // Not written, then not read.
-        assert_eq!(flow.when(now), When::Told);
+        assert_eq!(flow.when(now), None);
         flow.written();
-        assert!(matches!(flow.when(now), When::At(_)));
+        assert!(flow.when(now).is_some_and(|then| then > now));
         // A key goes first, once.
         flow.hurry(now);
-        assert_eq!(flow.when(now), When::Now);
+        assert!(is_free(&flow, now));
         sent(&mut flow, now);
-        assert!(matches!(flow.when(now), When::At(_)));
+        assert!(flow.when(now).is_some_and(|then| then > now));
         flow.answered(now);
         flow.answered(now);
-        assert_eq!(flow.when(now), When::Now);
+        assert!(is_free(&flow, now));
         // Does not wait forever for a lost answer.
         sent(&mut flow, now);
-        assert_eq!(flow.when(now + Duration::from_secs(10)), When::Now);
+        assert!(is_free(&flow, now + Duration::from_secs(10)));
         // An empty drawing needs no answer.
         flow.answered(now);
         flow.sent(now, 0, 0);
-        assert_eq!(flow.when(now), When::Now);
+        assert!(is_free(&flow, now));
     }
 
     #[test]
@@ -251,7 +230,7 @@ mod tests {
         let mut bytes = 0;
         for tenth in 0..600 {
             let now = start + Duration::from_millis(100 * tenth);
-            if flow.when(now) == When::Now {
+            if is_free(&flow, now) {
                 sent(&mut flow, now);
                 bytes += FRAME;
             }
@@ -261,7 +240,7 @@ mod tests {
         let now = start + Duration::from_secs(60);
         sent(&mut flow, now);
         flow.hurry(now);
-        assert_eq!(flow.when(now), When::Now);
+        assert!(is_free(&flow, now));
     }
     /// However many keys are pressed before the line is ever free.
     #[test]
@@ -278,13 +257,13 @@ mod tests {
         let mut seconds = 4.0;
         for _ in 0..20 {
             flow.hurry(at(seconds));
-            assert_eq!(flow.when(at(seconds)), When::Now);
+            assert!(is_free(&flow, at(seconds)));
             let room = flow.room(at(seconds)).expect("a slow line");
             assert!((240..400).contains(&room), "{room}");
             flow.sent(at(seconds), room, 1);
             flow.written();
             // The one before is read only now, and no key is answered before the line is free again.
-            assert!(matches!(flow.when(at(seconds + 1.0)), When::At(_)));
+            assert!(!is_free(&flow, at(seconds + 1.0)));
             seconds = seconds.max(5.1) + room as f64 / 600.0;
             flow.answered(at(seconds));
         }

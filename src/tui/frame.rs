@@ -3,13 +3,14 @@
 
 use std::sync::{Arc, Mutex};
 
+use super::beside::Comparison;
 use super::settings::Setting;
 use crate::charts::Run;
 use crate::panics::locked;
 use crate::reading::subsurface::{Peak, SpringLoad};
 use crate::reading::{Check, CycleFigures, Observation, Passed};
-use crate::scenario::Scenario;
 use crate::scenario::session::Session;
+use crate::scenario::{Change, Scenario};
 use crate::studies::refinement::Difference;
 use crate::studies::theory::Theory;
 
@@ -26,19 +27,6 @@ pub enum Activity {
     Stopped(String),
 }
 
-/// A second run in lockstep with the first.
-#[derive(Debug, Clone)]
-pub struct Comparison {
-    /// Method and cells.
-    pub name: String,
-    /// Its curves and scalars.
-    pub observation: Observation,
-    /// Its time per step, s.
-    pub step_cost: Option<f64>,
-    /// Why it stopped, if it did.
-    pub stopped: Option<String>,
-}
-
 /// Everything that the screen shows of the simulation.
 #[derive(Debug, Clone)]
 pub struct Frame {
@@ -50,8 +38,8 @@ pub struct Frame {
     pub observation: Observation,
     /// What a fretting test reports of the last cycle.
     pub figures: Option<CycleFigures>,
-    /// The phase of the tangential motion at which frames are taken, degrees; `None` while the motion is shown.
-    pub phase: Option<f64>,
+    /// Whether frames are taken at the ends of cycles, phase 0 of the motion; else the motion is shown.
+    pub shows_ends: bool,
     /// What the worker does.
     pub activity: Activity,
     /// The requested pace, cycles per second; infinite without limit.
@@ -62,8 +50,8 @@ pub struct Frame {
     pub step_cost: Option<f64>,
     /// The cycle of the present, while the screen shows a state of the past.
     pub present: Option<f64>,
-    /// The changes of the run up to the present: the cycle of each, and `KEY = VALUE`.
-    pub changes: Vec<(f64, String)>,
+    /// The changes of the run up to the present.
+    pub changes: Vec<Change>,
     /// The cycles at which snapshots were written.
     pub snapshots: Vec<f64>,
     /// The load on the half-space, where its stresses are shown.
@@ -101,8 +89,6 @@ impl Slot {
 pub struct Facts {
     /// The scenario that the run follows now.
     pub scenario: Scenario,
-    /// Where the scenario's plan ends, cycles.
-    pub planned_cycles: Option<f64>,
     /// About the deepest wear at the planned end of the scenario as it was loaded, m; 0 where it is not known. An
     /// edit does not change it: wear is drawn by one factor from the start of a run to its end.
     pub expected_wear: f64,
@@ -120,12 +106,10 @@ impl Facts {
     /// Those of the scenario that `session` runs now.
     pub fn of(session: &Session) -> Arc<Self> {
         let scenario = session.scenario();
-        let planned_cycles = session.loaded().run().cycles;
         let loaded = session.loaded().setup();
-        let expected_wear = Theory::of(loaded).expected_wear(loaded, planned_cycles);
+        let expected_wear = Theory::of(loaded).expected_wear(loaded, scenario.run().cycles);
         Arc::new(Self {
             scenario: scenario.clone(),
-            planned_cycles,
             expected_wear: expected_wear.unwrap_or(0.0),
             settings: Setting::all(scenario),
             warnings: session.warnings(),

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::beside::Beside;
 use super::trend::Recorded;
 use crate::reading::Curves;
-use crate::scenario::Scenario;
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Scenario, ScenarioError};
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
 
@@ -28,25 +28,20 @@ impl Source {
     /// directory or a CSV file, or else a scenario.
     ///
     /// # Errors
-    /// One line.
-    pub fn load(given: &str, reach: f64) -> Result<Self, String> {
+    /// What cannot be read, is refused as measured data, or cannot be run.
+    pub fn load(given: &str, reach: f64) -> Result<Self, SessionError> {
         let path = Path::new(given);
-        let is_scenario = path
-            .extension()
-            .is_none_or(|end| end.eq_ignore_ascii_case("toml"));
-        if is_scenario && !path.is_dir() {
-            let scenario = Scenario::load(given, &[]).map_err(|error| error.to_string())?;
-            let resolved = refinement::resolve_soon(&scenario);
-            let resolved = resolved.map_err(|error| error.to_string())?;
-            let start = Session::start(resolved.scenario).map_err(|error| error.to_string())?;
+        let ending = path.extension();
+        if ending.is_none_or(|end| end.eq_ignore_ascii_case("toml")) && !path.is_dir() {
+            let scenario = Scenario::load(given, &[])?;
+            let start = Session::start(refinement::resolve_soon(&scenario)?.scenario)?;
             return Ok(Self {
                 ghost: Arc::new(Ghost::new(&scenario.stem())),
                 beside: Some(Box::new(Beside::from_start(start))),
             });
         }
-        let ghost = Ghost::read(path).map_err(|error| error.to_string())?;
-        let checked = ghost.check_radii(reach);
-        checked.map_err(|refusal| refusal.to_string())?;
+        let ghost = Ghost::read(path)?;
+        ghost.check_radii(reach).map_err(ScenarioError::from)?;
         Ok(Self::still(ghost))
     }
 
@@ -74,11 +69,10 @@ impl Source {
         let Some(beside) = &self.beside else {
             return Arc::clone(&self.ghost);
         };
-        let end = match beside.stopped {
-            Some(_) => format!(" (ends at {:.2})", beside.run.cycle()),
-            None => String::new(),
-        };
-        let name = format!("{}{end}", self.name());
+        let mut name = self.name().to_owned();
+        if beside.stopped.is_some() {
+            name += &format!(" (ends at {:.2})", beside.run.cycle());
+        }
         Arc::new(ghost(&name, &beside.run, curves))
     }
 }

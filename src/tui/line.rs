@@ -63,9 +63,7 @@ impl LineEdit {
         match key {
             Key::Char(character) => _ = self.paste(&character.to_string()),
             Key::Named(Named::Backspace) => _ = before.pop(),
-            Key::Named(Named::Left) => {
-                after.insert_str(0, &before.pop().map_or_else(String::new, String::from))
-            }
+            Key::Named(Named::Left) => after.insert_str(0, &String::from_iter(before.pop())),
             Key::Named(Named::Delete) if !after.is_empty() => _ = after.remove(0),
             Key::Named(Named::Right) if !after.is_empty() => before.push(after.remove(0)),
             Key::Named(Named::Delete | Named::Right) => {}

@@ -18,29 +18,18 @@ const MOST: usize = 24;
 const POINTS: usize = 64;
 const SHORTEST: usize = 9;
 
-/// Steps: cycle, u_x⁽⁰⁾ (m), F_x (N), and the displacement of the rig's actuator (m), NaN on a stiff rig.
-pub type Steps = VecDeque<[f64; 4]>;
-
 /// The loops.
 #[derive(Debug, Clone, Default)]
 pub struct Loops {
-    /// The steps of the last cycle, and the point that closes it.
-    pub steps: Steps,
+    /// The steps of the last cycle, and the point that closes it: cycle, u_x⁽⁰⁾ (m), F_x (N), and the displacement of
+    /// the rig's actuator (m), NaN on a stiff rig.
+    pub steps: VecDeque<[f64; 4]>,
     /// Loops of cycles so far apart, oldest first.
     pub kept: Vec<Arc<Loop>>,
     apart: f64,
 }
 
 impl Loops {
-    /// From the steps of the last cycle: cycle, u_x⁽⁰⁾ (m), F_x (N).
-    pub fn of_steps(steps: impl Iterator<Item = [f64; 3]>) -> Self {
-        let steps = steps.map(|[cycle, u, force]| [cycle, u, force, f64::NAN]);
-        Self {
-            steps: steps.take(CAPACITY).collect(),
-            ..Self::default()
-        }
-    }
-
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
         self.steps.push_back(last_loop::row(moment));

@@ -13,8 +13,8 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::mpsc::channel;
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use anyhow::{Result, bail};
@@ -128,11 +128,8 @@ pub fn run(options: Options) -> Result<Farewell> {
     let (orders, to_worker) = Orders::channel();
     let (events, from_threads) = channel();
     let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
-    let keeping = options.keep_in.filter(|_| is_live).map(|directory| {
-        let session = &options.run.session;
-        let autosave = ScreenAutosave::new(directory, options.keep_every, session);
-        Arc::new(Mutex::new(autosave))
-    });
+    let keep_in = options.keep_in.filter(|_| is_live);
+    let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
     let running = options.running && is_live;
     let worker = Worker::new(options.run, events.clone(), interval, running);
     let mut worker = worker.with_ghosts(options.ghosts);
@@ -148,7 +145,7 @@ pub fn run(options: Options) -> Result<Farewell> {
         app.explorer.stage.welcome(&origin);
     }
     crate::panics::capture();
-    let worker = WorkerThread::start(worker, orders.clone(), to_worker, keeping)?;
+    let worker = WorkerThread::start(worker, orders.clone(), to_worker, autosave)?;
     let outcome = match options.script {
         Some(script) => {
             catch(|| script::play(&mut app, &script, &orders, &from_threads).map(|()| None))

@@ -77,11 +77,9 @@ impl Clock {
         self.rung = (self.rung + rungs).clamp(SLOWEST, UNLIMITED);
     }
 
-    /// The phase at which frames are taken, degrees: the end of a cycle, as the rows of a history are; `None` while
-    /// the motion itself is shown.
-    pub fn held_phase(&self, simulation: &Simulation) -> Option<f64> {
-        let holds = self.holds_phase && self.pace() > BLURRED && !simulation.may_jump();
-        holds.then_some(0.0)
+    /// Whether frames are taken at the end of a cycle, as the rows of a history are; else the motion itself is shown.
+    pub fn shows_ends(&self, simulation: &Simulation) -> bool {
+        self.holds_phase && self.pace() > BLURRED && !simulation.may_jump()
     }
 
     /// Seconds until the next step is due. A jump over many cycles is due a moment after the one

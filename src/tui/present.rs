@@ -48,7 +48,7 @@ impl SpeedUp {
         let since = self
             .0
             .filter(|(pace, began)| is_running && *pace == frame.pace && cycle >= *began);
-        let planned = frame.facts.planned_cycles.unwrap_or(f64::INFINITY);
+        let planned = frame.facts.scenario.run().cycles.unwrap_or(f64::INFINITY);
         let is_due = since
             .is_some_and(|(pace, began)| planned / pace > LEAST && cycle - began >= SECONDS * pace);
         if is_due || since.is_none() {

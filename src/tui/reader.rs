@@ -83,17 +83,14 @@ impl Reader {
     fn lone_escape(&mut self) {
         self.parser = Parser::new();
         self.is_escape = false;
-        if self.found.paste.is_none() {
-            self.found.inputs.push(Input::Key(Key::Named(Named::Esc)));
-        }
+        self.found.key(Key::Named(Named::Esc));
     }
 
     /// How long to wait for more before [`rest`](Self::rest); `None`: forever.
     pub fn patience(&self) -> Option<u16> {
-        if self.is_escape {
-            Some(LONE_ESCAPE)
-        } else {
-            self.is_under_way.then_some(GIVE_UP)
+        match self.is_escape {
+            true => Some(LONE_ESCAPE),
+            false => self.is_under_way.then_some(GIVE_UP),
         }
     }
 
@@ -127,54 +124,22 @@ impl Found {
         }
     }
 
-    /// The key of a sequence that ends in a letter.
-    fn letter(&mut self, letter: char) {
-        let named = match letter {
-            'A' => Named::Up,
-            'B' => Named::Down,
-            'C' => Named::Right,
-            'D' => Named::Left,
-            'H' => Named::Home,
-            'F' => Named::End,
-            'Z' => Named::BackTab,
+    /// The key of a sequence by its last character and first number.
+    fn named(&mut self, last: char, number: u16) {
+        let named = match (last, number) {
+            ('A', _) => Named::Up,
+            ('B', _) => Named::Down,
+            ('C', _) => Named::Right,
+            ('D', _) => Named::Left,
+            ('H', _) | ('~', 1 | 7) => Named::Home,
+            ('F', _) | ('~', 4 | 8) => Named::End,
+            ('Z', _) => Named::BackTab,
+            ('~', 3) => Named::Delete,
+            ('~', 5) => Named::PageUp,
+            ('~', 6) => Named::PageDown,
             _ => return,
         };
         self.key(Key::Named(named));
-    }
-
-    /// The key of a sequence that ends in a tilde.
-    fn numbered(&mut self, number: u16) {
-        let named = match number {
-            1 | 7 => Named::Home,
-            3 => Named::Delete,
-            4 | 8 => Named::End,
-            5 => Named::PageUp,
-            6 => Named::PageDown,
-            200 => {
-                self.paste = Some(String::new());
-                return;
-            }
-            201 => {
-                self.is_interrupted = false;
-                let text = self.paste.take();
-                return self.inputs.extend(text.map(Input::Paste));
-            }
-            _ => return,
-        };
-        self.key(Key::Named(named));
-    }
-
-    /// Presses and the wheel, as mode 1006 tells them; columns and rows count from 1 there.
-    fn mouse(&mut self, [button, column, row]: [u16; 3], is_press: bool) {
-        let at = Position::new(column.saturating_sub(1), row.saturating_sub(1));
-        let gesture = match button {
-            0 => Gesture::Click(at),
-            64 => Gesture::WheelUp,
-            65 => Gesture::WheelDown,
-            _ => return,
-        };
-        self.inputs
-            .extend(is_press.then_some(Input::Point(gesture)));
     }
 }
 
@@ -186,7 +151,7 @@ impl Perform for Found {
                 text.push(character);
             }
         } else if std::mem::take(&mut self.is_single_shift) {
-            self.letter(character);
+            self.named(character, 0);
         } else if character == '\x7f' {
             self.key(Key::Named(Named::Backspace));
         } else {
@@ -224,24 +189,33 @@ impl Perform for Found {
         }
     }
 
-    fn csi_dispatch(&mut self, parameters: &Params, marks: &[u8], _: bool, action: char) {
+    fn csi_dispatch(&mut self, parameters: &Params, marks: &[u8], _: bool, last: char) {
         let mut numbers = parameters.iter().filter_map(|sub| sub.first().copied());
         let mut number = || numbers.next().unwrap_or(0);
-        match (marks, action) {
-            ([], '~') => {
-                let number = number();
-                self.numbered(number);
+        match (marks, last, number()) {
+            ([], '~', 200) => self.paste = Some(String::new()),
+            ([], '~', 201) => {
+                self.is_interrupted = false;
+                let text = self.paste.take();
+                self.inputs.extend(text.map(Input::Paste));
             }
-            ([], 'n') if number() == 0 => {
+            ([], 'n', 0) => {
                 // A busy terminal leaves no silence behind a Ctrl-C; its answer tells that no text follows.
                 self.interrupt();
                 self.inputs.push(Input::Ready);
             }
-            ([b'<'], 'M' | 'm') => {
-                let place = [number(), number(), number()];
-                self.mouse(place, action == 'M');
+            // Presses and the wheel, as mode 1006 tells them: columns and rows count from 1.
+            ([b'<'], 'M', button) => {
+                let [x, y] = [number(), number()].map(|place| place.saturating_sub(1));
+                let gesture = match button {
+                    0 => Gesture::Click(Position { x, y }),
+                    64 => Gesture::WheelUp,
+                    65 => Gesture::WheelDown,
+                    _ => return,
+                };
+                self.inputs.push(Input::Point(gesture));
             }
-            ([], letter) => self.letter(letter),
+            ([], last, number) => self.named(last, number),
             _ => {}
         }
     }

@@ -147,7 +147,7 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
     let mut cycle = format!("cycle {:.2}", moment.cycle);
     let mut widest = "cycle 0000.00".len();
-    if let Some(planned) = frame.facts.planned_cycles {
+    if let Some(planned) = frame.facts.scenario.run().cycles {
         cycle.push_str(&format!("/{planned}"));
         widest = format!("cycle {planned:.2}/{planned}").len();
     }
@@ -156,8 +156,8 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
         _ => "unlimited".into(),
     };
     let mut pace_width = "0.5 cycles/s".len();
-    if let Some(phase) = frame.phase.filter(|_| frame.activity == Activity::Running) {
-        pace.push_str(&format!(", phase {phase:.0}°"));
+    if frame.shows_ends && frame.activity == Activity::Running {
+        pace.push_str(", phase 0°");
         pace_width = pace.len().max("1000 cycles/s, phase 90°".len());
     }
     let activity = match &frame.activity {
@@ -170,29 +170,25 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let law = frame.observation.law.unwrap_or("no wear");
     let word = if has_room { "method: " } else { "" };
     let method = format!("{word}{}", frame.observation.method);
-    let mut parts = vec![
-        (6, activity.into(), 9),
-        (5, cycle, widest),
-        (4, pace, pace_width),
-        (3, method, 7 + word.len()),
-        (1, law.into(), 7),
-    ];
-    parts.extend(verdict(&frame.checks).map(|verdict| {
-        let fails = verdict != "checks ok";
-        (if fails { 3 } else { 2 }, verdict, 12)
-    }));
+    let present = frame.present.map(|present| format!("present {present:.2}"));
+    let verdict = verdict(&frame.checks);
     let errors = frame.errors.as_ref().ok();
     let error = errors.map(|(_, errors)| errors.promised());
-    let error = error.filter(|error| error.is_finite());
-    parts.extend(error.map(|error| (2, wear_error(error), 12)));
-    let outside = |warning: &String| warning.starts_with("outside");
-    if frame.facts.warnings.iter().any(outside) {
-        parts.push((2, "! outside the theory".into(), 0));
-    }
-    if let Some(present) = frame.present {
-        parts.insert(2, (4, format!("present {present:.2}"), 0));
-    }
-    parts
+    let error = error.filter(|error| error.is_finite()).map(wear_error);
+    let mut warnings = frame.facts.warnings.iter();
+    let is_outside = warnings.any(|warning| warning.starts_with("outside"));
+    let parts = [
+        Some((6, activity.into(), 9)),
+        Some((5, cycle, widest)),
+        present.map(|present| (4, present, 0)),
+        Some((4, pace, pace_width)),
+        Some((3, method, 7 + word.len())),
+        Some((1, law.into(), 7)),
+        verdict.map(|word| (if word == "checks ok" { 2 } else { 3 }, word, 12)),
+        error.map(|error| (2, error, 12)),
+        is_outside.then(|| (2, "! outside the theory".into(), 0)),
+    ];
+    parts.into_iter().flatten().collect()
 }
 
 /// The estimated error of what has worn, to a digit.

@@ -82,7 +82,7 @@ impl Stroke {
 pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> Result<String> {
     let (orders, to_worker) = Orders::channel();
     let (events, inbox) = channel();
-    let worker = Worker::new(session, events, Duration::MAX, false);
+    let mut worker = Worker::new(session, events, Duration::MAX, false);
     let thread = std::thread::spawn(move || worker.serve(&to_worker));
     let played = || {
         let first = orders.frame().context("the simulation has ended")?;
@@ -112,14 +112,11 @@ pub fn play(
     let screen = match script.format {
         Format::Text => text(app, size),
         Format::Svg => {
-            let is_light = app.explorer.theme.look == Look::Light;
-            let ground = if is_light {
-                Ground::LIGHT
-            } else {
-                Ground::DARK
+            let ground = match app.explorer.theme.look {
+                Look::Light => Ground::LIGHT,
+                Look::Dark | Look::Mono => Ground::DARK,
             };
-            let drawn = drawn(size, |area, buffer| screen::draw(app, area, buffer));
-            screen_svg::picture(&drawn, ground)
+            screen_svg::picture(&drawn(app, size), ground)
         }
     };
     io::stdout().lock().write_all(screen.as_bytes())?;
@@ -173,16 +170,11 @@ fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<
     Ok(())
 }
 
-/// A screen of a size as it is drawn.
-pub fn drawn(size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Buffer {
+/// The screen as it is drawn.
+fn drawn(app: &App, size: Size) -> Buffer {
     let mut buffer = Buffer::empty(size.into());
-    draw(buffer.area, &mut buffer);
+    screen::draw(app, buffer.area, &mut buffer);
     buffer
-}
-
-/// The screen as lines of text, trailing blanks cut.
-pub fn text(app: &App, size: Size) -> String {
-    lines(&drawn(size, |area, buffer| screen::draw(app, area, buffer)))
 }
 
 /// The sign of a cell in text: a blank that a colour fills is a half block, as it is where two colours do. A blank
@@ -194,21 +186,20 @@ fn sign(cell: &Cell) -> &str {
     }
 }
 
-/// A drawn screen as lines of text, trailing blanks cut.
-pub fn lines(buffer: &Buffer) -> String {
+/// The screen as lines of text, trailing blanks cut.
+pub fn text(app: &App, size: Size) -> String {
+    let buffer = drawn(app, size);
     let mut text = String::new();
     for row in buffer.area.rows() {
+        let mut places = row.positions();
         let mut line = String::new();
-        let mut covered = 0;
-        for at in row.positions() {
-            // A wide character covers the cell behind it.
-            if covered > 0 {
-                covered -= 1;
-                continue;
-            }
+        while let Some(at) = places.next() {
             let symbol = sign(&buffer[at]);
-            covered = Line::raw(symbol).width().saturating_sub(1);
             line.push_str(symbol);
+            // A wide character covers the cell behind it.
+            for _ in 1..Line::raw(symbol).width() {
+                places.next();
+            }
         }
         text.push_str(line.trim_end());
         text.push('\n');

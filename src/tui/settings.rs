@@ -31,10 +31,7 @@ impl Setting {
     }
 
     fn of(parameter: &'static Parameter, scenario: &Scenario) -> Self {
-        let word = |path: &str| {
-            let value = scenario.value(path)?;
-            Some(value.trim_matches('"').to_owned())
-        };
+        let word = |path: &str| Some(scenario.value(path)?.trim_matches('"').to_owned());
         let control = word(&format!("{}.control", parameter.section()));
         Self {
             parameter,

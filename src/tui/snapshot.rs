@@ -53,14 +53,13 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
 /// The history in the columns of a run's. Contact radii and stick radii are those that the screen shows: the
 /// largest and the smallest of each cycle.
 fn history(session: &Session, trend: &Trend) -> String {
+    let now = session.simulation().cycle();
     let rows = trend.cycles().map(|entry| {
-        let (mut fields, is_open) = match &entry.fields {
-            Some(fields) => (fields.to_vec(), false),
-            None => (vec![String::new(); history::COLUMNS.len()], true),
+        let mut fields = match &entry.fields {
+            Some(fields) => fields.to_vec(),
+            None if entry.end() == now => history::fields(&Reading::new(session)).to_vec(),
+            None => vec![String::new(); history::COLUMNS.len()],
         };
-        if is_open && entry.end() == session.simulation().cycle() {
-            fields = history::fields(&Reading::new(session)).to_vec();
-        }
         for ((name, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
             let is_of_cycle = ["contact_radius_m", "permanent_stick_radius_m"].contains(&name);
             let at = history::COLUMNS.iter().position(|column| *column == name);
@@ -139,6 +138,6 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let [cycles, shifts, forces] =
         ["cycle", "u_m", "F_N"].map(|name| steps.column(name).unwrap_or_default());
     let steps = cycles.iter().zip(shifts).zip(forces);
-    let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force]);
+    let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force, f64::NAN]);
     Some(Trend::of_past(entries, steps, initial))
 }

@@ -120,12 +120,11 @@ impl Screen {
         let mut wanted = Buffer::empty(area);
         draw(area, &mut wanted);
         let now = Instant::now();
-        let is_blind = self.flow.hurries(now) && !self.flow.answers();
         let rooms: &[Option<usize>] = match self.flow.room(now) {
-            Some(_) if is_blind && self.flow.acknowledges(now) => &[Some(0)],
+            Some(_) if self.flow.acknowledges(now) => &[Some(0)],
             // Where nothing tells how slow the line is, a key is answered whole, but the lines that
             // tell of the run before the rest.
-            Some(_) if is_blind => &[Some(0), None],
+            Some(_) if self.flow.hurries(now) && !self.flow.answers() => &[Some(0), None],
             room => &[room],
         };
         let (mut bytes, mut frames) = (0, 0);
@@ -166,9 +165,8 @@ fn rows_within(shown: &Buffer, wanted: &Buffer, room: usize) -> Buffer {
     let inner = 1..height.saturating_sub(1);
     for (i, row) in edges.into_iter().chain(inner).enumerate() {
         let cells = row * width..((row + 1) * width).min(wanted.content.len());
-        let pairs = wanted.content[cells.clone()]
-            .iter()
-            .zip(&next.content[cells.clone()]);
+        let (wanted, shown) = (&wanted.content[cells.clone()], &mut next.content[cells]);
+        let pairs = wanted.iter().zip(&*shown);
         let changed = pairs.filter(|(wanted, shown)| wanted != shown);
         let cost: usize = changed.map(|(wanted, _)| wanted.symbol().len() + 1).sum();
         if cost == 0 {
@@ -181,7 +179,7 @@ fn rows_within(shown: &Buffer, wanted: &Buffer, room: usize) -> Buffer {
         }
         is_new = true;
         left = left.saturating_sub(cost);
-        next.content[cells.clone()].clone_from_slice(&wanted.content[cells]);
+        shown.clone_from_slice(wanted);
     }
     next
 }

@@ -18,7 +18,7 @@ const LEAST: u16 = 30;
 /// The cycle of the present, and the one at which the line ends.
 fn ends(frame: &Frame) -> [f64; 2] {
     let now = frame.present.unwrap_or(frame.observation.moment.cycle);
-    let end = match frame.facts.planned_cycles {
+    let end = match frame.facts.scenario.run().cycles {
         Some(planned) if now <= planned => planned,
         _ => round_end(now),
     };
@@ -34,12 +34,13 @@ fn short(cycle: f64) -> f64 {
 /// and the end of a key tells more than its beginning.
 fn edit(frame: &Frame, room: usize) -> Option<String> {
     let shown = frame.observation.moment.cycle + 1e-9;
-    let made = frame.changes.iter().rev();
-    let (cycle, set) = made.into_iter().find(|(cycle, _)| *cycle <= shown)?;
-    let whole = format!("at cycle {}: {set}", short(*cycle));
-    let key = set.split(" = ").next().unwrap_or_default();
+    let mut latest_first = frame.changes.iter().rev();
+    let change = latest_first.find(|change| change.at_cycle <= shown)?;
+    let set = change.set.as_str();
+    let whole = format!("at cycle {}: {set}", short(change.at_cycle));
+    let key = set.split('=').next().unwrap_or_default();
     let ends = key.match_indices('.').map(|(at, _)| &set[at + 1..]);
-    let mut shorter = [whole.as_str(), set.as_str()].into_iter().chain(ends);
+    let mut shorter = [whole.as_str(), set].into_iter().chain(ends);
     let fits = shorter.find(|text| Line::raw(*text).width() <= room);
     Some(fits.unwrap_or(set).to_owned())
 }
@@ -79,7 +80,7 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
         })
         .collect();
     let changes = frame.changes.iter();
-    let changes = changes.map(|(cycle, _)| (*cycle, ["▼", "v"], Role::Notice));
+    let changes = changes.map(|change| (change.at_cycle, ["▼", "v"], Role::Notice));
     let snapshots = frame.snapshots.iter();
     let snapshots = snapshots.map(|cycle| (*cycle, ["◆", "s"], Role::Contact));
     let shown = (frame.observation.moment.cycle, ["●", "O"], Role::Title);

@@ -1,5 +1,6 @@
 //! The explorer's record of a run, cycle by cycle: older ones ever more coarsely.
 
+use std::array::from_fn;
 use std::sync::Arc;
 
 use super::loops::Loops;
@@ -110,12 +111,10 @@ impl Cycle {
     }
 
     fn merged(&self, later: &Self) -> Self {
-        let mut values = later.values;
-        for (k, (_, merge)) in COLUMNS.into_iter().enumerate() {
-            values[k] = merge(self.values[k], values[k]);
+        Self {
+            values: from_fn(|k| (COLUMNS[k].1)(self.values[k], later.values[k])),
+            fields: later.fields.clone(),
         }
-        let fields = later.fields.clone();
-        Self { values, fields }
     }
 }
 
@@ -131,38 +130,37 @@ pub struct Trend {
     pub step_cost: Option<f64>,
     /// Cycle and worn volume (m³) of the first moment.
     start: Option<[f64; 2]>,
-    /// Amplitude and load of the last cycle.
-    condition: Option<[f64; 2]>,
     /// Fretting loops.
     pub loops: Loops,
 }
 
 impl Trend {
-    /// A past of `cycles`, oldest first, and of the steps of the last one: cycle, u_x⁽⁰⁾ (m), F_x (N).
-    /// The run began with a worn volume `initial` (m³).
+    /// A past of `cycles`, oldest first, and of the [steps](Loops::steps) of the last one. The run began with a worn
+    /// volume `initial` (m³).
     pub fn of_past(
         cycles: impl Iterator<Item = Cycle>,
-        steps: impl Iterator<Item = [f64; 3]>,
+        steps: impl Iterator<Item = [f64; 4]>,
         initial: f64,
     ) -> Self {
         let mut cycles: Vec<_> = cycles.take(CAPACITY - 1).map(Arc::new).collect();
         // What is not whole yet stays open.
         let whole = cycles.iter().rev().nth(1).map_or(0.0, |entry| entry.end());
         let is_open = |last: &mut Arc<Cycle>| last.end() < whole + 1.0 - 1e-9;
-        Self {
+        let mut trend = Self {
             open: cycles.pop_if(is_open),
             cycles,
             start: Some([0.0, initial]),
-            loops: Loops::of_steps(steps),
             ..Self::default()
-        }
+        };
+        trend.loops.steps.extend(steps);
+        trend
     }
 
-    /// Its memory beside that of an earlier one, with which it shares its first cycles or none; bytes.
-    pub fn bytes_beside(&self, earlier: Option<&Self>) -> usize {
+    /// Its memory beside that of another one, with which it shares its first cycles or none; bytes.
+    pub fn bytes_beside(&self, other: Option<&Self>) -> usize {
         let first = |trend: &Self| trend.cycles.first().map(Arc::as_ptr);
-        let earlier = earlier.filter(|earlier| first(earlier) == first(self));
-        let shared = earlier.map_or(0, |earlier| earlier.cycles.len());
+        let other = other.filter(|other| first(other) == first(self));
+        let shared = other.map_or(0, |other| other.cycles.len());
         let fields = 32 * history::COLUMNS.len();
         let own = self.cycles.len().saturating_sub(shared) * (size_of::<Cycle>() + fields);
         let places = size_of::<Arc<Cycle>>() * self.cycles.len();
@@ -184,7 +182,8 @@ impl Trend {
     fn take(&mut self, moment: &Moment, [depth, radius]: [f64; 2]) -> bool {
         let [start, _] = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
         self.loops.record(moment);
-        let [amplitude, load] = self.condition.unwrap_or([f64::NAN; 2]);
+        let before = self.cycles.last().map(|last| last.values);
+        let of_last = |k: usize| before.map_or(f64::NAN, |values| values[k]);
         let now = Cycle {
             values: [
                 moment.cycle,
@@ -196,8 +195,8 @@ impl Trend {
                 moment.dissipated_energy,
                 moment.energy_residual.unwrap_or(f64::NAN),
                 self.step_cost.unwrap_or(f64::NAN),
-                amplitude,
-                load,
+                of_last(AMPLITUDE),
+                of_last(LOAD),
             ],
             fields: None,
         };
@@ -205,13 +204,12 @@ impl Trend {
             Some(open) => open.merged(&now),
             None => now,
         };
-        let merged = Arc::new(merged);
-        let before = self.cycles.last().map_or(start, |last| last.end());
+        let before = before.map_or(start, |values| values[0]);
         if merged.end() < before + self.stride.max(1.0) - 1e-9 {
-            self.open = Some(merged);
+            self.open = Some(Arc::new(merged));
             return false;
         }
-        self.cycles.push(merged);
+        self.cycles.push(Arc::new(merged));
         if self.cycles.len() >= CAPACITY {
             let pairs = self.cycles.chunks(2).map(|pair| match pair {
                 [one, other] => Arc::new(one.merged(other)),
@@ -225,10 +223,10 @@ impl Trend {
 
     /// Notes the end of the last entry, which is the moment that is read.
     fn end(&mut self, reading: &Reading) {
-        let condition = [AMPLITUDE, LOAD].map(|k| reading.number(COLUMNS[k].0));
-        self.condition = Some(condition);
         if let Some(entry) = self.cycles.last_mut().map(Arc::make_mut) {
-            [entry.values[AMPLITUDE], entry.values[LOAD]] = condition;
+            for k in [AMPLITUDE, LOAD] {
+                entry.values[k] = reading.number(COLUMNS[k].0);
+            }
             entry.fields = Some(Arc::new(history::fields(reading)));
         }
     }

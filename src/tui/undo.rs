@@ -29,7 +29,7 @@ const TEXTS: usize = 24 << 10;
 const CHANGE: usize = 256;
 
 /// One state of the past.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Kept {
     /// The run as it was.
     pub run: Recorded,
@@ -44,35 +44,27 @@ impl Kept {
         self.run.cycle()
     }
 
-    fn nodes(&self) -> usize {
-        self.run.simulation().setup().grid.len()
-    }
-
-    /// An upper bound of what it holds without its operators, and without what it shares with the state before, in
-    /// bytes.
-    fn bytes(&self, before: Option<&Self>) -> usize {
+    /// An upper bound of what it holds and the state `after` it does not, in bytes. A run plans its operators again for
+    /// another method or grid; those of the newest state are in use in any case.
+    fn bytes(&self, after: Option<&Self>) -> usize {
+        let setup = self.run.simulation().setup();
+        let nodes = setup.grid.len();
+        let shares_operators = after.is_none_or(|after| {
+            let other = after.run.simulation().setup();
+            self.scenario == after.scenario
+                && setup.method == other.method
+                && setup.indenter == other.indenter
+                && setup.grid == other.grid
+        });
+        let operators = match Form::quicker(setup.method, nodes) {
+            _ if shares_operators => 0,
+            Form::Dense => 4 * nodes.pow(2),
+            Form::Fast => FAST_ARRAYS * nodes,
+        };
         let changes = self.run.session.changes().len() * CHANGE;
-        let before = before.map(|before| &before.run.trend);
-        8 * ARRAYS * self.nodes() + self.run.trend.bytes_beside(before) + TEXTS + changes
-    }
-
-    /// An upper bound of the operators that it keeps alive, alone or with others, in bytes.
-    fn operator_bytes(&self) -> usize {
-        let (method, nodes) = (self.run.simulation().setup().method, self.nodes());
-        match Form::quicker(method, nodes) {
-            Form::Dense => 8 * 4 * nodes.pow(2),
-            Form::Fast => 8 * FAST_ARRAYS * nodes,
-        }
-    }
-
-    /// Whether two states use the same operators: a run plans its own.
-    fn shares_operators(&self, other: &Self) -> bool {
-        let is_one_run = self.scenario == other.scenario;
-        let [one, other] = [self, other].map(|kept| kept.run.simulation().setup());
-        is_one_run
-            && one.method == other.method
-            && one.indenter == other.indenter
-            && one.grid == other.grid
+        let trend = &self.run.trend;
+        let trend = trend.bytes_beside(after.map(|after| &after.run.trend));
+        8 * (ARRAYS * nodes + operators) + trend + TEXTS + changes
     }
 }
 
@@ -85,26 +77,13 @@ pub(super) struct Left {
 }
 
 /// The states of the past, oldest first, and the one on the screen.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Past {
     kept: Vec<Arc<Kept>>,
     /// The state on the screen; `None` at the present.
     at: Option<usize>,
     stretch: u32,
     scenario: u32,
-    budget: usize,
-}
-
-impl Default for Past {
-    fn default() -> Self {
-        Self {
-            kept: Vec::new(),
-            at: None,
-            stretch: 0,
-            scenario: 0,
-            budget: BUDGET,
-        }
-    }
 }
 
 impl Past {
@@ -113,18 +92,22 @@ impl Past {
         if self.at.is_some() || self.is_kept(run) {
             return;
         }
+        self.push(run.clone());
+    }
+
+    fn push(&mut self, run: Recorded) {
         self.kept.push(Arc::new(Kept {
-            run: run.clone(),
+            run,
             stretch: self.stretch,
             scenario: self.scenario,
         }));
-        self.make_room();
+        self.make_room(BUDGET);
     }
 
-    /// Thins the past, then drops the oldest states, until the rest is within the budget. The last
+    /// Thins the past, then drops the oldest states, until the rest is within so many bytes. The last
     /// state stays, and the first as long as possible.
-    fn make_room(&mut self) {
-        while self.kept.len() > 2 && self.bytes() > self.budget {
+    fn make_room(&mut self, budget: usize) {
+        while self.kept.len() > 2 && self.bytes() > budget {
             let least = self.least_missed().unwrap_or(0);
             self.kept.remove(least);
         }
@@ -137,19 +120,13 @@ impl Past {
         })
     }
 
-    /// Memory in use, bytes.
+    /// An upper bound of the memory in use, bytes.
     fn bytes(&self) -> usize {
-        // The operators of the present are there in any case.
-        let mut known: Vec<&Kept> = self.kept.last().map(|kept| &**kept).into_iter().collect();
-        let (mut bytes, mut before) = (0, None);
-        for kept in &self.kept {
-            bytes += kept.bytes(before.replace(kept));
-            if !known.iter().any(|other| other.shares_operators(kept)) {
-                bytes += kept.operator_bytes();
-                known.push(kept);
-            }
-        }
-        bytes
+        let mut after = None;
+        let newest_first = self.kept.iter().rev();
+        newest_first
+            .map(|kept| kept.bytes(after.replace(kept).map(Arc::as_ref)))
+            .sum()
     }
 
     /// The state that is missed least: the one in the smallest gap for its age within its stretch.
@@ -173,31 +150,30 @@ impl Past {
 
     /// Goes one state back; `None` at the start. The present must have been stored.
     pub fn back(&mut self) -> Option<Arc<Kept>> {
-        let now = self.at.unwrap_or(self.kept.len().saturating_sub(1));
-        self.at = Some(now.checked_sub(1)?);
-        self.kept.get(now - 1).cloned()
+        let now = self.at.or(self.kept.len().checked_sub(1))?;
+        self.go_to(now.checked_sub(1)?)
     }
 
     /// Goes one state forward; `None` at the present.
     pub fn forth(&mut self) -> Option<Arc<Kept>> {
-        let next = self.at? + 1;
-        let found = self.kept.get(next).cloned();
-        self.at = (next + 1 < self.kept.len()).then_some(next);
-        found
+        self.go_to(self.at? + 1)
     }
 
     /// Goes to the state of the shown run that is nearest to `cycle`, the latest of them. The present must have
     /// been stored.
     pub fn visit(&mut self, cycle: f64) -> Option<Arc<Kept>> {
-        let last = self.kept.len().checked_sub(1)?;
-        let scenario = self.kept.get(self.at.unwrap_or(last))?.scenario;
+        let shown = self.at.or(self.kept.len().checked_sub(1))?;
+        let scenario = self.kept[shown].scenario;
         let near = |at: &usize| (self.kept[*at].cycle() - cycle).abs();
-        let of_run = (0..=last)
-            .rev()
-            .filter(|&at| self.kept[at].scenario == scenario);
-        let nearest = of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?;
-        self.at = (nearest < last).then_some(nearest);
-        self.kept.get(nearest).cloned()
+        let latest_first = (0..self.kept.len()).rev();
+        let of_run = latest_first.filter(|&at| self.kept[at].scenario == scenario);
+        self.go_to(of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?)
+    }
+
+    /// Goes to a state, of which the last is the present.
+    fn go_to(&mut self, at: usize) -> Option<Arc<Kept>> {
+        self.at = (at + 1 < self.kept.len()).then_some(at);
+        self.kept.get(at).cloned()
     }
 
     /// The run at the present, whatever is on the screen: the state worth saving.
@@ -220,12 +196,7 @@ impl Past {
         let is_other_run = end.scenario != from.scenario;
         self.stretch += 1;
         self.scenario += u32::from(is_other_run);
-        self.kept.push(Arc::new(Kept {
-            stretch: self.stretch,
-            scenario: self.scenario,
-            ..Kept::clone(&from)
-        }));
-        self.make_room();
+        self.push(from.run.clone());
         Some(Left { end, is_other_run })
     }
 
@@ -280,12 +251,13 @@ mod tests {
         let mut session = session();
         let mut past = Past::default();
         keep(&mut past, &session);
-        past.budget = 24 * past.kept[0].bytes(None);
+        let budget = 24 * past.kept[0].bytes(None);
         for cycle in 1..=300 {
             session.advance_to(f64::from(cycle)).expect("a step");
             keep(&mut past, &session);
             keep(&mut past, &session);
-            assert!(past.bytes() <= past.budget);
+            past.make_room(budget);
+            assert!(past.bytes() <= budget);
         }
         let cycles = cycles(&past);
         assert_eq!((cycles[0], cycles[cycles.len() - 1]), (0.0, 300.0));
@@ -306,14 +278,15 @@ mod tests {
         let start = session();
         let mut past = Past::default();
         keep(&mut past, &start);
-        past.budget = 12 * past.kept[0].bytes(None);
+        let budget = 12 * past.kept[0].bytes(None);
         for _ in 0..40 {
             let mut session = start.clone();
             keep(&mut past, &session);
             for cycle in 1..=5 {
                 session.advance_to(f64::from(cycle)).expect("a step");
                 keep(&mut past, &session);
-                assert!(past.bytes() <= past.budget);
+                past.make_room(budget);
+                assert!(past.bytes() <= budget);
             }
             past.leave();
         }

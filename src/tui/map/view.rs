@@ -116,11 +116,11 @@ impl View {
 
     fn turn_y(&mut self) {
         let axes = self.slice.study.axes.len();
-        if let Some(y) = self.slice.y {
-            let next = (1..axes)
-                .map(|by| (y + by) % axes)
-                .find(|next| *next != self.slice.x);
-            self.slice.y = next.or(Some(y));
+        if let Some(y) = &mut self.slice.y {
+            *y = (*y + 1) % axes;
+            if *y == self.slice.x {
+                *y = (*y + 1) % axes;
+            }
         }
     }
 
@@ -145,11 +145,8 @@ impl View {
 
     /// The name of the column; empty if the study has none.
     pub fn column(&self) -> &'static str {
-        self.slice
-            .study
-            .columns
-            .get(self.column)
-            .map_or("", |column| column.name)
+        let column = self.slice.study.columns.get(self.column);
+        column.map_or("", |column| column.name)
     }
 
     /// The point under the cursor.

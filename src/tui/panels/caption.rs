@@ -5,7 +5,6 @@ use ratatui::buffer::Cell;
 
 use super::cut::Section;
 use super::*;
-use crate::plot::shades::SHADES;
 
 /// The size from which the picture has captions below it, and their rows.
 const ROOMY: [u16; 2] = [60, 16];
@@ -22,10 +21,8 @@ const LONGEST: u16 = 54;
 
 /// The picture and the rows of its captions.
 pub fn beside(area: Rect) -> [Rect; 2] {
-    let rows = match area.width >= ROOMY[0] && area.height >= ROOMY[1] {
-        true => ROWS,
-        false => 0,
-    };
+    let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
+    let rows = ROWS * u16::from(is_roomy);
     Layout::vertical([Constraint::Min(0), Constraint::Length(rows)]).areas(area)
 }
 
@@ -37,22 +34,16 @@ fn speed(frame: &Frame) -> Option<f64> {
     let fastest = steps.clone().map(f64::abs).fold(0.0, f64::max);
     // Rounding is no motion.
     let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
-    steps
-        .next_back()
-        .filter(|_| is_seen)
-        .map(|step| step / fastest)
+    let last = steps.next_back().filter(|_| is_seen)?;
+    Some(last / fastest)
 }
 
 /// What the contact does at the moment, for someone who has never heard of fretting; the same in capitals, for
 /// large letters, and the colour that it has.
 pub fn contact_state(moment: &Moment) -> (&'static str, &'static str, Role) {
-    let share = moment
-        .stick_radius
-        .map(|stick| stick / moment.contact_radius);
-    match share {
-        _ if moment.contact_radius <= 0.0 => {
-            ("Nothing touches: lifted off", "LIFTED OFF", Role::Quiet)
-        }
+    let a = moment.contact_radius;
+    match moment.stick_radius.map(|stick| stick / a) {
+        _ if a <= 0.0 => ("Nothing touches: lifted off", "LIFTED OFF", Role::Quiet),
         None => ("Nothing slides: pressed together", "PRESSED", Role::Stick),
         Some(share) if share >= 1.0 - NOTHING => ("All of it sticks", "ALL STICKS", Role::Stick),
         Some(share) if share <= NOTHING => ("All of it slips", "ALL SLIPS", Role::Slip),
@@ -152,10 +143,9 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         return;
     }
     let is_brief = below.is_empty();
-    let [load, shift] = if is_brief {
-        ["", ""]
-    } else {
-        ["load ", "shift "]
+    let [load, shift] = match is_brief {
+        true => ["", ""],
+        false => ["load ", "shift "],
     };
     let mut forces = format!("{load}F_z {}", value(calm.normal_force, "N"));
     if calm.stick_radius.is_some() {
@@ -168,7 +158,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
             on(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
-        let scale = Line::from(stress_key(section, area.width)).style(Style::reset());
+        let scale = stress_key(section, area.width).style(Style::reset());
         let width = scale.width() as u16;
         let left = area.x + area.width.saturating_sub(width) / 2;
         let place = Rect::new(left, area.bottom() - 1, width, 1);
@@ -196,7 +186,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         _ => worn.as_str(),
     };
     canvas.at(first).show(Line::raw(format!(" {worn}")));
-    let mut key = Line::from(body_key(&canvas.theme));
+    let mut key = body_key(&canvas.theme);
     let room = second.width.saturating_sub(key.width() as u16);
     key.extend(stress_key(section, room));
     canvas.at(second).show(key);
@@ -219,26 +209,26 @@ fn radii(section: &Section, canvas: &mut Canvas) {
 }
 
 /// What the colours of the bodies mean.
-fn body_key(theme: &Theme) -> Vec<Span<'static>> {
+fn body_key(theme: &Theme) -> Line<'static> {
     let parts = [
         (["▀▀", "s"], Role::Stick, "sticks"),
         (["▀▀", "~"], Role::Slip, "slips"),
         (["╱╱", "/"], Role::Profile, "worn away"),
     ];
-    let spans = parts.map(|(signs, role, name)| {
+    let spans = parts.into_iter().flat_map(|(signs, role, name)| {
         let sign = signs[usize::from(theme.ascii())];
         let sign = Span::styled(format!(" {sign}"), theme.style(role));
         [sign, format!(" {name} ").into()]
     });
-    spans.into_iter().flatten().collect()
+    spans.collect()
 }
 
-/// The scale of the stress in as many words as `width` cells have room for; nothing without a stress.
-fn stress_key(section: &Section, width: u16) -> Vec<Span<'static>> {
+/// The scale of the stress in as many words as `width` cells have room for; empty without a stress.
+fn stress_key(section: &Section, width: u16) -> Line<'static> {
     let (theme, stress) = (&section.theme, section.of.stress);
     // Nothing is loaded yet where the scale is that of no stress.
     let Some(bounds) = stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
-        return Vec::new();
+        return Line::default();
     };
     let name = format!(" {} ", stress.names()[1]);
     let [low, high] = bounds.map(|end| theme.printable(&format_value(end, "Pa", 3)));
@@ -254,12 +244,12 @@ fn stress_key(section: &Section, width: u16) -> Vec<Span<'static>> {
         [name, format!(" {high}")],
         [" ".into(), format!(" {high}")],
     ];
-    let shades = shades::key(theme, stress.colors(), shades::sign);
-    let fits = |words: &[String; 2]| {
-        let words = words.iter().map(|text| Line::raw(text).width());
-        words.sum::<usize>() + SHADES <= usize::from(width)
-    };
-    let fitting = words.into_iter().find(fits);
-    let key = fitting.map(|[from, to]| [vec![from.into()], shades.to_vec(), vec![to.into()]]);
-    key.map_or_else(Vec::new, |parts| parts.concat())
+    let mut keys = words.into_iter().map(|[from, to]| {
+        let mut key = Line::raw(from);
+        key.extend(shades::key(theme, stress.colors(), shades::sign));
+        key.push_span(to);
+        key
+    });
+    let fitting = keys.find(|key| key.width() <= usize::from(width));
+    fitting.unwrap_or_default()
 }

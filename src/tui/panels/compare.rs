@@ -5,7 +5,7 @@ use super::*;
 use crate::charts::{A, C, Live, Symbols, ghosts};
 use crate::plot::{Axis, Curve, nice_bounds};
 use crate::traces::Axes;
-use crate::tui::frame::Comparison;
+use crate::tui::beside::{Comparison, name_of};
 
 /// Least width of a column of numbers, cells.
 const COLUMN: usize = 11;
@@ -40,8 +40,10 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
         points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());
         curve.errors.clear();
     }
-    let rows = rows(frame, comparison, &differences[differences.len() - 1].ys);
-    let cells = rows.iter().flat_map(|(_, here, there)| [here, there]);
+    let names = [seen, other].map(|seen| name_of(seen.method, &seen.grid));
+    let difference = &differences[differences.len() - 1].ys;
+    let rows = rows(frame, comparison, &names, difference);
+    let cells = rows.iter().flat_map(|(_, cells)| cells);
     let widths = cells.map(|cell| cell.chars().count());
     let column = widths.fold(COLUMN, usize::max);
     // The numbers must not be cut; the difference gets the rest, if that is wide enough.
@@ -52,12 +54,11 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
         true => [Rect::ZERO, bottom],
         false => columns.spacing(1).areas(bottom),
     };
-    let names = (this_name(frame), comparison.name.as_str());
     let mut render = |chart: &Chart, place| canvas.at(place).plot(chart, Role::Title, cursor);
     let pair = |there: &[f64], here: &[f64], role| {
         [
-            Curve::new(&*names.0, &seen.radii[..], here, role),
-            Curve::new(names.1, &other.radii[..], there, Role::Slip).dashed(),
+            Curve::new(&*names[0], &seen.radii[..], here, role),
+            Curve::new(&*names[1], &other.radii[..], there, Role::Slip).dashed(),
         ]
     };
     let mut profiles = Chart::new("3D profile", Axis::new("r", "m"), Axis::new("f", "m"))
@@ -77,12 +78,9 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     render(&pressures, right);
     let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
     if highest == 0.0 {
-        let words = ["equal so far", "C: from the start"];
         let mut canvas = canvas.at(below);
         let mut inside = canvas.titled(DIFFERENCE, Role::Title);
-        for (text, row) in words.iter().zip(inside.area.rows()) {
-            inside.at(row).say(text, Role::Quiet);
-        }
+        inside.say("equal so far\nC: from the start", Role::Quiet);
     } else {
         // Six decades: what lies below is rounding.
         let decade = highest.log10().ceil();
@@ -97,45 +95,35 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     let mut inside = canvas.titled("side by side", Role::Title);
     let lines = rows
         .iter()
-        .map(|(name, here, there)| format!("{name:14} {here:>column$} {there:>column$}"));
-    let lines = lines.chain(comparison.stopped.clone());
-    for (line, row) in lines.zip(inside.area.rows()) {
-        inside.at(row).say(&line, Role::Quiet);
-    }
-}
-
-fn this_name(frame: &Frame) -> String {
-    let (method, nodes) = (frame.observation.method, frame.observation.radii.len());
-    format!("{}, N = {}", method.spoken(), nodes - 1)
+        .map(|(name, [here, there])| format!("{name:14} {here:>column$} {there:>column$}"));
+    let lines: Vec<String> = lines.chain(comparison.stopped.clone()).collect();
+    inside.say(&lines.join("\n"), Role::Quiet);
 }
 
 /// The numbers of both runs: a name and the two values.
 fn rows(
     frame: &Frame,
     comparison: &Comparison,
+    names: &[String; 2],
     difference: &[f64],
-) -> Vec<(&'static str, String, String)> {
+) -> [(&'static str, [String; 2]); 7] {
     let moments = [&frame.observation.moment, &comparison.observation.moment];
-    let value = |value: f64, unit: &str| format_value(value, unit, 4);
-    let maybe = |number: Option<f64>, unit: &str| number.map(|number| value(number, unit));
-    let row = |name, values: [Option<String>; 2]| {
-        let [here, there] = values.map(|value| value.unwrap_or_else(|| "-".into()));
-        (name, here, there)
-    };
-    let both = |name, unit: &str, of: fn(&Moment) -> Option<f64>| {
-        row(name, moments.map(|moment| maybe(of(moment), unit)))
-    };
+    let value = |value: Option<f64>, unit| Some(format_value(value?, unit, 4));
+    let both = |of: fn(&Moment) -> Option<f64>, unit| moments.map(|at| value(of(at), unit));
     let residual = |moment: &Moment| Some(format_number(moment.energy_residual?, 2));
     let costs = [frame.step_cost, comparison.step_cost];
-    vec![
-        ("", this_name(frame), comparison.name.clone()),
-        both("stick c", "m", |moment| moment.permanent_stick_radius),
-        both("contact a", "m", |moment| Some(moment.contact_radius)),
-        both("wear volume", "m³", |moment| Some(moment.wear_volume)),
-        row("1 - V/(k E_d)", moments.map(residual)),
-        row("time per step", costs.map(|cost| maybe(cost, "s"))),
-        ("rms difference", value(rms(difference), "m"), String::new()),
-    ]
+    let rms = value(Some(rms(difference)), "m");
+    let rows = [
+        ("", names.clone().map(Some)),
+        ("stick c", both(|moment| moment.permanent_stick_radius, "m")),
+        ("contact a", both(|moment| Some(moment.contact_radius), "m")),
+        ("wear volume", both(|moment| Some(moment.wear_volume), "m³")),
+        ("1 - V/(k E_d)", moments.map(residual)),
+        ("time per step", costs.map(|cost| value(cost, "s"))),
+        ("rms difference", [rms, Some(String::new())]),
+    ];
+    let cell = |value: Option<String>| value.unwrap_or_else(|| "-".into());
+    rows.map(|(name, values)| (name, values.map(cell)))
 }
 
 /// Root mean square of differences; 0 of none.

@@ -30,9 +30,8 @@ pub enum Matter {
     Indenter,
     /// Worn off.
     Worn,
-    /// The surface of contact, where it sticks and where it slips.
-    Stick,
-    Slip,
+    /// The surface of contact, which sticks or slips.
+    Contact(Zone),
     HalfSpace,
 }
 
@@ -43,19 +42,21 @@ pub struct Cut {
     pub surface: f64,
     /// Where the half-space would end had it not worn.
     unworn_surface: f64,
-    contact: Option<Matter>,
+    zone: Zone,
 }
 
 impl Cut {
     /// What is at height `z`, where the surface of contact is drawn `thick` (m).
     pub fn matter(&self, z: f64, thick: f64) -> Matter {
-        match self.contact {
+        let is_open = self.zone == Zone::Open;
+        match z {
             _ if z >= self.indenter => Matter::Indenter,
-            Some(_) if z >= self.surface && self.unworn.is_finite() => Matter::Worn,
-            Some(contact) if z < self.surface && z >= self.surface - thick => contact,
-            _ if z <= self.surface => Matter::HalfSpace,
-            None if z >= self.unworn || z <= self.unworn_surface => Matter::Worn,
-            _ => Matter::Air,
+            _ if z < self.surface - thick => Matter::HalfSpace,
+            _ if z <= self.surface && is_open => Matter::HalfSpace,
+            _ if z <= self.surface => Matter::Contact(self.zone),
+            _ if is_open && (self.unworn_surface..self.unworn).contains(&z) => Matter::Air,
+            _ if !is_open && self.unworn.is_infinite() => Matter::Air,
+            _ => Matter::Worn,
         }
     }
 }
@@ -169,17 +170,12 @@ impl<'a> Section<'a> {
             true => f64::INFINITY,
             false => indenter.profile(along.min(rim)) - moment.depth + self.lift,
         };
-        let contact = match moment.zone_at(r) {
-            Zone::Open => None,
-            Zone::Stick => Some(Matter::Stick),
-            Zone::Slip => Some(Matter::Slip),
-        };
         Cut {
             indenter: (unworn + share * wear(along)).max(ground),
             unworn,
             surface: ground,
             unworn_surface: surface,
-            contact,
+            zone: moment.zone_at(r),
         }
     }
 
@@ -258,7 +254,7 @@ mod tests {
             unworn: 0.5,
             surface: -0.2,
             unworn_surface: -0.2,
-            contact: None,
+            zone: Zone::Open,
         };
         let seen = [1.2, 0.7, 0.0, -0.5].map(|z| open.matter(z, size));
         let expected = [
@@ -273,10 +269,11 @@ mod tests {
             unworn: -1.2,
             surface: -1.0,
             unworn_surface: -1.0,
-            contact: Some(Matter::Slip),
+            zone: Zone::Slip,
         };
         let seen = [-0.9, -1.05, -1.15].map(|z| closed.matter(z, size));
-        assert_eq!(seen, [Matter::Indenter, Matter::Slip, Matter::HalfSpace]);
+        let slip = Matter::Contact(Zone::Slip);
+        assert_eq!(seen, [Matter::Indenter, slip, Matter::HalfSpace]);
     }
 
     /// d − f inside, (1/πR)[(2a² − r²) asin(a/r) + a√(r² − a²)] outside.

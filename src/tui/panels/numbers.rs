@@ -33,7 +33,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
     let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
-    for ((name, value), i) in rows(shown.frame).into_iter().zip(0..columns * area.height) {
+    for ((name, value), i) in rows(shown.frame).zip(0..columns * area.height) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
@@ -52,61 +52,54 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
     }
 }
 
-fn rows(frame: &Frame) -> Vec<(&'static str, String)> {
+/// The numbers that there are at the moment: names and values.
+fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
     let (facts, moment, figures) = (&frame.facts, &frame.observation.moment, &frame.figures);
     let figures = figures.as_ref();
     let setup = facts.scenario.setup();
     let k = setup.wear.map(|law| law.coefficient());
-    let per_load = |k: f64| format_number(k * setup.material.friction() * 1e9, 3);
-    let [equivalent, tension] = frame.peaks.map_or([None; 2], |peaks| peaks.map(Some));
-    let cells = frame.observation.radii.len() - 1;
+    let [mises, tension] = frame.peaks.map_or([None; 2], |peaks| peaks.map(Some));
+    let (moves, c) = (moment.stick_radius.is_some(), moment.permanent_stick_radius);
+    let (cells, steps) = (frame.observation.grid.cells(), setup.steps_in_a_cycle());
 
-    let value = |name, value: Option<f64>, unit| Some((name, format_value(value?, unit, 4)));
-    let always = |name, number, unit| value(name, Some(number), unit);
-    let moving = |name, number, unit| value(name, moment.stick_radius.map(|_| number), unit);
-    let ratio =
-        |name, of: fn(&CycleFigures) -> Option<f64>| Some((name, format!("{:.3}", of(figures?)?)));
-    let plain = |name, value: Option<f64>| Some((name, format_number(value?, 2)));
-    let per_energy = |name, volume: Option<f64>| {
-        Some((name, format!("{} µm³/J", format_number(volume? * 1e18, 3))))
-    };
-    let place = |name, x: Option<f64>| {
-        let share = format_number(x? / moment.contact_radius, 3);
-        Some((name, format!("{share} a")))
-    };
+    let value = |value: Option<f64>, unit| Some(format_value(value?, unit, 4));
+    let always = |number, unit| value(Some(number), unit);
+    let plain = |value: Option<f64>, digits| Some(format_number(value?, digits));
+    let with_unit = |number: Option<String>, unit| Some(format!("{} {unit}", number?));
+    let ratio = |of: fn(&CycleFigures) -> Option<f64>| Some(format!("{:.3}", of(figures?)?));
+    let per_energy = |k: Option<f64>| with_unit(plain(k.map(|k| k * 1e18), 3), "µm³/J");
+    let per_load = k.map(|k| k * setup.material.friction() * 1e9);
+    let place = |x: Option<f64>| with_unit(plain(x.map(|x| x / moment.contact_radius), 3), "a");
     let rows = [
-        figures.map(|figures| ("regime", figures.regime.title().to_owned())),
-        always("contact radius a", moment.contact_radius, "m"),
-        value("stick radius now", moment.stick_radius, "m"),
-        value(
-            "permanent stick radius c",
-            moment.permanent_stick_radius,
-            "m",
-        ),
-        always("depth d", moment.depth, "m"),
-        always("F_z", moment.normal_force, "N"),
-        moving("u_x", moment.shift, "m"),
-        moving("F_x", moment.tangential_force, "N"),
-        value("E_d per cycle", figures.map(|figures| figures.energy), "J"),
-        ratio("Q*/(μP)", |figures| figures.force_ratio),
-        ratio("slip ratio", |figures| figures.slip_ratio),
-        ratio("sliding ratio D", |figures| figures.sliding_ratio),
-        ratio("energy ratio A", |figures| figures.energy_ratio),
-        ratio("energy ratio B", |figures| figures.energy_ratio_b),
-        always("wear volume V", moment.wear_volume, "m³"),
-        always("friction work E_d", moment.dissipated_energy, "J"),
-        per_energy("V/E_d", moment.wear_per_energy()),
-        per_energy("k per friction work", k),
-        k.map(|k| ("k per load", format!("{} mm³/(N·m)", per_load(k)))),
-        plain("1 - V/(k E_d)", moment.energy_residual),
-        plain("stability margin", moment.stability_margin),
-        value("time per step", frame.step_cost, "s"),
-        value("largest von Mises", equivalent.map(|peak| peak.value), "Pa"),
-        place("  at depth", equivalent.map(|peak| peak.z)),
-        value("largest tension", tension.map(|peak| peak.value), "Pa"),
-        place("  at x", tension.map(|peak| peak.x)),
-        Some(("cells", cells.to_string())),
-        Some(("steps per cycle", setup.steps_in_a_cycle().to_string())),
+        ("regime", figures.map(|of| of.regime.title().to_owned())),
+        ("contact radius a", always(moment.contact_radius, "m")),
+        ("stick radius now", value(moment.stick_radius, "m")),
+        ("permanent stick radius c", value(c, "m")),
+        ("depth d", always(moment.depth, "m")),
+        ("F_z", always(moment.normal_force, "N")),
+        ("u_x", value(moves.then_some(moment.shift), "m")),
+        ("F_x", value(moves.then_some(moment.tangential_force), "N")),
+        ("E_d per cycle", value(figures.map(|of| of.energy), "J")),
+        ("Q*/(μP)", ratio(|of| of.force_ratio)),
+        ("slip ratio", ratio(|of| of.slip_ratio)),
+        ("sliding ratio D", ratio(|of| of.sliding_ratio)),
+        ("energy ratio A", ratio(|of| of.energy_ratio)),
+        ("energy ratio B", ratio(|of| of.energy_ratio_b)),
+        ("wear volume V", always(moment.wear_volume, "m³")),
+        ("friction work E_d", always(moment.dissipated_energy, "J")),
+        ("V/E_d", per_energy(moment.wear_per_energy())),
+        ("k per friction work", per_energy(k)),
+        ("k per load", with_unit(plain(per_load, 3), "mm³/(N·m)")),
+        ("1 - V/(k E_d)", plain(moment.energy_residual, 2)),
+        ("stability margin", plain(moment.stability_margin, 2)),
+        ("time per step", value(frame.step_cost, "s")),
+        ("largest von Mises", value(mises.map(|at| at.value), "Pa")),
+        ("  at depth", place(mises.map(|at| at.z))),
+        ("largest tension", value(tension.map(|at| at.value), "Pa")),
+        ("  at x", place(tension.map(|at| at.x))),
+        ("cells", Some(cells.to_string())),
+        ("steps per cycle", Some(steps.to_string())),
     ];
-    rows.into_iter().flatten().collect()
+    let rows = rows.into_iter();
+    rows.filter_map(|(name, value)| Some((name, value?)))
 }

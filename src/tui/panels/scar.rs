@@ -53,8 +53,7 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
 
 /// The depths that the colours span, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
-    let wear = &frame.observation.wear;
-    let deepest = largest(wear);
+    let deepest = largest(&frame.observation.wear);
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
@@ -70,27 +69,25 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
-    let deepest = of.bounds.map_or(0.0, |[_, high]| high);
-    let deepest = match deepest.max(largest(&seen.wear)) {
+    let held = of.bounds.map_or(0.0, |[_, high]| high);
+    let deepest = match held.max(largest(&seen.wear)) {
         0.0 => frame.facts.expected_wear,
         deepest => deepest,
     };
     // Half a cell is about as high as a cell is wide.
     let across = f64::from(disc.width.min(2 * disc.height));
     let size = 2.0 * edge / across;
-    let x = |column: u16| (f64::from(column) + 0.5 - f64::from(disc.width) / 2.0) * size;
-    let y = |half: u16| (f64::from(half) + 0.5 - f64::from(disc.height)) * size;
-    for row in 0..disc.height {
-        for column in 0..disc.width {
-            let halves = [2 * row, 2 * row + 1]
-                .map(|half| shown(frame, &theme, deepest, [x(column), y(half)]));
-            let Some(cell) = canvas.cell(column, row) else {
-                continue;
-            };
-            match has_blocks(&theme) {
-                true => paint_halves(cell, halves.map(|(color, _)| color)),
-                false => _ = cell.set_char(halves[0].1),
-            }
+    for at in disc.positions() {
+        let (column, row) = (f64::from(at.x - disc.x), f64::from(at.y - disc.y));
+        let x = (column + 0.5 - f64::from(disc.width) / 2.0) * size;
+        let halves = [0.5, 1.5].map(|half| {
+            let y = (2.0 * row + half - f64::from(disc.height)) * size;
+            shown(frame, &theme, deepest, [x, y])
+        });
+        let cell = &mut canvas.buffer[at];
+        match has_blocks(&theme) {
+            true => paint_halves(cell, halves.map(|(color, _)| color)),
+            false => _ = cell.set_char(halves[0].1),
         }
     }
     legend(frame, [size, deepest], canvas);
@@ -99,12 +96,10 @@ fn draw(of: &Shown, mut canvas: Canvas) {
 /// Where the sliding parts of the indenter move: with the traction that they exert.
 fn slip_direction(frame: &Frame) -> Option<f64> {
     let seen = &frame.observation;
-    let moment = &seen.moment;
-    let slips = moment.stick_radius? < moment.contact_radius;
-    let (load, ring) = (&seen.tangential_load, &seen.radii);
-    let outermost = (0..load.len().min(ring.len())).rev();
-    let mut loaded = outermost.filter(|&j| ring[j] < moment.contact_radius && load[j] != 0.0);
-    loaded.next().filter(|_| slips).map(|j| load[j].signum())
+    let (a, stick) = (seen.moment.contact_radius, seen.moment.stick_radius?);
+    let mut outermost_first = seen.radii.iter().zip(&seen.tangential_load).rev();
+    let (_, load) = outermost_first.find(|(r, load)| **r < a && **load != 0.0)?;
+    (stick < a).then(|| load.signum())
 }
 
 /// The lines of the legend.

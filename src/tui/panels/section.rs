@@ -17,7 +17,8 @@
 
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
 use super::*;
-use crate::charts::U_X;
+use crate::charts::{U_X, look_of};
+use crate::reading::Zone;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -54,11 +55,10 @@ impl Matter {
     /// Its colour, and a whole cell of it, in Unicode and in ASCII.
     fn look(self) -> (Role, [char; 2]) {
         match self {
+            Self::Contact(zone) => (look_of(zone).0, ['▀', look_of(zone).1]),
             Self::Air => (Role::Quiet, [' ', ' ']),
             Self::Indenter => (Role::Profile, ['█', '#']),
             Self::Worn => (Role::Notice, ['╱', '/']),
-            Self::Stick => (Role::Stick, ['▀', 's']),
-            Self::Slip => (Role::Slip, ['▀', '~']),
             Self::HalfSpace => (Role::Open, ['░', '.']),
         }
     }
@@ -74,9 +74,8 @@ impl Section<'_> {
             for row in 0..area.height {
                 let top = self.high - 2.0 * f64::from(row) * self.half;
                 let (glyph, style) = self.cell(&cut, usize::from(column), top);
-                if let Some(cell) = canvas.cell(column, row) {
-                    cell.set_char(glyph).set_style(style);
-                }
+                let cell = &mut canvas.buffer[(area.x + column, area.y + row)];
+                cell.set_char(glyph).set_style(style);
             }
         }
     }
@@ -116,8 +115,7 @@ impl Section<'_> {
         if !has_blocks(&self.theme) {
             return self.plain(cut, column, top);
         }
-        let half = self.half;
-        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * half / PARTS as f64;
+        let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * self.half / PARTS as f64;
         let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.thick));
         // The two that have most of the cell, in their order.
         let mut runs: Vec<&[Matter]> = matter.chunk_by(PartialEq::eq).collect();
@@ -126,35 +124,32 @@ impl Section<'_> {
             runs.remove(least.unwrap_or(0));
         }
         let (upper, lower) = (runs[0], runs[runs.len() - 1]);
+        let ink = |place, matter| self.ink(cut, column, place, matter);
+        let above = ink(part(0), upper[0]);
         if upper[0] != lower[0] {
             let count = lower.len() * PARTS / (lower.len() + upper.len());
             let block = LOWER[count.clamp(1, PARTS - 1)];
-            let above = self.ink(cut, column, part(0), upper[0]);
-            return match self.ink(cut, column, part(PARTS - 1), lower[0]) {
+            return match ink(part(PARTS - 1), lower[0]) {
                 // Air has the colour of the screen, which nobody knows: the block is cut out of the other.
-                None => (block, ink(above).add_modifier(Modifier::REVERSED)),
-                below => (block, ground(ink(below), above)),
+                None => (block, colors(above, None).add_modifier(Modifier::REVERSED)),
+                below => (block, colors(below, above)),
             };
         }
-        let color = self.ink(cut, column, part(0), upper[0]);
         match upper[0] {
             Matter::HalfSpace => {
-                let at =
-                    |halves: f64| self.ink(cut, column, top - halves * half, Matter::HalfSpace);
-                match [at(0.5), at(1.5)] {
+                let [upper, lower] = [0.5, 1.5].map(|at| ink(top - at * self.half, upper[0]));
+                match upper == lower && upper.is_some() {
                     // A blank: a byte instead of three, and one colour to change.
-                    [upper, lower] if upper == lower && upper.is_some() => {
-                        (' ', ground(Style::new(), upper))
-                    }
-                    [upper, lower] => ('▀', ground(ink(upper), lower)),
+                    true => (' ', colors(None, upper)),
+                    false => ('▀', colors(upper, lower)),
                 }
             }
             Matter::Worn => {
-                let style = ground(ink(color), color);
-                ('╱', style.patch(self.theme.style(Role::Profile)))
+                let hatching = self.theme.style(Role::Profile);
+                ('╱', colors(above, above).patch(hatching))
             }
-            Matter::Indenter => ('█', ink(color)),
-            _ => (' ', ground(Style::new(), color)),
+            Matter::Indenter => ('█', colors(above, None)),
+            _ => (' ', colors(None, above)),
         }
     }
 
@@ -176,11 +171,11 @@ impl Section<'_> {
                 None => theme.style(Role::Open).fg,
             },
             // What slips glows.
-            Matter::Slip => {
+            Matter::Contact(Zone::Slip) => {
                 let plain = theme.style(Role::Slip).fg?;
                 Some(color(theme, plain, [208, 202]))
             }
-            Matter::Stick => theme.style(Role::Stick).fg,
+            Matter::Contact(zone) => theme.style(look_of(zone).0).fg,
         }
     }
 
@@ -194,10 +189,9 @@ impl Section<'_> {
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         let (theme, half) = (&self.theme, self.half);
         let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
-        let is_contact = matches!(lower, Matter::Stick | Matter::Slip);
-        let shown = match is_contact && theme.ascii() {
-            true => lower,
-            false => upper,
+        let shown = match lower {
+            Matter::Contact(_) if theme.ascii() => lower,
+            _ => upper,
         };
         if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
             return (shades::sign(shade), Style::new());
@@ -238,10 +232,11 @@ fn color(theme: &Theme, sixteen: Color, [dark, light]: [u8; 2]) -> Color {
     }
 }
 
-fn ink(color: Option<Color>) -> Style {
-    color.map_or(Style::new(), |color| Style::new().fg(color))
-}
-
-fn ground(style: Style, color: Option<Color>) -> Style {
-    color.map_or(style, |color| style.bg(color))
+/// A style of these colours, where there are some.
+fn colors(fg: Option<Color>, bg: Option<Color>) -> Style {
+    Style {
+        fg,
+        bg,
+        ..Style::new()
+    }
 }

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use strum::VariantArray;
-
 use super::*;
 use crate::plot::{shades, sticky_bounds};
 use crate::reading::fatigue::StressCycle;
@@ -13,44 +11,27 @@ use crate::reading::subsurface::{SpringLoad, Stress};
 const SPANS: u32 = 24;
 const SKIN: f64 = 0.03;
 
-/// A stress that the half-space can show, in the order in which a key leads to them.
-#[derive(Debug, Clone, Copy, PartialEq, Default, VariantArray)]
-enum Quantity {
-    #[default]
-    Mises,
-    Principal,
-    Shear,
-    Pressure,
-    /// The Smith–Watson–Topper stress amplitude of a cycle, which no single moment has.
-    Swt,
-    /// None: the half-space is a solid body.
-    Off,
+/// Where a shown quantity comes from.
+#[derive(Debug, Clone, Copy)]
+enum Origin {
+    /// From a load, Pa; over a cycle its largest value.
+    Moment(fn(&Stress) -> f64),
+    /// From the loads of a whole cycle: the Smith–Watson–Topper stress amplitude.
+    Cycle,
+    /// Nothing is shown: the half-space is a solid body.
+    Nowhere,
 }
 
-impl Quantity {
-    /// Its name, and one for little room.
-    fn names(self) -> [&'static str; 2] {
-        match self {
-            Self::Mises => ["von Mises stress", "von Mises"],
-            Self::Principal => ["largest principal stress", "principal"],
-            Self::Shear => ["largest shear stress", "shear"],
-            Self::Pressure => ["hydrostatic pressure", "pressure"],
-            Self::Swt => ["crack parameter SWT of a cycle", "SWT, cycle"],
-            Self::Off => ["no stress", ""],
-        }
-    }
-
-    /// Its value in a moment, Pa, if a moment has one.
-    fn of_moment(self) -> Option<fn(&Stress) -> f64> {
-        match self {
-            Self::Mises => Some(Stress::von_mises),
-            Self::Principal => Some(Stress::max_principal),
-            Self::Shear => Some(Stress::max_shear),
-            Self::Pressure => Some(Stress::pressure),
-            Self::Swt | Self::Off => None,
-        }
-    }
-}
+/// What the half-space can show, in the order in which a key leads to it: a name, one for little room, the colours.
+#[rustfmt::skip]
+const QUANTITIES: [([&str; 2], ColorMap, Origin); 6] = [
+    (["von Mises stress", "von Mises"], ColorMap::Sequential, Origin::Moment(Stress::von_mises)),
+    (["largest principal stress", "principal"], ColorMap::Diverging, Origin::Moment(Stress::max_principal)),
+    (["largest shear stress", "shear"], ColorMap::Sequential, Origin::Moment(Stress::max_shear)),
+    (["hydrostatic pressure", "pressure"], ColorMap::Sequential, Origin::Moment(Stress::pressure)),
+    (["crack parameter SWT of a cycle", "SWT, cycle"], ColorMap::Sequential, Origin::Cycle),
+    (["no stress", ""], ColorMap::Sequential, Origin::Nowhere),
+];
 
 /// Values at (r, z) and at (−r, z), Pa.
 type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
@@ -59,7 +40,7 @@ type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StressMap {
     /// Which of the quantities.
-    shown: Quantity,
+    shown: usize,
     /// Its largest value in the last cycle instead of the present one.
     over_cycle: bool,
     /// The range of the colours, Pa; `None` where nothing is shown.
@@ -69,7 +50,7 @@ pub struct StressMap {
 impl StressMap {
     /// Shows the next stress.
     pub fn next(&mut self) {
-        (self.shown, self.bounds) = (shifted(Quantity::VARIANTS, self.shown, 1), None);
+        (self.shown, self.bounds) = ((self.shown + 1) % QUANTITIES.len(), None);
     }
 
     /// Shows the largest stress of a cycle, or that of the moment.
@@ -88,44 +69,39 @@ impl StressMap {
 
     /// Its colours.
     pub fn colors(self) -> ColorMap {
-        match self.shown {
-            Quantity::Principal => ColorMap::Diverging,
-            _ => ColorMap::Sequential,
-        }
+        QUANTITIES[self.shown].1
     }
 
     /// The title of the map, and one for little room.
     pub fn names(self) -> [String; 2] {
-        let of_cycle = match self.over_cycle && self.shown != Quantity::Swt {
+        let (names, _, origin) = QUANTITIES[self.shown];
+        let of_cycle = match self.over_cycle && !matches!(origin, Origin::Cycle) {
             true => [", largest of a cycle", ", cycle"],
             false => [""; 2],
         };
-        [0, 1].map(|k| format!("{}{}", self.shown.names()[k], of_cycle[k]))
-    }
-
-    /// The loads that the map is made of.
-    fn loads(self, frame: &Frame) -> Vec<Arc<SpringLoad>> {
-        let is_of_cycle = self.over_cycle || self.shown == Quantity::Swt;
-        let earlier = frame.cycle_loads.iter().filter(|_| is_of_cycle);
-        earlier.chain(&frame.load).cloned().collect()
+        [0, 1].map(|k| format!("{}{}", names[k], of_cycle[k]))
     }
 
     /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
     fn values(self, frame: &Frame) -> Option<Values> {
-        let loads = self.loads(frame);
-        if loads.is_empty() || self.shown == Quantity::Off {
-            return None;
+        let (_, _, origin) = QUANTITIES[self.shown];
+        let is_of_cycle = self.over_cycle || matches!(origin, Origin::Cycle);
+        let earlier = frame.cycle_loads.iter().filter(|_| is_of_cycle);
+        let loads: Vec<Arc<SpringLoad>> = earlier.chain(&frame.load).cloned().collect();
+        match origin {
+            _ if loads.is_empty() => None,
+            Origin::Moment(of) => Some(Box::new(move |r, z| {
+                let each = loads.iter().map(|load| load.mirrored(r, z));
+                each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
+                    [a.max(of(&c)), b.max(of(&d))]
+                })
+            })),
+            Origin::Cycle => {
+                let cycle = StressCycle::new(loads);
+                Some(Box::new(move |r, z| cycle.mirrored(r, z).map(|at| at.swt)))
+            }
+            Origin::Nowhere => None,
         }
-        let Some(of) = self.shown.of_moment() else {
-            let cycle = StressCycle::new(loads);
-            return Some(Box::new(move |r, z| cycle.mirrored(r, z).map(|at| at.swt)));
-        };
-        Some(Box::new(move |r, z| {
-            let each = loads.iter().map(|load| load.mirrored(r, z));
-            each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
-                [a.max(of(&c)), b.max(of(&d))]
-            })
-        }))
     }
 
     /// What the colours must reach, Pa: the largest present value, and for signed stresses that of the
@@ -133,7 +109,7 @@ impl StressMap {
     fn extent(self, frame: &Frame) -> Option<[f64; 2]> {
         let load = frame.load.as_deref()?;
         let a = load.contact_radius();
-        if let Some(of) = self.shown.of_moment() {
+        if let (_, _, Origin::Moment(of)) = QUANTITIES[self.shown] {
             let (peak, top) = (load.largest(of).value, of(&load.stress(0.0, 0.05 * a)));
             return Some([top.min(0.0), peak.max(top.abs())]);
         }

@@ -89,9 +89,8 @@ impl Worker {
         let cycle = self.past.line(&self.run).cycle();
         self.load(self.run.session.loaded().clone());
         if cycle > 0.0 {
-            self.screen.notice(&format!(
-                "restarted; [ leads back to the run up to cycle {cycle:.2}"
-            ));
+            let told = format!("restarted; [ leads back to the run up to cycle {cycle:.2}");
+            self.screen.notice(&told);
         }
     }
 
@@ -120,9 +119,8 @@ impl Worker {
     /// Another run takes the place of this one: one that begins, or goes on from a state that was read.
     pub fn replace_run(&mut self, run: Recorded) {
         self.keep();
-        if let Some(keeping) = &self.keeping {
-            locked(keeping).turn_over(&self.past.line(&self.run).session, &run.session);
-        }
+        let left = &self.past.line(&self.run).session;
+        locked(&self.autosave).turn_over(left, &run.session);
         self.past.leave();
         self.snapshots.clear();
         self.run = run;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::studies::refinement::Difference;
-use crate::tui::beside::{Beside, From};
+use crate::tui::beside::{Beside, From, name_of};
 use crate::tui::ghosts::MOST;
 
 /// How long each catches up before the worker looks for orders again.
@@ -89,7 +89,8 @@ impl Worker {
         let before = self.companions.comparison.as_ref();
         let begun = ComparisonRun::beside(&self.run.session, before, places, from);
         if let Some(comparison) = self.screen.or_notice(begun) {
-            let name = comparison.name();
+            let setup = comparison.beside.run.simulation().setup();
+            let name = name_of(setup.method, &setup.grid);
             self.screen.notice(&match from {
                 From::Now => format!("comparing with {name} from here; C: from the start"),
                 From::Start => format!("comparing with {name} from the start"),

@@ -8,12 +8,9 @@ use crate::tui::{figure, snapshot};
 impl Worker {
     /// Starts a study around the present scenario, up to the present cycle.
     pub fn sweep(&self, range: &Range) {
-        let cycle = self.run.cycle();
-        let planned = self.run.session.loaded().run().cycles;
-        let cycles = if cycle > 0.0 {
-            cycle
-        } else {
-            planned.unwrap_or(1.0)
+        let cycles = match self.run.cycle() {
+            0.0 => self.run.session.loaded().run().cycles.unwrap_or(1.0),
+            cycle => cycle,
         };
         let events = self.screen.events.clone();
         let tell = move || {

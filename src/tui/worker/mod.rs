@@ -87,7 +87,7 @@ pub struct Worker {
     pub(super) curves: Curves,
     screen: Outlet,
     /// Shared with whoever ends the program while a step takes long.
-    keeping: Option<Arc<Mutex<ScreenAutosave>>>,
+    autosave: Arc<Mutex<ScreenAutosave>>,
     /// Set when orders that take long are to be cut short.
     halt: Arc<AtomicBool>,
 }
@@ -107,6 +107,7 @@ impl Worker {
                 twin: Twin::of(&run.session),
                 ..Companions::default()
             },
+            autosave: Arc::new(Mutex::new(ScreenAutosave::new(None, None, &run.session))),
             run,
             past: Past::default(),
             kept_at: Instant::now(),
@@ -120,7 +121,6 @@ impl Worker {
             clock: Clock::default(),
             curves: Curves::all(),
             screen: Outlet::new(events, interval),
-            keeping: None,
             halt: Arc::default(),
         }
     }
@@ -132,36 +132,27 @@ impl Worker {
         self
     }
 
-    /// Handles orders and steps in between, until told to quit.
-    pub fn serve(mut self, orders: &Receiver<Order>) {
-        self.handle_orders(orders);
-    }
-
     /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;
     /// returns the message for the user.
     fn run_with_checkpoints(mut self, orders: &Receiver<Order>) -> Option<String> {
-        let served = catch_unwind(AssertUnwindSafe(|| self.handle_orders(orders)));
+        let served = catch_unwind(AssertUnwindSafe(|| self.serve(orders)));
         // The interrupted step has left half a state.
         let session = served.is_ok().then(|| &self.past.line(&self.run).session);
-        let keeping = self.keeping.take()?;
-        locked(&keeping).finish(session)
+        locked(&self.autosave).finish(session)
     }
 
-    fn handle_orders(&mut self, orders: &Receiver<Order>) {
+    /// Handles orders and steps in between, until told to quit.
+    pub fn serve(&mut self, orders: &Receiver<Order>) {
         self.publish();
         loop {
             #[cfg(debug_assertions)]
             crate::failpoint::hit("worker");
             self.checkpoint_if_due();
-            let wait = if self.is_awaited() {
-                Some(Duration::ZERO)
-            } else {
-                self.until_next_step()
+            let wait = match self.is_awaited() {
+                true => Duration::ZERO,
+                false => self.until_next_step(),
             };
-            match wait.map_or_else(
-                || orders.recv().map_err(RecvTimeoutError::from),
-                |wait| orders.recv_timeout(wait),
-            ) {
+            match orders.recv_timeout(wait) {
                 Err(RecvTimeoutError::Disconnected) => return,
                 Ok(order) => {
                     // If many orders are waiting, not every one is shown.
@@ -190,10 +181,8 @@ impl Worker {
 
     /// Saves the session when due.
     fn checkpoint_if_due(&mut self) {
-        let keeping = self.keeping.as_ref();
         let session = &self.past.line(&self.run).session;
-        let word = keeping.and_then(|keeping| locked(keeping).save_if_due(session));
-        if let Some(word) = word {
+        if let Some(word) = locked(&self.autosave).save_if_due(session) {
             self.screen.notice(&word);
         }
     }

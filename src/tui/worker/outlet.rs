@@ -14,7 +14,7 @@ use crate::tui::line::one_line;
 pub(super) struct Outlet {
     slot: Arc<Slot>,
     pub events: Sender<Event>,
-    pub interval: Duration,
+    interval: Duration,
     shown: Instant,
 }
 
@@ -111,7 +111,6 @@ impl Worker {
             false => self.run.session.checks(),
         };
         let is_running = self.activity == Activity::Running;
-        let changes = self.past.line(&self.run).session.changes().iter();
         let figures = self.run.session.cycle_figures();
         Frame {
             run: self.charted(&observation, figures.as_ref()),
@@ -121,13 +120,13 @@ impl Worker {
             peaks,
             observation,
             figures,
-            phase: self.clock.held_phase(simulation),
+            shows_ends: self.clock.shows_ends(simulation),
             activity: self.activity.clone(),
             pace: self.clock.pace(),
             speed: self.clock.speed.filter(|_| is_running),
             step_cost: self.clock.step_cost,
             present: self.past.present(),
-            changes: (changes.map(|change| (change.at_cycle, change.set.clone()))).collect(),
+            changes: self.past.line(&self.run).session.changes().to_vec(),
             snapshots: self.snapshots.clone(),
             errors: self.errors(),
             checks,
@@ -150,7 +149,7 @@ impl Worker {
                 moment,
                 wears: seen.law.is_some(),
                 friction: material.friction(),
-                planned_cycles: facts.planned_cycles,
+                planned_cycles: facts.scenario.run().cycles,
                 expected_wear: facts.expected_wear,
                 is_within_a_cycle: trend.is_within_a_cycle(),
                 regime: figures.map(|figures| figures.regime.title()),

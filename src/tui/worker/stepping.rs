@@ -9,6 +9,9 @@ const STINT: Duration = Duration::from_millis(4);
 /// How long the run's twin steps after each stint: about a quarter of the work is its.
 const TWIN_STINT: Duration = Duration::from_millis(2);
 
+/// Minimum time between stored states, so that storing them takes no noticeable time.
+const APART: Duration = Duration::from_millis(50);
+
 /// A run too slow for a frame at each cycle shows one at least this often.
 const AT_LEAST: Duration = Duration::from_secs(1);
 
@@ -43,15 +46,14 @@ impl Worker {
         });
     }
 
-    /// How long to wait for orders before the next step or checkpoint is due; forever if none is
-    /// due.
-    pub(super) fn until_next_step(&self) -> Option<Duration> {
-        if self.activity != Activity::Running {
-            let line = &self.past.line(&self.run).session;
-            return locked(self.keeping.as_ref()?).wait(line);
+    /// How long to wait for orders before the next step or checkpoint is due: without end if none is.
+    pub(super) fn until_next_step(&self) -> Duration {
+        if self.activity == Activity::Running {
+            let ahead = self.clock.ahead(self.run.simulation());
+            return Duration::from_secs_f64(ahead.clamp(0.0, 0.1));
         }
-        let ahead = self.clock.ahead(self.run.simulation());
-        Some(Duration::from_secs_f64(ahead.clamp(0.0, 0.1)))
+        let wait = locked(&self.autosave).wait(&self.past.line(&self.run).session);
+        wait.unwrap_or(Duration::MAX)
     }
 
     /// Steps while the pace allows it, for no longer than orders may wait.
@@ -69,29 +71,21 @@ impl Worker {
                 crate::failpoint::stall("long step");
             }
             self.step();
-            self.keep_cycle(before);
-            self.end_where_planned(before);
-            if ends_cycle(before, self.run.cycle()) && self.holds_phase() && self.screen.is_due() {
+            let simulation = self.run.simulation();
+            let is_end = ends_cycle(before, simulation.cycle());
+            if is_end && self.clock.shows_ends(simulation) && self.screen.is_due() {
                 self.publish();
             }
         }
         let simulation = self.run.simulation();
         self.clock.measure(simulation, start.elapsed());
         let cycle = simulation.cycle();
+        let waits = self.clock.shows_ends(simulation) && !self.screen.is_due_after(AT_LEAST);
         self.run.trend.step_cost = self.clock.step_cost;
         self.companions.follow_with_twin(cycle, TWIN_STINT);
-        let wait = match self.holds_phase() {
-            true => self.screen.interval.max(AT_LEAST),
-            false => self.screen.interval,
-        };
-        if self.screen.is_due_after(wait) || self.activity != Activity::Running {
+        if self.screen.is_due() && !waits || self.activity != Activity::Running {
             self.publish();
         }
-    }
-
-    /// Whether frames are taken at the ends of cycles.
-    fn holds_phase(&self) -> bool {
-        self.clock.held_phase(self.run.simulation()).is_some()
     }
 
     fn step(&mut self) {
@@ -112,14 +106,20 @@ impl Worker {
         if self.curves.contains(Curves::SPRINGS) {
             self.cycle_loads.note(self.run.simulation());
         }
-        let is_end = self.has_reached_end(before);
+        let is_running = self.activity == Activity::Running;
+        let (ends_cycle, is_end) = (ends_cycle(before, cycle), self.has_reached_end(before));
         let twin = self.companions.twin.as_mut();
-        if let Some(twin) = twin.filter(|_| ends_cycle(before, cycle) || is_end) {
+        if let Some(twin) = twin.filter(|_| ends_cycle || is_end) {
             // Steps by hand are few, and each is looked at.
-            let must = is_end || self.activity != Activity::Running;
-            twin.look_at(&self.run.session, must);
+            twin.look_at(&self.run.session, is_end || !is_running);
         }
         self.companions.follow(cycle);
+        if ends_cycle && self.kept_at.elapsed() > APART {
+            self.keep();
+        }
+        if is_end && is_running {
+            (self.activity, self.told_of_end) = (Activity::Done, false);
+        }
     }
 
     /// The cycle at which the next step or jump ends at the latest: the planned end, and beyond it as far
@@ -132,14 +132,6 @@ impl Worker {
             Some(end) if now < end => self.run.session.heading(end),
             Some(end) if simulation.may_jump() => now + end.max(SHORTEST_PLAN).ceil(),
             _ => f64::INFINITY,
-        }
-    }
-
-    /// Pauses when a running simulation passes the end of the scenario's plan.
-    fn end_where_planned(&mut self, before: f64) {
-        if self.activity == Activity::Running && self.has_reached_end(before) {
-            self.activity = Activity::Done;
-            self.told_of_end = false;
         }
     }
 
@@ -160,11 +152,8 @@ impl Worker {
         let before = self.run.cycle();
         loop {
             self.step();
-            if ends_cycle(before, self.run.cycle()) {
-                self.keep();
-            }
-            if self.activity != Activity::Paused || done(before, self.run.cycle()) || self.is_over()
-            {
+            let is_done = done(before, self.run.cycle());
+            if self.activity != Activity::Paused || is_done || self.is_over() {
                 break;
             }
         }

@@ -17,7 +17,7 @@ const SAVING_TIME: Duration = Duration::from_secs(5);
 pub(in crate::tui) struct WorkerThread {
     orders: Orders,
     halt: Arc<AtomicBool>,
-    keeping: Option<Arc<Mutex<ScreenAutosave>>>,
+    autosave: Arc<Mutex<ScreenAutosave>>,
     /// Its final message about what it has saved.
     saved: Receiver<Option<String>>,
 }
@@ -32,16 +32,17 @@ impl Drop for EndReport {
 }
 
 impl WorkerThread {
-    /// Starts `worker`, whose `orders` come at `inbox`.
+    /// Starts `worker`, whose `orders` come at `inbox`, and which has its session saved.
     pub fn start(
         mut worker: Worker,
         orders: Orders,
         inbox: Receiver<Order>,
-        keeping: Option<Arc<Mutex<ScreenAutosave>>>,
+        autosave: ScreenAutosave,
     ) -> Result<Self> {
         let (tell, saved) = channel();
         let halt = Arc::clone(&worker.halt);
-        worker.keeping.clone_from(&keeping);
+        worker.autosave = Arc::new(Mutex::new(autosave));
+        let autosave = Arc::clone(&worker.autosave);
         thread::Builder::new()
             .name("simulation".into())
             .spawn(move || {
@@ -52,7 +53,7 @@ impl WorkerThread {
         Ok(Self {
             orders,
             halt,
-            keeping,
+            autosave,
             saved,
         })
     }
@@ -71,9 +72,9 @@ impl WorkerThread {
             Err(RecvTimeoutError::Disconnected) => return None,
             Err(RecvTimeoutError::Timeout) => {}
         }
-        match self.keeping.as_ref()?.try_lock() {
-            Ok(mut keeping) => keeping.finish(None),
-            Err(TryLockError::Poisoned(keeping)) => keeping.into_inner().finish(None),
+        match self.autosave.try_lock() {
+            Ok(mut autosave) => autosave.finish(None),
+            Err(TryLockError::Poisoned(autosave)) => autosave.into_inner().finish(None),
             // It is being saved, which may take a while on a slow disk.
             Err(TryLockError::WouldBlock) => self.saved.recv_timeout(SAVING_TIME).ok().flatten(),
         }

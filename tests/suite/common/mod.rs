@@ -389,7 +389,7 @@ impl LiveWorker {
     pub fn on(scenario: Scenario, interval: Duration, running: bool) -> Self {
         let (orders, to_worker) = Orders::channel();
         let (sender, events) = channel();
-        let worker = Worker::new(begin(scenario), sender, interval, running);
+        let mut worker = Worker::new(begin(scenario), sender, interval, running);
         Self {
             orders,
             events,

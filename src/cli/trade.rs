@@ -154,7 +154,7 @@ fn run(
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
 fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session) -> String {
     let (seconds, level) = (reached.seconds, &reached.rung.level);
-    let errors = Outcome::of(&reached.session).against(&Outcome::of(reference));
+    let errors = reached.rung.outcome.against(&Outcome::of(reference));
     let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",
@@ -195,9 +195,8 @@ fn plots(trials: &[Trial], options: &Trade) -> String {
     let curve = |method: Option<AbelMethod>| {
         let mut mine = trials.iter().collect::<Vec<_>>();
         mine.retain(|trial| method.is_none_or(|method| trial.setting.method == method));
-        let points = front(mine)
-            .into_iter()
-            .map(|(_, [time, error])| (time, error));
+        let points = front(mine).into_iter();
+        let points = points.map(|(_, [time, error])| (time, error));
         let (times, errors): (Vec<f64>, Vec<f64>) = points.unzip();
         Curve::new("", times, errors, Role::Profile)
     };

@@ -1,11 +1,11 @@
 //! Estimates the error of a run from coarser twins.
 //!
 //! Two twins with a half and a quarter of the cells and of the steps give two differences, which tell the error as
-//! rungs of the [ladder](super::Ladder) do. A run too coarse to be halved twice is compared with a finer twin instead.
+//! rungs of the [ladder](super::climb) do. A run too coarse to be halved twice is compared with a finer twin instead.
 
 use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
-use super::run;
+use super::rung::run;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
 

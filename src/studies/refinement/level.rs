@@ -121,9 +121,7 @@ impl Level {
     /// # Errors
     /// If the scenario's method or shape does not allow this many cells.
     pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
-        let keys = self.keys();
-        let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
-        scenario.with_all(&keys)
+        scenario.with_all(&self.keys())
     }
 }
 

@@ -22,9 +22,10 @@ const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer, on a map if there is one.
 pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
-    let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
+    let screen = &options.screen;
+    let strokes = Stroke::script(screen.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
-    let color = options.color.or(config.color);
+    let color = screen.color.or(config.color);
     command::bind(config.keys);
     let directory = Path::new(&options.scenario);
     let run = match &options.resume {
@@ -62,16 +63,16 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         ghosts,
         keep_in: autosave::state_directory(),
         keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
-        fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
-        marker: options.marker.or(config.marker),
+        fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
+        marker: screen.marker.or(config.marker),
         colored: color.and_then(ColorChoice::is_colored),
-        look: options.theme.or(config.theme),
+        look: screen.theme.or(config.theme),
         present: options.present,
-        mouse: options.mouse || config.mouse == Some(true),
-        script: options.print.map(|size| Script {
+        mouse: screen.mouse || config.mouse == Some(true),
+        script: screen.print.map(|size| Script {
             strokes,
             size,
-            format: options.format,
+            format: screen.format,
         }),
     })?;
     if let Some(word) = farewell.saved {

@@ -10,10 +10,11 @@ use std::time::{Duration, Instant};
 use std::{env, fs};
 
 use anyhow::{Context, Result, anyhow, bail};
+use clap::Parser;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::args::Sweep;
-use super::{UNFINISHED, complain, progress, stop, succeeded};
+use super::args::{Arguments, Sweep};
+use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
 use crate::export::file::shell_word;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, limited, printable};
@@ -21,12 +22,12 @@ use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record};
 use crate::studies::sweep::{Shard, Study, Success};
+use crate::tui::map::live::Live;
 
 mod merge;
 mod output;
 mod sensitivity;
 mod slurm;
-mod view;
 
 use output::Output;
 
@@ -42,7 +43,7 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         return merge::merge(directory, options).map(|()| ExitCode::SUCCESS);
     }
     if let Some(file) = &options.view {
-        return view::view(file, options).map(|()| ExitCode::SUCCESS);
+        return view(file, options).map(|()| ExitCode::SUCCESS);
     }
     let path = options.study.clone().unwrap_or_default();
     let study = read(&path, &options.changes.set)?;
@@ -62,6 +63,14 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         return run(options, &path, &study);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Shows a table as a map until the user quits.
+fn view(file: &Path, options: &Sweep) -> Result<()> {
+    let map = Live::of_file(file)?;
+    let mut explorer = Arguments::try_parse_from(["mdr-tui"])?.explore;
+    explorer.screen = options.screen.clone();
+    explore::explore(&explorer, Some(map))
 }
 
 /// The threads to run on: as many as are asked for, or one for each processor.
@@ -127,10 +136,8 @@ fn invalid(refusal: Refusal) -> Refusal {
 
 fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let shard = shard(options)?;
-    let out = options
-        .out
-        .clone()
-        .unwrap_or_else(|| default_out(path, shard));
+    let out = options.out.clone();
+    let out = out.unwrap_or_else(|| default_out(path, shard));
     let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
     let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
@@ -149,11 +156,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         while options.json
             && let Some(point) = points.next_if(|&point| ledger.has(point))
         {
-            writeln!(
-                out,
-                "{}",
-                record::json(&study.columns(), &ledger.row(point)?)
-            )?;
+            let row = record::json(&study.columns(), &ledger.row(point)?);
+            writeln!(out, "{row}")?;
         }
         Ok(())
     };

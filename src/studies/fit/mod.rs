@@ -81,19 +81,14 @@ pub struct Value {
 pub struct Compared {
     /// As it was measured.
     pub measured: Measured,
-    /// The same points, simulated.
-    pub simulated: Vec<f64>,
+    /// Measured less simulated.
+    pub residuals: Vec<f64>,
 }
 
 impl Compared {
-    /// Measured less simulated.
-    pub fn residuals(&self) -> Vec<f64> {
-        residuals(&self.measured, &self.simulated)
-    }
-
-    /// The root of their mean square.
+    /// The root of the mean square of the residuals.
     pub fn rms(&self) -> f64 {
-        rms(&self.residuals())
+        rms(&self.residuals)
     }
 }
 
@@ -143,11 +138,9 @@ impl Fit {
                 return refuse(format!("{} is given twice", key.key));
             }
         }
-        let histories = data
-            .iter()
-            .filter(|set| set.axes.x == "cycle")
-            .flat_map(|set| set.at.iter().copied());
-        let last = histories.fold(0.0, f64::max);
+        let histories = data.iter().filter(|set| set.axes.x == "cycle");
+        let cycles_of = histories.flat_map(|set| &set.at);
+        let last = cycles_of.copied().fold(0.0, f64::max);
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
         let cycles = planned.max(last);
         if cycles > MOST_CYCLES {
@@ -314,8 +307,7 @@ impl Fit {
         scenario: Scenario,
         runs: usize,
     ) -> Fitted {
-        let mut remarks = Vec::new();
-        let mut values = Vec::new();
+        let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
         let covariance = &uncertainty.covariance;
         let correlation = |i: usize, j: usize| {
             let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
@@ -324,7 +316,6 @@ impl Fit {
                 false => 0.0,
             }
         };
-        let mut alike = Vec::new();
         for (i, (free, &theta)) in self.free.iter().zip(theta).enumerate() {
             let error = covariance[(i, i)].sqrt();
             let at_bound = free.is_at_bound(theta);
@@ -357,10 +348,10 @@ impl Fit {
             });
         }
         remarks.extend(alike);
-        let compared = self.data.iter().cloned().zip(simulated);
-        let compared = compared.map(|(measured, simulated)| Compared {
-            measured,
-            simulated,
+        let compared = self.data.iter().zip(&simulated);
+        let compared = compared.map(|(set, simulated)| Compared {
+            measured: set.clone(),
+            residuals: residuals(set, simulated),
         });
         Fitted {
             values,
@@ -380,9 +371,8 @@ fn refuse<T>(line: String) -> Result<T, ScenarioError> {
 /// The errors of a data set: as given, or its size until a fit estimates them.
 fn first_errors(set: &Measured) -> Vec<f64> {
     let size = rms(&set.values).max(f64::MIN_POSITIVE);
-    set.errors
-        .clone()
-        .unwrap_or_else(|| vec![size; set.values.len()])
+    let given = set.errors.clone();
+    given.unwrap_or_else(|| vec![size; set.values.len()])
 }
 
 /// Measured less simulated.

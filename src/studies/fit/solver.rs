@@ -98,19 +98,17 @@ impl Free {
 
     /// The size against which an error is vague.
     pub fn vague_at(&self, theta: f64) -> f64 {
-        if self.positive {
-            1.0
-        } else {
-            2.0 * theta.abs()
+        match self.positive {
+            true => 1.0,
+            false => 2.0 * theta.abs(),
         }
     }
 
     /// The step of differences around `theta`.
     pub fn step(&self, theta: f64) -> f64 {
-        STEP * if self.positive {
-            1.0
-        } else {
-            theta.abs().max(1e-12)
+        match self.positive {
+            true => STEP,
+            false => STEP * theta.abs().max(1e-12),
         }
     }
 
@@ -175,13 +173,11 @@ pub(super) fn solve(
     let mut config = MPConfig::new();
     (config.ftol, config.xtol, config.gtol) = (1e-7, 1e-6, 1e-10);
     config.max_iter = 60;
+    let parameters = free.iter().zip(theta);
+    let parameters = parameters.map(|(free, theta)| free.limits(*theta));
     let mut problem = Problem {
         points,
-        parameters: free
-            .iter()
-            .zip(theta)
-            .map(|(free, theta)| free.limits(*theta))
-            .collect(),
+        parameters: parameters.collect(),
         config,
         residuals,
     };

@@ -9,9 +9,8 @@ use anyhow::{Context, Result, bail};
 
 use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, job};
-use crate::charts::{
-    Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
-};
+use crate::charts::{Recipe, Run};
+use crate::charts::{depth, fretting_loop, profile, scar_depth, springs, stresses, volume};
 use crate::export::target::Target;
 use crate::figure::look::Look;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
@@ -200,11 +199,9 @@ fn refuse_what_no_chart_shows(
         }
         let places = on_paper().filter(|panel| panel.shows(ghost));
         let names: Vec<&str> = places.map(|panel| panel.name).collect();
-        let rule = "is on none of these charts; it belongs to --panel";
-        return Err(Refusal::new(
-            format_args!("--overlay {given}"),
-            format_args!("{rule} {}", names.join(" or ")),
-        ));
+        let places = names.join(" or ");
+        let rule = format!("is on none of these charts; it belongs to --panel {places}");
+        return Err(Refusal::new(format_args!("--overlay {given}"), rule));
     }
     Ok(())
 }

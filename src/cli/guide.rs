@@ -26,10 +26,8 @@ pub fn guide(options: &Guide) -> Result<()> {
 }
 
 fn list() -> String {
-    let topics = TOPICS
-        .iter()
-        .map(|topic| format!("  {:<12} {}\n", topic.name, topic.about));
-    let topics: String = topics.collect();
+    let line = |topic: &Topic| format!("  {:<12} {}\n", topic.name, topic.about);
+    let topics: String = TOPICS.iter().map(line).collect();
     format!("Topics:\n{topics}\nRead one with: mdr-tui guide TOPIC\n")
 }
 

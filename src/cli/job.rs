@@ -52,10 +52,8 @@ impl RunJob {
         let snapshots = match &options.snapshot_at {
             Some(given) => {
                 if let Some(late) = given.iter().find(|snapshot| snapshot.cycle() > cycles) {
-                    bail!(Refusal::new(
-                        format_args!("--snapshot-at {}", late.0),
-                        format_args!("is after the end of the run, {cycles} cycles")
-                    ));
+                    let rule = format!("is after the end of the run, {cycles} cycles");
+                    bail!(Refusal::new(format_args!("--snapshot-at {}", late.0), rule));
                 }
                 given.clone()
             }

@@ -47,9 +47,8 @@ fn command() -> String {
 fn now() -> u64 {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok();
     let since = || UNIX_EPOCH.elapsed().map_or(0, |since| since.as_secs());
-    given
-        .and_then(|given| given.parse().ok())
-        .unwrap_or_else(since)
+    let given = given.and_then(|given| given.parse().ok());
+    given.unwrap_or_else(since)
 }
 
 /// A moment as ISO 8601 has it, in UTC. The days are counted from 1 March of the year 0, so that a leap

@@ -94,13 +94,12 @@ impl Ghost {
                 ghost.take(Table::of_file(&columns));
             }
         }
-        match ghost.tables.is_empty() {
-            true => {
-                let path = printable(&path.display().to_string());
-                Err(Refusal::new(path, "holds no state.csv and no history.csv of a run").into())
-            }
-            false => Ok(ghost),
+        if ghost.tables.is_empty() {
+            let path = printable(&path.display().to_string());
+            let rule = "holds no state.csv and no history.csv of a run";
+            return Err(Refusal::new(path, rule).into());
         }
+        Ok(ghost)
     }
 
     /// The traces of a table, by its columns: a state or a history of this program, else measured data.
@@ -173,12 +172,9 @@ impl Ghost {
 
     /// The last cycle that it tells of.
     pub fn end(&self) -> f64 {
-        let histories = self
-            .tables
-            .iter()
-            .filter(|table| table.column("r_m").is_none());
-        let cycles = histories.filter_map(Table::last_cycle);
-        cycles.fold(0.0, f64::max)
+        let tables = self.tables.iter();
+        let histories = tables.filter(|table| table.column("r_m").is_none());
+        histories.filter_map(Table::last_cycle).fold(0.0, f64::max)
     }
 
     /// Says so where its radii and the `reach` of the contact, m, differ by so much that one of them is

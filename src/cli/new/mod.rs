@@ -45,10 +45,8 @@ pub fn new(options: &New) -> Result<()> {
         writeln!(out, "  {}", forecast.regime())?;
         writeln!(out, "  {}", forecast.a_day())?;
     }
-    writeln!(
-        out,
-        "written to {file}; mdr-tui {file} opens it, mdr-tui run {file} --out DIR runs it"
-    )?;
+    let hint = format!("mdr-tui {file} opens it, mdr-tui run {file} --out DIR runs it");
+    writeln!(out, "written to {file}; {hint}")?;
     drop(out);
     let opens = match asks && !options.open {
         true => Confirm::with_theme(&*theme())

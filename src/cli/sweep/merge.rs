@@ -50,9 +50,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let rows = &ledger;
     if !doubles.is_empty() {
         let (count, named) = (doubles.len(), some(&doubles));
-        complain(&format!(
-            "{count} identical duplicate rows were dropped: {named}"
-        ));
+        let word = format!("{count} identical duplicate rows were dropped: {named}");
+        complain(&word);
     }
     if !contradictions.is_empty() {
         let (count, named) = (contradictions.len(), some(&contradictions));
@@ -75,9 +74,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     }
     let (all, failed) = (rows.rows(), rows.failed());
     if failed > 0 {
-        complain(&format!(
-            "{failed} of {all} points failed; their status says why"
-        ));
+        let word = format!("{failed} of {all} points failed; their status says why");
+        complain(&word);
     }
     Ok(())
 }

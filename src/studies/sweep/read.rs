@@ -121,9 +121,8 @@ impl Written {
             written,
         };
         if self.axis.is_empty() && self.sensitivity.is_none() {
-            return error(
-                "there is no axis: add [[axis]] with key and values, linspace or logspace",
-            );
+            let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
+            return error(rule);
         }
         if study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES {
             let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
@@ -135,10 +134,8 @@ impl Written {
             let axis = read_axis(axis, &place, &study, samples)?;
             for key in std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key)) {
                 if taken.contains(key) {
-                    return error(format!(
-                        "{place}: {key} is given twice; [set], the axes and tied keys must name \
-                         different keys"
-                    ));
+                    let rule = "[set], the axes and tied keys must name different keys";
+                    return error(format!("{place}: {key} is given twice; {rule}"));
                 }
                 taken.push(key.clone());
             }
@@ -166,14 +163,13 @@ fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
         (Some(_), None, _) => error(format!(
             "samples is missing: the number of points that design = \"{design}\" draws"
         )),
-        (Some(most), Some(samples), seed) => match (1..=most).contains(&samples) {
-            true => Ok(Some((samples, seed.unwrap_or(0)))),
-            false => refuse(
-                "samples",
-                samples,
-                format!("must be a whole number from 1 to {most}"),
-            ),
-        },
+        (Some(most), Some(samples), seed) if (1..=most).contains(&samples) => {
+            Ok(Some((samples, seed.unwrap_or(0))))
+        }
+        (Some(most), Some(samples), _) => {
+            let rule = format!("must be a whole number from 1 to {most}");
+            refuse("samples", samples, rule)
+        }
     }
 }
 
@@ -183,9 +179,8 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
     for (key, value) in table {
         flatten(key, value, &mut found);
     }
-    found
-        .iter()
-        .try_for_each(|(key, _)| known_key(key, place))?;
+    let mut keys = found.iter().map(|(key, _)| key);
+    keys.try_for_each(|key| known_key(key, place))?;
     Ok(found)
 }
 
@@ -278,16 +273,13 @@ fn read_axis(
         ("values", _) => Values::Listed(listed(&key, &named, list)?),
         (_, None) => {
             let ends = ends(&named, &list, spread, 3)?;
-            let count = list[2].as_integer().map(usize::try_from);
-            match count {
-                Some(Ok(count)) if (1..=MOST_POINTS).contains(&count) => {
-                    Values::Between(ends, count, Spacing::Even)
-                }
-                _ => {
-                    let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
-                    return refuse(&named, Value::from(list), rule);
-                }
-            }
+            let count = list[2].as_integer();
+            let count = count.and_then(|count| usize::try_from(count).ok());
+            let Some(count) = count.filter(|count| (1..=MOST_POINTS).contains(count)) else {
+                let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
+                return refuse(&named, Value::from(list), rule);
+            };
+            Values::Between(ends, count, Spacing::Even)
         }
         (_, Some((samples, spacing))) => {
             Values::Between(ends(&named, &list, spread, 2)?, samples, spacing)
@@ -349,22 +341,18 @@ fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)
 /// Refuses too many points, and zipped axes of different lengths.
 fn check_count(study: &Study) -> Result<()> {
     if study.design == Design::Grid {
-        let lengths = study.axes.iter().map(|axis| axis.count() as f64);
-        let points: f64 = lengths.product();
+        let points: f64 = study.axes.iter().map(|axis| axis.count() as f64).product();
         return match points > MOST_POINTS as f64 {
             true => error(format!("{points:.3e} points; the limit is {MOST_POINTS}")),
             false => Ok(()),
         };
     }
     let length = study.points();
-    match study.axes.iter().find(|axis| axis.count() != length) {
-        None => Ok(()),
-        Some(axis) => error(format!(
-            "axis {}: has {} values, the first axis {length}; design = \"{}\" needs the same \
-             number on each",
-            axis.key,
-            axis.count(),
-            study.design
-        )),
-    }
+    let Some(axis) = study.axes.iter().find(|axis| axis.count() != length) else {
+        return Ok(());
+    };
+    let (key, count, design) = (&axis.key, axis.count(), study.design);
+    error(format!(
+        "axis {key}: has {count} values, the first axis {length}; design = \"{design}\" needs the same number on each"
+    ))
 }

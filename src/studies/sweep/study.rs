@@ -77,16 +77,15 @@ impl Study {
     pub fn values(&self, point: usize) -> Vec<String> {
         let places = self.places(point);
         let axes = self.axes.iter().zip(places);
-        axes.map(|(axis, place)| printable(&axis.text(place)))
-            .collect()
+        let shown = axes.map(|(axis, place)| printable(&axis.text(place)));
+        shown.collect()
     }
 
     /// `point` in words: its number and its values.
     pub fn name(&self, point: usize) -> String {
         let values = self.axes.iter().zip(self.values(point));
-        let values: Vec<String> = values
-            .map(|(axis, value)| format!("{} = {value}", axis.key))
-            .collect();
+        let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
+        let values: Vec<String> = values.collect();
         format!("point {point} ({})", values.join(", "))
     }
 
@@ -161,17 +160,12 @@ impl Study {
         let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
         let all: Vec<(&str, String)> = set.chain(axes).collect();
         let scenario = self.base.with_all(&all)?;
-        match scenario.run().cycles {
-            Some(_) => Ok(scenario),
-            None => {
-                let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
-                Err(ScenarioError::missing(
-                    &self.base_name,
-                    "run.cycles",
-                    meaning,
-                ))
-            }
+        if scenario.run().cycles.is_none() {
+            let (name, key) = (&self.base_name, "run.cycles");
+            let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
+            return Err(ScenarioError::missing(name, key, meaning));
         }
+        Ok(scenario)
     }
 
     /// Sets a key for all points, as `--set` does: `KEY=VALUE`. It takes the place of what `[set]`

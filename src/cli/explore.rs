@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use serde::de::IgnoredAny;
 
 use super::args::{ColorChoice, Explore};
@@ -31,11 +31,10 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let run = match &options.resume {
         Some(file) => checkpoint::read::<IgnoredAny>(file)?.session.into(),
         None if directory.is_dir() => {
-            if !options.changes.set.is_empty() {
-                let rule = "continues as it was saved, so --set changes nothing; give its \
-                    scenario.toml to start anew";
-                bail!(Refusal::new(&options.scenario, rule));
-            }
+            let rule = "continues as it was saved, so --set changes nothing; give its \
+                scenario.toml to start anew";
+            let is_as_saved = options.changes.set.is_empty();
+            ensure!(is_as_saved, Refusal::new(&options.scenario, rule));
             snapshot::open(directory).map_err(Refusal::from)?
         }
         None => {
@@ -52,10 +51,8 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let reach = run.simulation().setup().grid.radius();
     let load = |given: &String| Source::load(given, reach).map_err(Refusal::from);
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
-    if ghosts.len() > MOST {
-        let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
-        bail!(Refusal::new("--overlay", rule));
-    }
+    let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
+    ensure!(ghosts.len() <= MOST, Refusal::new("--overlay", rule));
     let farewell = tui::run(Options {
         running: options.resume.is_none() && !directory.is_dir() && map.is_none(),
         run,

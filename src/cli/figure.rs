@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, job};
@@ -238,10 +238,9 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     } else {
         return from_scenario(source, options);
     }
-    if !options.changes.set.is_empty() || options.cycles.is_some() {
-        let rule = "a finished run is not run again, so --set and --cycles have no effect";
-        bail!(Refusal::new(source, rule));
-    }
+    let is_as_it_was = options.changes.set.is_empty() && options.cycles.is_none();
+    let rule = "a finished run is not run again, so --set and --cycles have no effect";
+    ensure!(is_as_it_was, Refusal::new(source, rule));
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
         for at in wanted {
@@ -284,9 +283,7 @@ fn from_directory(directory: &Path) -> Result<Run> {
 /// Reads a table of a run.
 fn take(run: &mut Run, path: &Path) -> Result<()> {
     let table = Table::of_file(&Columns::read(path)?);
-    if table.rows() == 0 {
-        bail!(unread(path, "has no rows of numbers"));
-    }
+    ensure!(table.rows() > 0, unread(path, "has no rows of numbers"));
     Ok(run.take(table).map_err(|why| unread(path, why))?)
 }
 

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use super::args::Trade;
 use super::job::end;
@@ -38,15 +38,14 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let target = options.output.claim()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
-    if scenario.setup().wear.is_none() {
-        let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
-        bail!(Refusal::new(&options.scenario, rule));
-    }
+    let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
+    let wears = scenario.setup().wear.is_some();
+    ensure!(wears, Refusal::new(&options.scenario, rule));
     let stop = stop::signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    let Some((trials, notes)) = &run(&scenario, cycles, options, &go_on)? else {
-        bail!("interrupted before the reference was computed: no results");
-    };
+    let found = run(&scenario, cycles, options, &go_on)?;
+    let found = found.context("interrupted before the reference was computed: no results");
+    let (trials, notes) = &found?;
     results::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     if let (Some(accuracy), None) = (options.accuracy, best) {

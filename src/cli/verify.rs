@@ -1,6 +1,6 @@
 //! `mdr-tui verify`: the error of every method against closed forms.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 
 use super::args::Verify;
 use super::{progress, results, small_multiples};
@@ -20,10 +20,8 @@ pub fn verify(options: &Verify) -> Result<()> {
         some => some,
     };
     let tasks = tasks(problems, &options.points, options.long);
-    if tasks.is_empty() {
-        let rule = "these numbers of cells need --long";
-        bail!(Refusal::new("--points", rule));
-    }
+    let rule = "these numbers of cells need --long";
+    ensure!(!tasks.is_empty(), Refusal::new("--points", rule));
     let outcomes = run(&tasks, options.output.quiet);
     let (nodes, notes) = (all_nodes(&outcomes), notes(&outcomes));
     results::write(target.as_ref(), "verify", &notes, &nodes)?;

@@ -15,9 +15,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
     let out = options.out.as_ref().and_then(|out| out.canonicalize().ok());
     files.retain(|file| out.is_none() || file.canonicalize().ok() != out);
-    let Some(first) = files.first() else {
-        bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
-    };
+    let rule = "has no table written by mdr-tui sweep";
+    let first = files.first().ok_or_else(|| Refusal::new(&shown, rule))?;
     let record = Record::of_file(first)?;
     let study = &record.study()?;
     record.expect(study, "this version of mdr-tui")?;

@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Parser;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -94,10 +94,9 @@ fn read(path: &Path, sets: &[String]) -> Result<Study> {
 }
 
 fn print_point(study: &Study, point: usize) -> Result<()> {
-    if point >= study.points() {
-        let rule = format!("the study has {} points, counted from 0", study.points());
-        bail!(Refusal::new(format_args!("--point {point}"), rule));
-    }
+    let (place, points) = (format!("--point {point}"), study.points());
+    let rule = format!("the study has {points} points, counted from 0");
+    ensure!(point < points, Refusal::new(place, rule));
     let scenario = study.scenario(point)?;
     let (name, scenario) = (study.name(point), scenario.to_toml());
     Ok(writeln!(io::stdout(), "# {name}\n{scenario}")?)

@@ -22,11 +22,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use serde::Serialize;
 
 use crate::scenario::session::SessionError;
-use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
+use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
 use crate::traces::Axes;
 use errors::{Errors, freedom};
@@ -122,47 +122,40 @@ impl Fit {
         free: &[String],
         cycles: Option<f64>,
         robust: bool,
-    ) -> Result<Self, ScenarioError> {
+    ) -> Result<Self> {
         let free = free.iter().map(|key| Free::of(&scenario, key));
-        let free: Vec<Free> = free.collect::<Result<_, _>>()?;
+        let free: Vec<Free> = free.collect::<Result<_>>()?;
+        let is_empty = free.is_empty() || data.is_empty();
+        let rule = "needs a key to fit and a data set to fit it to".to_owned();
+        ensure!(!is_empty, Refusal::from(rule));
         let points: usize = data.iter().map(|set| set.values.len()).sum();
-        if free.is_empty() || data.is_empty() {
-            return refuse("needs a key to fit and a data set to fit it to".into());
-        }
-        if points <= free.len() {
-            let keys = free.len();
-            return refuse(format!("{points} points cannot determine {keys} keys"));
-        }
-        for (i, key) in free.iter().enumerate() {
-            if free[..i].iter().any(|other| other.key == key.key) {
-                return refuse(format!("{} is given twice", key.key));
-            }
+        let rule = format!("{points} points cannot determine {} keys", free.len());
+        ensure!(points > free.len(), Refusal::from(rule));
+        for (i, Free { key, .. }) in free.iter().enumerate() {
+            let is_new = free[..i].iter().all(|other| other.key != *key);
+            ensure!(is_new, Refusal::from(format!("{key} is given twice")));
         }
         let histories = data.iter().filter(|set| set.axes.x == "cycle");
         let cycles_of = histories.flat_map(|set| &set.at);
         let last = cycles_of.copied().fold(0.0, f64::max);
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
         let cycles = planned.max(last);
-        if cycles > MOST_CYCLES {
-            return refuse(format!(
-                "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
-            ));
-        }
+        let most = format!("a run has at most {MOST_CYCLES:e} cycles");
+        let rule = format!("the data end at cycle {cycles:e}; {most}");
+        ensure!(cycles <= MOST_CYCLES, Refusal::from(rule));
         let domain = scenario.setup().grid.radius();
         for set in &data {
             let is_loop = set.axes == Axes::LOOP;
-            if cycles <= 0.0 || is_loop && cycles < 1.0 {
-                let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
-                return refuse(rule.into());
-            }
-            if let Some(end) = set.cycle.filter(|_| is_loop)
-                && !(1.0..=cycles).contains(&end)
-            {
-                let name = &set.name;
-                return refuse(format!(
-                    "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
+            let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
+            let is_long = cycles > 0.0 && (!is_loop || cycles >= 1.0);
+            ensure!(is_long, Refusal::from(rule.to_owned()));
+            if let Some(end) = set.cycle.filter(|_| is_loop) {
+                let rule = format!(
+                    "its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
                      --loop FILE@CYCLE say others"
-                ));
+                );
+                let is_run = (1.0..=cycles).contains(&end);
+                ensure!(is_run, Refusal::new(&set.name, rule));
             }
             if set.axes.over_r() {
                 check_radii(&set.name, &set.at, domain)?;
@@ -362,10 +355,6 @@ impl Fit {
             scenario,
         }
     }
-}
-
-fn refuse<T>(line: String) -> Result<T, ScenarioError> {
-    Err(Refusal::from(line).into())
 }
 
 /// The errors of a data set: as given, or its size until a fit estimates them.

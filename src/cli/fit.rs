@@ -25,13 +25,8 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
         refinement::resolve(scenario, options.cycles, f64::INFINITY, &|| true)
     })?;
-    let fit = Fit::new(
-        found.scenario,
-        data(options)?,
-        &options.free,
-        options.cycles,
-        options.robust,
-    )?;
+    let (free, cycles, robust) = (&options.free, options.cycles, options.robust);
+    let fit = Fit::new(found.scenario, data(options)?, free, cycles, robust)?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.quiet);
     let outcome = fit.run(&mut || bar.inc(1));
@@ -134,12 +129,8 @@ fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
         let abscissa = measured.axes.x;
         let (name, unit) = abscissa.rsplit_once('_').unwrap_or((abscissa, ""));
         let ordinate = Axis::new(format!("{}: residual", measured.name), measured.axes.unit());
-        let curve = Curve::new(
-            "",
-            measured.at.clone(),
-            set.residuals.clone(),
-            Role::Profile,
-        );
+        let (at, left) = (measured.at.clone(), set.residuals.clone());
+        let curve = Curve::new("", at, left, Role::Profile);
         Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
     });
     small_multiples::draw(&charts.collect::<Vec<_>>(), marker)

@@ -123,10 +123,8 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
         Ok(_) => format!("{text} {unit}").trim_end().to_owned(),
         Err(_) => text.to_owned(),
     };
-    let value = match (
-        units::quantity(&text, known, unit == "N"),
-        text.parse::<f64>(),
-    ) {
+    let with_unit = units::quantity(&text, known, unit == "N");
+    let value = match (with_unit, text.parse::<f64>()) {
         (Some(value), _) => value?,
         (None, Ok(value)) if value.is_finite() => value,
         (None, _) if unit.is_empty() => return Err("must be a number".into()),

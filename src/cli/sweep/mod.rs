@@ -225,15 +225,13 @@ fn shard(options: &Sweep) -> Result<Shard> {
 
 /// The default output file.
 fn default_out(study: &Path, shard: Shard) -> PathBuf {
-    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
     match shard {
-        Shard::WHOLE => PathBuf::from(format!("{stem}.csv")),
-        Shard { index, .. } => shards_directory(study).join(format!("shard-{index}.csv")),
+        Shard::WHOLE => named_after(study, "csv"),
+        Shard { index, .. } => named_after(study, "shards").join(format!("shard-{index}.csv")),
     }
 }
 
-/// The directory for the shards of a study.
-fn shards_directory(study: &Path) -> PathBuf {
-    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
-    PathBuf::from(format!("{stem}.shards"))
+/// A path here with the name of a study and another `ending`: its table, and the directory for its shards.
+fn named_after(study: &Path, ending: &str) -> PathBuf {
+    Path::new(study.file_name().unwrap_or_default()).with_extension(ending)
 }

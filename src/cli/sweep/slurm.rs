@@ -18,7 +18,7 @@ const MOST_REQUEUES: u32 = 100;
 pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
     let shards = options.shards.unwrap_or(1);
     let directory = options.out.clone();
-    let directory = directory.unwrap_or_else(|| shards_directory(study));
+    let directory = directory.unwrap_or_else(|| named_after(study, "shards"));
     let (study, directory) = (shell_word(study), shell_word(&directory));
     let set = |set: &String| format!(" --set {}", shell_word(Path::new(set)));
     let mut more: String = options.changes.set.iter().map(set).collect();

@@ -172,11 +172,9 @@ impl Outcome {
         let is_worn = |&wear: &f64| wear > least;
         let first = self.wear.iter().position(is_worn)?;
         let last = self.wear.iter().rposition(is_worn)?;
-        let nodes = self.grid.nodes();
-        Some((
-            nodes[first.saturating_sub(1)],
-            nodes[(last + 1).min(self.grid.cells())],
-        ))
+        let before = first.saturating_sub(1);
+        let after = (last + 1).min(self.grid.cells());
+        Some((self.grid.nodes()[before], self.grid.nodes()[after]))
     }
 
     /// How far this run is from a finer one, in the finer one's measures.

@@ -1,5 +1,6 @@
 //! From a TOML text to a study. Each refusal is one line: what is wrong, where, what would be right.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -120,24 +121,20 @@ impl Written {
             sensitivity: varied.unwrap_or_default(),
             written,
         };
-        if self.axis.is_empty() && self.sensitivity.is_none() {
-            let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
-            return error(rule);
-        }
-        if study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES {
-            let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
-            return error(rule);
-        }
-        let mut taken: Vec<String> = study.set.keys().cloned().collect();
+        let has_purpose = !self.axis.is_empty() || self.sensitivity.is_some();
+        let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
+        ensure(has_purpose, rule)?;
+        let is_many = study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES;
+        let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
+        ensure(!is_many, rule)?;
+        let mut taken: BTreeSet<String> = study.set.keys().cloned().collect();
         for (at, axis) in self.axis.into_iter().enumerate() {
             let place = format!("axis[{at}]");
             let axis = read_axis(axis, &place, &study, samples)?;
             for key in std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key)) {
-                if taken.contains(key) {
-                    let rule = "[set], the axes and tied keys must name different keys";
-                    return error(format!("{place}: {key} is given twice; {rule}"));
-                }
-                taken.push(key.clone());
+                let rule = "[set], the axes and tied keys must name different keys";
+                let why = format!("{place}: {key} is given twice; {rule}");
+                ensure(taken.insert(key.clone()), why)?;
             }
             study.axes.push(axis);
         }
@@ -148,6 +145,10 @@ impl Written {
 
 fn error<T>(why: impl Display) -> Result<T> {
     Err(Refusal::from(why.to_string()))
+}
+
+fn ensure(holds: bool, why: impl Display) -> Result<()> {
+    if holds { Ok(()) } else { error(why) }
 }
 
 fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> {
@@ -251,9 +252,8 @@ fn read_axis(
             return error(format!("{place} ({key}): {rule}"));
         }
     };
-    if axis.scale.is_some() && name != "values" {
-        return error(format!("{place}.scale: goes with values, not with {name}"));
-    }
+    let why = format!("{place}.scale: goes with values, not with {name}");
+    ensure(axis.scale.is_none() || name == "values", why)?;
     let named = format!("{place}.{name}");
     // Texts may be numbers with a unit.
     for value in &mut list {
@@ -329,11 +329,10 @@ fn ends(place: &str, list: &[Value], spread: Scale, length: usize) -> Result<[f6
 }
 
 fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
-    if let Values::Listed(values) = values
-        && !table.is_empty()
-        && values.iter().any(|value| values::number(value).is_none())
-    {
-        return error(format!("{place}: needs an axis of numbers"));
+    if let Values::Listed(values) = values {
+        let are_numbers = values.iter().all(|value| values::number(value).is_some());
+        let why = format!("{place}: needs an axis of numbers");
+        ensure(table.is_empty() || are_numbers, why)?;
     }
     numbers(place, table, "must be a finite factor", |_| true)
 }
@@ -342,10 +341,8 @@ fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)
 fn check_count(study: &Study) -> Result<()> {
     if study.design == Design::Grid {
         let points: f64 = study.axes.iter().map(|axis| axis.count() as f64).product();
-        return match points > MOST_POINTS as f64 {
-            true => error(format!("{points:.3e} points; the limit is {MOST_POINTS}")),
-            false => Ok(()),
-        };
+        let why = format!("{points:.3e} points; the limit is {MOST_POINTS}");
+        return ensure(points <= MOST_POINTS as f64, why);
     }
     let length = study.points();
     let Some(axis) = study.axes.iter().find(|axis| axis.count() != length) else {

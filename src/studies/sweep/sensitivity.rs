@@ -130,13 +130,9 @@ fn around(
         ("", "error deviation relative_spread", Format::Rough),
     ]);
     let row = |key: &str, value: Option<f64>, column: usize, found: [Option<f64>; 4]| {
+        let key = Value::from(key.to_owned());
         let (name, result) = (study.columns[column].name, results[0][column]);
-        let row = [
-            key.to_owned().into(),
-            value.into(),
-            name.into(),
-            result.into(),
-        ];
+        let row = [key, value.into(), name.into(), result.into()];
         row.into_iter().chain(found.map(Value::from)).collect()
     };
     let mut is_resolved = true;

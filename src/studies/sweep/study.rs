@@ -115,13 +115,23 @@ impl Study {
         places: &[usize],
         other: Option<(usize, f64)>,
     ) -> Result<Scenario, ScenarioError> {
+        let set = self.set.iter();
+        let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
         let axes = self.axes.iter().zip(places).enumerate();
-        self.build(axes.flat_map(|(at, (axis, &place))| match other {
+        let axes = axes.flat_map(|(at, (axis, &place))| match other {
             Some((along, value)) if along == at => {
                 axis.assignments(&axis::value_of(&axis.key, value))
             }
             _ => axis.assignments(&axis.value(place)),
-        }))
+        });
+        let all: Vec<(&str, String)> = set.chain(axes).collect();
+        let scenario = self.base.with_all(&all)?;
+        if scenario.run().cycles.is_none() {
+            let (name, key) = (&self.base_name, "run.cycles");
+            let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
+            return Err(ScenarioError::missing(name, key, meaning));
+        }
+        Ok(scenario)
     }
 
     /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.
@@ -150,22 +160,6 @@ impl Study {
             None => self.base.value(&control),
         };
         control.is_some_and(|control| control.trim_matches('"') == "force")
-    }
-
-    fn build<'a>(
-        &'a self,
-        axes: impl Iterator<Item = (&'a str, String)>,
-    ) -> Result<Scenario, ScenarioError> {
-        let set = self.set.iter();
-        let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
-        let all: Vec<(&str, String)> = set.chain(axes).collect();
-        let scenario = self.base.with_all(&all)?;
-        if scenario.run().cycles.is_none() {
-            let (name, key) = (&self.base_name, "run.cycles");
-            let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
-            return Err(ScenarioError::missing(name, key, meaning));
-        }
-        Ok(scenario)
     }
 
     /// Sets a key for all points, as `--set` does: `KEY=VALUE`. It takes the place of what `[set]`

@@ -134,7 +134,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
             charts = found.filter_map(Result::ok).collect();
         }
     }
-    refuse_what_no_chart_shows(options, &run.ghosts, &charts)?;
+    ensure_all_is_shown(options, &run.ghosts, &charts)?;
     let facts = run.facts();
     let title = facts.iter().find(|(key, _)| key == "scenario");
     Ok(Sheet {
@@ -187,21 +187,15 @@ fn usual(ghosts: &[Arc<Ghost>]) -> Vec<&'static Recipe> {
 }
 
 /// What was asked for over the charts is on one of them, or the user hears which one lacks.
-fn refuse_what_no_chart_shows(
-    options: &Figure,
-    ghosts: &[Arc<Ghost>],
-    charts: &[Chart],
-) -> Result<(), Refusal> {
+fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]) -> Result<()> {
     for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
         let mut curves = charts.iter().flat_map(|chart| &chart.curves);
-        if curves.any(|curve| curve.role == Role::Ghost(k)) {
-            continue;
-        }
+        let is_shown = curves.any(|curve| curve.role == Role::Ghost(k));
         let places = on_paper().filter(|panel| panel.shows(ghost));
         let names: Vec<&str> = places.map(|panel| panel.name).collect();
         let places = names.join(" or ");
         let rule = format!("is on none of these charts; it belongs to --panel {places}");
-        return Err(Refusal::new(format_args!("--overlay {given}"), rule));
+        ensure!(is_shown, Refusal::new(format!("--overlay {given}"), rule));
     }
     Ok(())
 }
@@ -244,12 +238,11 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
         for at in wanted {
-            if !run.states.iter().any(|state| is_at(state, at.cycle())) {
-                let cycles = run.states.iter().map(|state| state.cycle().to_string());
-                let cycles = cycles.collect::<Vec<_>>().join(", ");
-                let rule = format!("{source} has no such state; it has those at {cycles}");
-                bail!(Refusal::new(format_args!("--at {}", at.0), rule));
-            }
+            let is_there = run.states.iter().any(|state| is_at(state, at.cycle()));
+            let cycles = run.states.iter().map(|state| state.cycle().to_string());
+            let cycles = cycles.collect::<Vec<_>>().join(", ");
+            let rule = format!("{source} has no such state; it has those at {cycles}");
+            ensure!(is_there, Refusal::new(format!("--at {}", at.0), rule));
         }
         let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
@@ -269,10 +262,9 @@ fn from_directory(directory: &Path) -> Result<Run> {
             take(&mut run, &path)?;
         }
     }
-    if run.states.is_empty() && run.history.is_none() && run.field.is_none() {
-        let why = "has no state.csv, history.csv or field.csv";
-        return Err(unread(directory, why).into());
-    }
+    let is_empty = run.states.is_empty() && run.history.is_none() && run.field.is_none();
+    let why = "has no state.csv, history.csv or field.csv";
+    ensure!(!is_empty, unread(directory, why));
     let scenario = directory.join("scenario.toml");
     if scenario.is_file() {
         run = run.of(&Scenario::load(&scenario.to_string_lossy(), &[])?);

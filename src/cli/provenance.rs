@@ -20,8 +20,7 @@ pub const VERSION: &str = env!("MDR_TUI_VERSION");
 
 /// What is known of this process and its machine.
 pub fn text() -> String {
-    let mut text =
-        "# mdr-tui: how the files beside this one were made; they do not depend on it\n".to_owned();
+    let about = "# mdr-tui: how the files beside this one were made; they do not depend on it\n";
     let known = [
         ("version", VERSION.to_owned()),
         ("command", command()),
@@ -30,10 +29,8 @@ pub fn text() -> String {
         ("processor", processor().unwrap_or_else(|| "unknown".into())),
         ("arithmetic", header::arithmetic().to_owned()),
     ];
-    for (key, known) in known {
-        text.push_str(&format!("{key} = {}\n", literal(&known.into())));
-    }
-    text
+    let lines = known.map(|(key, known)| format!("{key} = {}\n", literal(&known.into())));
+    about.to_owned() + &lines.concat()
 }
 
 /// The command line as a shell reads it back.

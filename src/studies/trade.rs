@@ -77,9 +77,8 @@ impl Setting {
 
     /// The same as options that `run` takes.
     pub fn assignments(&self) -> Vec<String> {
-        let keys = self.keys().into_iter();
-        keys.map(|(key, value)| format!("--set {key}={value}"))
-            .collect()
+        let set = |(key, value)| format!("--set {key}={value}");
+        self.keys().into_iter().map(set).collect()
     }
 
     /// Runs `scenario` so over `cycles`, as long as `go_on`, which is asked at every step, says so, and as often as a
@@ -135,7 +134,7 @@ pub fn settings(
                 settings.extend(points.iter().map(|&points| Setting {
                     method,
                     scheme,
-                    level: level(points, steps, tolerance),
+                    level: Level::new(points, steps, tolerance),
                 }));
             }
         }
@@ -153,16 +152,7 @@ pub fn reference(scenario: &Scenario, points: &[usize], steps: &[u32]) -> Settin
     Setting {
         method: AbelMethod::Product,
         scheme: Scheme::Trapezoid,
-        level: level(2 * points, 2 * steps, tolerance),
-    }
-}
-
-fn level(points: usize, steps: u32, tolerance: Option<f64>) -> Level {
-    Level {
-        points,
-        steps,
-        tolerance,
-        nodes: None,
+        level: Level::new(2 * points, 2 * steps, tolerance),
     }
 }
 
@@ -304,7 +294,7 @@ mod tests {
             setting: Setting {
                 method: AbelMethod::A,
                 scheme: Scheme::Euler,
-                level: level(points, 100, None),
+                level: Level::new(points, 100, None),
             },
             point: Some([seconds, worst]),
             row: vec![Value::Missing; 15],

@@ -352,12 +352,9 @@ fn first(scenario: &Scenario, cycles: f64, accuracy: f64) -> Level {
         Some(_) => matches!(setup.integrator, Integrator::CycleJump { .. }),
         None => is_long && setup.wear.is_some() && setup.drive.tangential().is_some(),
     };
-    Level {
-        points: (20.0 * finer.powf(0.4)).round() as usize,
-        steps: (12.0 * finer.powf(0.3) * turns).round() as u32,
-        tolerance: jumps.then(|| (0.1 * accuracy).min(0.05)),
-        nodes: None,
-    }
+    let points = (20.0 * finer.powf(0.4)).round() as usize;
+    let steps = (12.0 * finer.powf(0.3) * turns).round() as u32;
+    Level::new(points, steps, jumps.then(|| (0.1 * accuracy).min(0.05)))
 }
 
 #[cfg(test)]

@@ -31,6 +31,16 @@ pub struct Level {
 }
 
 impl Level {
+    /// A level without nodes of its own.
+    pub fn new(points: usize, steps: u32, tolerance: Option<f64>) -> Self {
+        Self {
+            points,
+            steps,
+            tolerance,
+            nodes: None,
+        }
+    }
+
     /// The level of a scenario as it stands.
     pub fn of(scenario: &Scenario) -> Self {
         let setup = scenario.setup();

@@ -96,10 +96,8 @@ fn run(
         Err(SessionError::Interrupted) => return Ok(None),
         ended => ended.context("the reference")?,
     };
-    let half = Setting {
-        level: finest.level.scaled(0.5, 0.5),
-        ..finest.clone()
-    };
+    let mut half = finest.clone();
+    half.level = half.level.scaled(0.5, 0.5);
     let half = measure(&half, "reference, ").ok();
     let differs = |(half, _)| Outcome::of(&half).against(&Outcome::of(&reference)).worst();
     let blur = half.map(differs);

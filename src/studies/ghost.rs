@@ -150,20 +150,17 @@ impl Ghost {
     pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<Worn> {
         let (profile, wear) = (self.trace(Axes::PROFILE), self.trace(Axes::WEAR));
         let trace = wear.or(profile)?;
-        let radii = trace.xs.to_vec();
+        let less = |f: &[f64], other: &[f64]| f.iter().zip(other).map(|(f, g)| f - g).collect();
         let unworn: Vec<f64> = match (profile, wear) {
-            (Some(profile), Some(wear)) => {
-                let both = profile.ys.iter().zip(wear.ys);
-                both.map(|(f, wear)| f - wear).collect()
-            }
-            _ => radii.iter().map(|&r| unworn(r)).collect(),
+            (Some(profile), Some(wear)) => less(profile.ys, wear.ys),
+            _ => trace.xs.iter().map(|&r| unworn(r)).collect(),
         };
         let wear = match wear {
             Some(wear) => wear.ys.to_vec(),
-            None => trace.ys.iter().zip(&unworn).map(|(f, f0)| f - f0).collect(),
+            None => less(trace.ys, &unworn),
         };
         Some(Worn {
-            radii,
+            radii: trace.xs.to_vec(),
             unworn,
             wear,
             errors: trace.errors.map(<[f64]>::to_vec),

@@ -186,6 +186,9 @@ impl Fit {
         let mut errors: Vec<f64> = self.data.iter().flat_map(first_errors).collect();
         let is_given = self.data.iter().all(|set| set.errors.is_some());
         let rounds = if is_given && !self.robust { 1 } else { ROUNDS };
+        // The points of the data sets whose error is estimated, among all points.
+        let estimated = self.places().filter(|(set, _)| set.errors.is_none());
+        let estimated: Vec<Range<usize>> = estimated.map(|(_, points)| points).collect();
         let mut round = 1;
         loop {
             let deviations = |theta: &[f64]| Some(self.deviations(&simulate(theta).ok()?, &errors));
@@ -204,7 +207,7 @@ impl Fit {
             let simulated = simulate(&theta);
             let simulated = simulated.map_err(|error| anyhow!("no minimum was found: {error}"))?;
             let z = self.deviations(&simulated, &errors);
-            let uncertainty = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
+            let uncertainty = Errors::new(&z, &derivatives, &estimated, self.robust);
             if round == rounds {
                 let scenario = self.at(&theta).context("no minimum was found")?;
                 return Ok(self.fitted(&theta, &uncertainty, simulated, scenario, runs.get()));
@@ -235,12 +238,6 @@ impl Fit {
             *end += set.values.len();
             Some((set, first..*end))
         })
-    }
-
-    /// The points of the data sets whose error is estimated, among all points.
-    fn estimated(&self) -> Vec<Range<usize>> {
-        let estimated = self.places().filter(|(set, _)| set.errors.is_none());
-        estimated.map(|(_, points)| points).collect()
     }
 
     /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be

@@ -230,10 +230,9 @@ fn rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
         count += 1;
         largest = largest.max(there.abs());
     }
-    if largest > 0.0 {
-        (sum / f64::from(count)).sqrt() / largest
-    } else {
-        0.0
+    match largest > 0.0 {
+        true => (sum / f64::from(count)).sqrt() / largest,
+        false => 0.0,
     }
 }
 

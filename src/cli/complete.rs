@@ -8,8 +8,8 @@ use std::path::Path;
 
 use clap_complete::engine::{CompletionCandidate, PathCompleter, ValueCompleter};
 
-use crate::guide::TOPICS;
-use crate::scenario::preset;
+use crate::guide::{TOPICS, Topic};
+use crate::scenario::preset::{self, Preset};
 use crate::scenario::schema::{find, parameters};
 
 /// The variable by which a shell asks for completions.
@@ -40,17 +40,14 @@ fn presets_and_files(typed: &OsStr, endings: &'static [&'static str]) -> Vec<Com
 
 /// The names of the presets.
 pub fn presets() -> Vec<CompletionCandidate> {
-    let all = preset::ALL.iter();
-    all.map(|preset| candidate(preset.name, preset.title()))
-        .collect()
+    let known = |preset: &Preset| candidate(preset.name, preset.title());
+    preset::ALL.iter().map(known).collect()
 }
 
 /// The topics of the guide.
 pub fn topics() -> Vec<CompletionCandidate> {
-    let topics = TOPICS.iter();
-    topics
-        .map(|topic| candidate(topic.name, topic.about))
-        .collect()
+    let known = |topic: &Topic| candidate(topic.name, topic.about);
+    TOPICS.iter().map(known).collect()
 }
 
 fn candidate(word: impl Into<OsString>, help: &str) -> CompletionCandidate {
@@ -63,17 +60,15 @@ pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
         return Vec::new();
     };
     let Some((key, value)) = typed.split_once('=') else {
-        return parameters()
-            .iter()
-            .filter(|known| known.path.starts_with(typed) && known.section() != "changes")
-            .map(|known| candidate(format!("{}=", known.path), &known.described()))
-            .collect();
+        let known = parameters().iter();
+        let known = known.filter(|known| known.section() != "changes");
+        let begun = known.filter(|known| known.path.starts_with(typed));
+        let offered = begun.map(|known| candidate(format!("{}=", known.path), &known.described()));
+        return offered.collect();
     };
-    find(key)
-        .into_iter()
-        .filter_map(|known| known.kind.words())
-        .flatten()
-        .filter(|word| word.starts_with(value))
-        .map(|word| CompletionCandidate::new(format!("{key}={word}")))
-        .collect()
+    let words = find(key).and_then(|known| known.kind.words());
+    let words = words.into_iter().flatten();
+    let begun = words.filter(|word| word.starts_with(value));
+    let offered = begun.map(|word| CompletionCandidate::new(format!("{key}={word}")));
+    offered.collect()
 }

@@ -19,9 +19,8 @@ use crate::tui::manual;
 pub fn completions(shell: clap_complete::Shell) -> Result<()> {
     let mut script = Vec::new();
     let shells = Shells::builtins();
-    let completer = shells
-        .completer(&shell.to_string())
-        .with_context(|| format!("no completions for {shell}"))?;
+    let completer = shells.completer(&shell.to_string());
+    let completer = completer.with_context(|| format!("no completions for {shell}"))?;
     completer.write_registration(VARIABLE, "mdr-tui", "mdr-tui", "mdr-tui", &mut script)?;
     io::stdout().write_all(&script)?;
     Ok(())
@@ -32,15 +31,12 @@ pub fn man(options: &Manual) -> Result<()> {
     let mut program = Arguments::command();
     // Gives the commands their full names, "mdr-tui run".
     program.build();
-    let commands: Vec<&Command> = std::iter::once(&program)
-        .chain(program.get_subcommands())
-        .filter(|command| {
-            let wanted = options.command.as_deref();
-            wanted.is_none_or(|wanted| command.get_name() == wanted)
-        })
-        .collect();
+    let given = options.command.as_deref();
+    let is_wanted = |command: &&Command| given.is_none_or(|given| command.get_name() == given);
+    let commands = std::iter::once(&program).chain(program.get_subcommands());
+    let commands: Vec<&Command> = commands.filter(is_wanted).collect();
     if commands.is_empty() {
-        let given = options.command.as_deref().unwrap_or_default();
+        let given = given.unwrap_or_default();
         let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
         let hint = hint(given, names.into_iter());
         bail!(Refusal::new(format_args!("man {given}"), "no such command").or(hint));

@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use serde::de::IgnoredAny;
 
 use super::args::{ColorChoice, Explore};
@@ -22,19 +22,19 @@ const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer, on a map if there is one.
 pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
-    let strokes = Stroke::script(options.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
+    let screen = &options.screen;
+    let strokes = Stroke::script(screen.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
-    let color = options.color.or(config.color);
+    let color = screen.color.or(config.color);
     command::bind(config.keys);
     let directory = Path::new(&options.scenario);
     let run = match &options.resume {
         Some(file) => checkpoint::read::<IgnoredAny>(file)?.session.into(),
         None if directory.is_dir() => {
-            if !options.changes.set.is_empty() {
-                let rule = "continues as it was saved, so --set changes nothing; give its \
-                    scenario.toml to start anew";
-                bail!(Refusal::new(&options.scenario, rule));
-            }
+            let rule = "continues as it was saved, so --set changes nothing; give its \
+                scenario.toml to start anew";
+            let is_as_saved = options.changes.set.is_empty();
+            ensure!(is_as_saved, Refusal::new(&options.scenario, rule));
             snapshot::open(directory).map_err(Refusal::from)?
         }
         None => {
@@ -49,13 +49,12 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
     };
     let reach = run.simulation().setup().grid.radius();
-    let load = |given: &String| Source::load(given, reach);
-    let ghosts: Result<Vec<Source>, _> = options.overlay.iter().map(load).collect();
-    let ghosts = ghosts.map_err(|error| Refusal::from(error.to_string()))?;
-    if ghosts.len() > MOST {
-        let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
-        bail!(Refusal::new("--overlay", rule));
-    }
+    let load = |given: &String| {
+        Source::load(given, reach).map_err(|error| Refusal::from(error.to_string()))
+    };
+    let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
+    let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
+    ensure!(ghosts.len() <= MOST, Refusal::new("--overlay", rule));
     let farewell = tui::run(Options {
         running: options.resume.is_none() && !directory.is_dir() && map.is_none(),
         run,
@@ -63,16 +62,16 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         ghosts,
         keep_in: autosave::state_directory(),
         keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
-        fps: options.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
-        marker: options.marker.or(config.marker),
+        fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
+        marker: screen.marker.or(config.marker),
         colored: color.and_then(ColorChoice::is_colored),
-        look: options.theme.or(config.theme),
+        look: screen.theme.or(config.theme),
         present: options.present,
-        mouse: options.mouse || config.mouse == Some(true),
-        script: options.print.map(|size| Script {
+        mouse: screen.mouse || config.mouse == Some(true),
+        script: screen.print.map(|size| Script {
             strokes,
             size,
-            format: options.format,
+            format: screen.format,
         }),
     })?;
     if let Some(word) = farewell.saved {

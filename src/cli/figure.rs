@@ -5,13 +5,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, job};
-use crate::charts::{
-    Recipe, Run, depth, fretting_loop, profile, scar_depth, springs, stresses, volume,
-};
+use crate::charts::{Recipe, Run};
+use crate::charts::{depth, fretting_loop, profile, scar_depth, springs, stresses, volume};
 use crate::export::target::Target;
 use crate::figure::look::Look;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
@@ -135,7 +134,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
             charts = found.filter_map(Result::ok).collect();
         }
     }
-    refuse_what_no_chart_shows(options, &run.ghosts, &charts)?;
+    ensure_all_is_shown(options, &run.ghosts, &charts)?;
     let facts = run.facts();
     let title = facts.iter().find(|(key, _)| key == "scenario");
     Ok(Sheet {
@@ -188,23 +187,15 @@ fn usual(ghosts: &[Arc<Ghost>]) -> Vec<&'static Recipe> {
 }
 
 /// What was asked for over the charts is on one of them, or the user hears which one lacks.
-fn refuse_what_no_chart_shows(
-    options: &Figure,
-    ghosts: &[Arc<Ghost>],
-    charts: &[Chart],
-) -> Result<(), Refusal> {
+fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]) -> Result<()> {
     for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
         let mut curves = charts.iter().flat_map(|chart| &chart.curves);
-        if curves.any(|curve| curve.role == Role::Ghost(k)) {
-            continue;
-        }
+        let is_shown = curves.any(|curve| curve.role == Role::Ghost(k));
         let places = on_paper().filter(|panel| panel.shows(ghost));
         let names: Vec<&str> = places.map(|panel| panel.name).collect();
-        let rule = "is on none of these charts; it belongs to --panel";
-        return Err(Refusal::new(
-            format_args!("--overlay {given}"),
-            format_args!("{rule} {}", names.join(" or ")),
-        ));
+        let places = names.join(" or ");
+        let rule = format!("is on none of these charts; it belongs to --panel {places}");
+        ensure!(is_shown, Refusal::new(format!("--overlay {given}"), rule));
     }
     Ok(())
 }
@@ -241,19 +232,17 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     } else {
         return from_scenario(source, options);
     }
-    if !options.changes.set.is_empty() || options.cycles.is_some() {
-        let rule = "a finished run is not run again, so --set and --cycles have no effect";
-        bail!(Refusal::new(source, rule));
-    }
+    let is_as_it_was = options.changes.set.is_empty() && options.cycles.is_none();
+    let rule = "a finished run is not run again, so --set and --cycles have no effect";
+    ensure!(is_as_it_was, Refusal::new(source, rule));
     if let Some(wanted) = &options.at {
         let is_at = |state: &Table, cycle: f64| (state.cycle() - cycle).abs() < 1e-9;
         for at in wanted {
-            if !run.states.iter().any(|state| is_at(state, at.cycle())) {
-                let cycles = run.states.iter().map(|state| state.cycle().to_string());
-                let cycles = cycles.collect::<Vec<_>>().join(", ");
-                let rule = format!("{source} has no such state; it has those at {cycles}");
-                bail!(Refusal::new(format_args!("--at {}", at.0), rule));
-            }
+            let is_there = run.states.iter().any(|state| is_at(state, at.cycle()));
+            let cycles = run.states.iter().map(|state| state.cycle().to_string());
+            let cycles = cycles.collect::<Vec<_>>().join(", ");
+            let rule = format!("{source} has no such state; it has those at {cycles}");
+            ensure!(is_there, Refusal::new(format!("--at {}", at.0), rule));
         }
         let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
@@ -273,10 +262,9 @@ fn from_directory(directory: &Path) -> Result<Run> {
             take(&mut run, &path)?;
         }
     }
-    if run.states.is_empty() && run.history.is_none() && run.field.is_none() {
-        let why = "has no state.csv, history.csv or field.csv";
-        return Err(unread(directory, why).into());
-    }
+    let is_empty = run.states.is_empty() && run.history.is_none() && run.field.is_none();
+    let why = "has no state.csv, history.csv or field.csv";
+    ensure!(!is_empty, unread(directory, why));
     let scenario = directory.join("scenario.toml");
     if scenario.is_file() {
         run = run.of(&Scenario::load(&scenario.to_string_lossy(), &[])?);
@@ -287,9 +275,7 @@ fn from_directory(directory: &Path) -> Result<Run> {
 /// Reads a table of a run.
 fn take(run: &mut Run, path: &Path) -> Result<()> {
     let table = Table::of_file(&Columns::read(path)?);
-    if table.rows() == 0 {
-        bail!(unread(path, "has no rows of numbers"));
-    }
+    ensure!(table.rows() > 0, unread(path, "has no rows of numbers"));
     Ok(run.take(table).map_err(|why| unread(path, why))?)
 }
 

@@ -13,7 +13,7 @@ use crate::plot::units::reading;
 use crate::plot::{Axis, Chart, Curve, Marker};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Fit, Fitted, Value};
+use crate::studies::fit::{Fit, Fitted};
 use crate::studies::measured::Measured;
 use crate::studies::refinement;
 use crate::traces::Axes;
@@ -25,13 +25,8 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
         refinement::resolve(scenario, options.cycles, f64::INFINITY, &|| true)
     })?;
-    let fit = Fit::new(
-        found.scenario,
-        data(options)?,
-        &options.free,
-        options.cycles,
-        options.robust,
-    )?;
+    let (free, cycles, robust) = (&options.free, options.cycles, options.robust);
+    let fit = Fit::new(found.scenario, data(options)?, free, cycles, robust)?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.quiet);
     let outcome = fit.run(&mut || bar.inc(1));
@@ -85,39 +80,31 @@ fn report(fitted: &Fitted) -> String {
     let mut lines = Vec::new();
     let width = fitted.values.iter().map(|value| value.key.len()).max();
     let width = width.unwrap_or(0);
-    for Value {
-        key,
-        value,
-        unit,
-        stderr,
-        ..
-    } in &fitted.values
-    {
-        let error = stderr.map(|error| {
-            let share = 100.0 * (error / value).abs();
-            format!("± {error:.2e} {unit} ({share:.2} %)")
-        });
-        let error = error.unwrap_or_else(|| format!("{unit} (not determined)"));
+    for one in &fitted.values {
+        let (key, value, unit) = (&one.key, one.value, one.unit);
+        let error = match one.stderr {
+            Some(error) => {
+                let share = 100.0 * (error / value).abs();
+                format!("± {error:.2e} {unit} ({share:.2} %)")
+            }
+            None => format!("{unit} (not determined)"),
+        };
         // A pin test's k is read in mm³/(N·m), an amplitude in µm.
-        let (number, read) = reading(*value, unit, true);
-        let read = (read != *unit).then(|| format!(", {number} {read}"));
-        let read = read.unwrap_or_default();
+        let read = match reading(value, unit, true) {
+            (_, read) if read == unit => String::new(),
+            (number, read) => format!(", {number} {read}"),
+        };
         lines.push(format!("{key:width$}  {value:.6e} {error}{read}"));
     }
-    for (
-        i,
-        Value {
-            key, correlations, ..
-        },
-    ) in fitted.values.iter().enumerate()
-    {
-        for Value { key: other, .. } in &fitted.values[..i] {
-            let correlation = correlations[other];
+    for (i, one) in fitted.values.iter().enumerate() {
+        for other in &fitted.values[..i] {
+            let (key, other) = (&one.key, &other.key);
+            let correlation = one.correlations[other];
             lines.push(format!("correlation {other} - {key}: {correlation:.3}"));
         }
     }
     for set in &fitted.compared {
-        let (rms, points) = (set.rms(), set.simulated.len());
+        let (rms, points) = (set.rms(), set.residuals.len());
         let (name, unit) = (&set.measured.name, set.measured.axes.unit());
         let at = match (set.measured.axes, set.measured.cycle) {
             (Axes::LOOP, Some(cycle)) => format!(" in cycle {cycle}"),
@@ -142,7 +129,8 @@ fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
         let abscissa = measured.axes.x;
         let (name, unit) = abscissa.rsplit_once('_').unwrap_or((abscissa, ""));
         let ordinate = Axis::new(format!("{}: residual", measured.name), measured.axes.unit());
-        let curve = Curve::new("", measured.at.clone(), set.residuals(), Role::Profile);
+        let (at, left) = (measured.at.clone(), set.residuals.clone());
+        let curve = Curve::new("", at, left, Role::Profile);
         Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
     });
     small_multiples::draw(&charts.collect::<Vec<_>>(), marker)

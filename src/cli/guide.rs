@@ -13,23 +13,19 @@ use crate::scenario::nearest::hint;
 /// Shows a topic; without one, the list of topics.
 pub fn guide(options: &Guide) -> Result<()> {
     let Some(name) = &options.topic else {
-        io::stdout().write_all(list().as_bytes())?;
-        return Ok(());
+        return Ok(io::stdout().write_all(list().as_bytes())?);
     };
     let topic = Topic::find(name).ok_or_else(|| unknown(name))?;
-    if io::stdout().is_terminal() {
-        page(&emphasised(topic.text))?;
-    } else {
-        io::stdout().write_all(topic.text.as_bytes())?;
-    }
-    Ok(())
+    let shown = match io::stdout().is_terminal() {
+        true => page(&emphasised(topic.text)),
+        false => io::stdout().write_all(topic.text.as_bytes()),
+    };
+    Ok(shown?)
 }
 
 fn list() -> String {
-    let topics = TOPICS
-        .iter()
-        .map(|topic| format!("  {:<12} {}\n", topic.name, topic.about));
-    let topics: String = topics.collect();
+    let line = |topic: &Topic| format!("  {:<12} {}\n", topic.name, topic.about);
+    let topics: String = TOPICS.iter().map(line).collect();
     format!("Topics:\n{topics}\nRead one with: mdr-tui guide TOPIC\n")
 }
 

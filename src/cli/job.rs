@@ -4,7 +4,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 
 use super::args::{CycleAsGiven, HistoryChoice, Run};
@@ -52,10 +52,8 @@ impl RunJob {
         let snapshots = match &options.snapshot_at {
             Some(given) => {
                 if let Some(late) = given.iter().find(|snapshot| snapshot.cycle() > cycles) {
-                    bail!(Refusal::new(
-                        format_args!("--snapshot-at {}", late.0),
-                        format_args!("is after the end of the run, {cycles} cycles")
-                    ));
+                    let rule = format!("is after the end of the run, {cycles} cycles");
+                    bail!(Refusal::new(format_args!("--snapshot-at {}", late.0), rule));
                 }
                 given.clone()
             }
@@ -95,10 +93,9 @@ impl RunJob {
             }
         };
         job.cycles = cycles.unwrap_or(job.cycles);
-        if job.cycles < now {
-            let rule = format!("the checkpoint is already at cycle {now}");
-            bail!(Refusal::new(format_args!("--cycles {}", job.cycles), rule));
-        }
+        let place = format!("--cycles {}", job.cycles);
+        let rule = format!("the checkpoint is already at cycle {now}");
+        ensure!(job.cycles >= now, Refusal::new(place, rule));
         job.ready(session.scenario())
     }
 
@@ -107,17 +104,14 @@ impl RunJob {
         self.due = self.snapshots.clone();
         self.due.retain(|snapshot| snapshot.cycle() <= self.cycles);
         self.due.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
-        if self.due.len() > MOST_SNAPSHOTS {
-            let count = self.due.len();
-            let rule = format!("{count} snapshots; the limit is {MOST_SNAPSHOTS}");
-            bail!(Refusal::new("--snapshot-at", rule));
-        }
+        let count = self.due.len();
+        let rule = format!("{count} snapshots; the limit is {MOST_SNAPSHOTS}");
+        ensure!(count <= MOST_SNAPSHOTS, Refusal::new("--snapshot-at", rule));
         let rows = self.cycles * scenario.setup().steps_in_a_cycle();
-        if self.every_step && rows > MOST_ROWS {
-            let rule = format!("{rows:.1e} rows; the limit is {MOST_ROWS:e}");
-            let hint = "reduce --cycles or numerics.steps_per_cycle";
-            bail!(Refusal::new("--history every-step", rule).or(hint));
-        }
+        let rule = format!("{rows:.1e} rows; the limit is {MOST_ROWS:e}");
+        let hint = "reduce --cycles or numerics.steps_per_cycle";
+        let refusal = Refusal::new("--history every-step", rule).or(hint);
+        ensure!(!self.every_step || rows <= MOST_ROWS, refusal);
         Ok(self)
     }
 

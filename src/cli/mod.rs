@@ -76,10 +76,8 @@ pub fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            match error
-                .downcast_ref()
-                .map_or(&[][..], ScenarioError::refusals)
-            {
+            let refusals = error.downcast_ref().map(ScenarioError::refusals);
+            match refusals.unwrap_or_default() {
                 [] | [_] => complain(&format!("{error:#}")),
                 several => several.iter().for_each(|each| complain(&each.to_string())),
             }
@@ -185,10 +183,8 @@ fn mistyped_command(word: &str) -> Option<Refusal> {
 
 /// Help and version go to stdout as they are; a mistake becomes one line.
 fn refuse(error: &clap::Error) -> ExitCode {
-    if matches!(
-        error.kind(),
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
-    ) {
+    let kind = error.kind();
+    if matches!(kind, ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         let _ = error.print();
         return ExitCode::SUCCESS;
     }
@@ -207,9 +203,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
         Some(_) => format!("mdr-tui {first}"),
         None => "mdr-tui".into(),
     };
-    complain(&format!(
-        "{}; see {command} --help",
-        words.trim_start_matches("error: ")
-    ));
+    let words = words.trim_start_matches("error: ");
+    complain(&format!("{words}; see {command} --help"));
     ExitCode::from(MISUSED)
 }

@@ -31,9 +31,8 @@ pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
 pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
     // These characters exist in every locale.
     let style = ProgressStyle::default_spinner().tick_chars("-\\|/ ");
-    let spinner = ProgressBar::with_draw_target(None, target(quiet))
-        .with_style(style)
-        .with_message(message);
+    let spinner = ProgressBar::with_draw_target(None, target(quiet)).with_style(style);
+    let spinner = spinner.with_message(message);
     if !spinner.is_hidden() {
         spinner.enable_steady_tick(INTERVAL);
     }

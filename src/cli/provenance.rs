@@ -20,8 +20,7 @@ pub const VERSION: &str = env!("MDR_TUI_VERSION");
 
 /// What is known of this process and its machine.
 pub fn text() -> String {
-    let mut text =
-        "# mdr-tui: how the files beside this one were made; they do not depend on it\n".to_owned();
+    let about = "# mdr-tui: how the files beside this one were made; they do not depend on it\n";
     let known = [
         ("version", VERSION.to_owned()),
         ("command", command()),
@@ -30,10 +29,8 @@ pub fn text() -> String {
         ("processor", processor().unwrap_or_else(|| "unknown".into())),
         ("arithmetic", header::arithmetic().to_owned()),
     ];
-    for (key, known) in known {
-        text.push_str(&format!("{key} = {}\n", literal(&known.into())));
-    }
-    text
+    let lines = known.map(|(key, known)| format!("{key} = {}\n", literal(&known.into())));
+    about.to_owned() + &lines.concat()
 }
 
 /// The command line as a shell reads it back.
@@ -47,9 +44,8 @@ fn command() -> String {
 fn now() -> u64 {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok();
     let since = || UNIX_EPOCH.elapsed().map_or(0, |since| since.as_secs());
-    given
-        .and_then(|given| given.parse().ok())
-        .unwrap_or_else(since)
+    let given = given.and_then(|given| given.parse().ok());
+    given.unwrap_or_else(since)
 }
 
 /// A moment as ISO 8601 has it, in UTC. The days are counted from 1 March of the year 0, so that a leap

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use super::args::Trade;
 use super::job::end;
@@ -38,15 +38,14 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let target = options.output.claim()?;
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
-    if scenario.setup().wear.is_none() {
-        let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
-        bail!(Refusal::new(&options.scenario, rule));
-    }
+    let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
+    let wears = scenario.setup().wear.is_some();
+    ensure!(wears, Refusal::new(&options.scenario, rule));
     let stop = stop::signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    let Some((trials, notes)) = &run(&scenario, cycles, options, &go_on)? else {
-        bail!("interrupted before the reference was computed: no results");
-    };
+    let found = run(&scenario, cycles, options, &go_on)?;
+    let found = found.context("interrupted before the reference was computed: no results");
+    let (trials, notes) = &found?;
     results::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     if let (Some(accuracy), None) = (options.accuracy, best) {
@@ -97,10 +96,8 @@ fn run(
         Err(SessionError::Interrupted) => return Ok(None),
         ended => ended.context("the reference")?,
     };
-    let half = Setting {
-        level: finest.level.scaled(0.5, 0.5),
-        ..finest.clone()
-    };
+    let mut half = finest.clone();
+    half.level = half.level.scaled(0.5, 0.5);
     let half = measure(&half, "reference, ").ok();
     let differs = |(half, _)| Outcome::of(&half).against(&Outcome::of(&reference)).worst();
     let blur = half.map(differs);
@@ -154,7 +151,7 @@ fn run(
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
 fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session) -> String {
     let (seconds, level) = (reached.seconds, &reached.rung.level);
-    let errors = Outcome::of(&reached.session).against(&Outcome::of(reference));
+    let errors = reached.rung.outcome.against(&Outcome::of(reference));
     let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",
@@ -195,9 +192,8 @@ fn plots(trials: &[Trial], options: &Trade) -> String {
     let curve = |method: Option<AbelMethod>| {
         let mut mine = trials.iter().collect::<Vec<_>>();
         mine.retain(|trial| method.is_none_or(|method| trial.setting.method == method));
-        let points = front(mine)
-            .into_iter()
-            .map(|(_, [time, error])| (time, error));
+        let points = front(mine).into_iter();
+        let points = points.map(|(_, [time, error])| (time, error));
         let (times, errors): (Vec<f64>, Vec<f64>) = points.unzip();
         Curve::new("", times, errors, Role::Profile)
     };

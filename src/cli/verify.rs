@@ -1,6 +1,6 @@
 //! `mdr-tui verify`: the error of every method against closed forms.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 
 use super::args::Verify;
 use super::{progress, results, small_multiples};
@@ -20,12 +20,8 @@ pub fn verify(options: &Verify) -> Result<()> {
         some => some,
     };
     let tasks = tasks(problems, &options.points, options.long);
-    if tasks.is_empty() {
-        bail!(Refusal::new(
-            "--points",
-            "these numbers of cells need --long"
-        ));
-    }
+    let rule = "these numbers of cells need --long";
+    ensure!(!tasks.is_empty(), Refusal::new("--points", rule));
     let outcomes = run(&tasks, options.output.quiet);
     let (nodes, notes) = (all_nodes(&outcomes), notes(&outcomes));
     results::write(target.as_ref(), "verify", &notes, &nodes)?;
@@ -43,10 +39,8 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
     let length = tasks.iter().map(effort).sum();
     let bar = progress::bar(length, "{percent}%  {elapsed} gone", quiet);
     let outcomes = tasks.iter().map(|task| {
-        bar.set_message(format!(
-            "{}, {}, N = {}",
-            task.problem, task.method, task.points
-        ));
+        let (problem, method, points) = (task.problem, task.method, task.points);
+        bar.set_message(format!("{problem}, {method}, N = {points}"));
         bar.tick();
         let outcome = task.run();
         bar.inc(effort(task));
@@ -57,47 +51,45 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
     outcomes
 }
 
+/// The problems that were tried, each with its outcomes.
+fn by_problem(outcomes: &[Outcome]) -> impl Iterator<Item = (Problem, &[Outcome])> {
+    let groups = outcomes.chunk_by(|a, b| a.task.problem == b.task.problem);
+    groups.map(|group| (group[0].task.problem, group))
+}
+
 /// Every table under what it shows, and the curves under their table.
 fn text(outcomes: &[Outcome], options: &Verify) -> String {
-    let marker = options.drawing.marker;
-    let mut text = String::new();
-    for &problem in Problem::ALL {
-        if !outcomes.iter().any(|o| o.task.problem == problem) {
-            continue;
-        }
-        if !text.is_empty() {
-            text.push('\n');
-        }
-        text.push_str(&format!("{problem}\n"));
+    let of_problem = |(problem, outcomes): (Problem, &[Outcome])| {
+        let mut text = format!("{problem}\n");
         for line in &problem.facts().description {
-            text.push_str(&format!("  {line}\n"));
+            text += &format!("  {line}\n");
         }
-        text.push_str(&problem_table(problem, outcomes).text());
+        text += &problem_table(problem, outcomes).text();
         let left = options.points.iter();
         let left = left.filter(|&&points| !options.long && problem.is_long(points));
         let left: Vec<String> = left.map(usize::to_string).collect();
         if !left.is_empty() {
-            text.push_str(&format!("N = {} only with --long\n", left.join(", ")));
+            text += &format!("N = {} only with --long\n", left.join(", "));
         }
         if options.drawing.plot {
-            text.push_str(&error_curves(problem, outcomes, marker));
+            text += &error_curves(problem, outcomes, options.drawing.marker);
         }
-    }
-    text
+        text
+    };
+    let texts: Vec<String> = by_problem(outcomes).map(of_problem).collect();
+    texts.join("\n")
 }
 
 /// How far the best method is from theory, in a line: its worst problem, on the finest grid of each.
 fn verdict(outcomes: &[Outcome]) -> String {
-    let stopped = outcomes.iter().filter(|o| o.errors.is_err()).count();
-    let stopped = match stopped {
+    let stopped = match outcomes.iter().filter(|o| o.errors.is_err()).count() {
         0 => String::new(),
         count => format!("; {count} runs stopped"),
     };
     let best = AbelMethod::Product;
-    let finest = Problem::ALL.iter().filter_map(|problem| {
-        let mine = outcomes.iter();
-        let mine = mine.filter(|o| o.task.problem == *problem && o.task.method == best);
-        let outcome = mine.max_by_key(|o| o.task.points)?;
+    let finest = by_problem(outcomes).filter_map(|(_, outcomes)| {
+        let tried = outcomes.iter().filter(|o| o.task.method == best);
+        let outcome = tried.max_by_key(|o| o.task.points)?;
         let errors = outcome.errors.as_ref().ok()?.iter().map(Errors::rms);
         Some((errors.fold(0.0, f64::max), outcome.task))
     });
@@ -112,10 +104,9 @@ fn verdict(outcomes: &[Outcome]) -> String {
 
 /// What the errors of each problem are.
 fn notes(outcomes: &[Outcome]) -> Vec<String> {
-    let shown = |problem: &&Problem| outcomes.iter().any(|o| o.task.problem == **problem);
-    let shown = Problem::ALL.iter().filter(shown);
-    shown
-        .map(|problem| format!("{problem}: {}", problem.facts().description.join(" ")))
+    let note = |problem: Problem| format!("{problem}: {}", problem.facts().description.join(" "));
+    by_problem(outcomes)
+        .map(|(problem, _)| note(problem))
         .collect()
 }
 
@@ -129,25 +120,19 @@ fn notes(outcomes: &[Outcome]) -> Vec<String> {
 ///      0               1                      0               1   r/a
 /// ```
 fn error_curves(problem: Problem, outcomes: &[Outcome], marker: Marker) -> String {
-    let mut text = String::new();
-    for (at, quantity) in problem.facts().quantities.iter().enumerate() {
-        let chart = |method| {
-            let tried = |o: &&Outcome| o.task.problem == problem && o.task.method == method;
-            let (points, errors) = outcomes
-                .iter()
-                .filter(tried)
-                .filter_map(|o| Some((o.task.points, o.errors.as_ref().ok()?.get(at)?)))
-                .max_by_key(|(points, _)| *points)?;
-            let name = format!("{method}: {}, N = {points}", quantity);
-            let y = Axis::new(name, "").scale(Scale::Log);
-            let (radii, values) = (errors.radii.clone(), errors.errors.clone());
+    let quantities = problem.facts().quantities.iter().enumerate();
+    let drawn = quantities.filter(|(_, quantity)| **quantity != STICK_RADIUS);
+    let plots = drawn.map(|(at, quantity)| {
+        let charts = AbelMethod::ALL.into_iter().filter_map(|method| {
+            let tried = outcomes.iter().filter(|o| o.task.method == method);
+            let ended = tried.filter_map(|o| Some((o.task.points, o.errors.as_ref().ok()?)));
+            let (points, errors) = ended.max_by_key(|(points, _)| *points)?;
+            let y = Axis::new(format!("{method}: {quantity}, N = {points}"), "").scale(Scale::Log);
+            let (radii, values) = (errors[at].radii.clone(), errors[at].errors.clone());
             let curve = Curve::new("", radii, values, Role::Profile);
             Some(Chart::new("", Axis::new("r/a", ""), y).curve(curve))
-        };
-        if *quantity != STICK_RADIUS {
-            let charts = AbelMethod::ALL.into_iter().filter_map(chart);
-            text.push_str(&small_multiples::draw_alike(charts.collect(), marker));
-        }
-    }
-    text
+        });
+        small_multiples::draw_alike(charts.collect(), marker)
+    });
+    plots.collect()
 }

@@ -6,7 +6,8 @@ use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::Refusal;
-use crate::studies::verify::{Problem, Stop, Task};
+use crate::simulation::Breakdown;
+use crate::studies::verify::{Problem, Task};
 
 /// N of the paper's figures.
 pub const POINTS: usize = 100;
@@ -16,7 +17,7 @@ pub const POINTS: usize = 100;
 ///
 /// # Errors
 /// If one of the methods stops.
-pub fn errors(points: usize) -> Result<Sheet, Stop> {
+pub fn errors(points: usize) -> Result<Sheet, Breakdown> {
     let titles = ["1D profile", "normal stress", "normal deformation"];
     let mut charts = titles.map(|title| {
         let y = Axis::new("relative error", "").scale(Scale::Log);

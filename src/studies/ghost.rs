@@ -94,13 +94,12 @@ impl Ghost {
                 ghost.take(Table::of_file(&columns));
             }
         }
-        match ghost.tables.is_empty() {
-            true => {
-                let path = printable(&path.display().to_string());
-                Err(Refusal::new(path, "holds no state.csv and no history.csv of a run").into())
-            }
-            false => Ok(ghost),
+        if ghost.tables.is_empty() {
+            let path = printable(&path.display().to_string());
+            let rule = "holds no state.csv and no history.csv of a run";
+            return Err(Refusal::new(path, rule).into());
         }
+        Ok(ghost)
     }
 
     /// The traces of a table, by its columns: a state or a history of this program, else measured data.
@@ -151,20 +150,17 @@ impl Ghost {
     pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<Worn> {
         let (profile, wear) = (self.trace(Axes::PROFILE), self.trace(Axes::WEAR));
         let trace = wear.or(profile)?;
-        let radii = trace.xs.to_vec();
+        let less = |f: &[f64], other: &[f64]| f.iter().zip(other).map(|(f, g)| f - g).collect();
         let unworn: Vec<f64> = match (profile, wear) {
-            (Some(profile), Some(wear)) => {
-                let both = profile.ys.iter().zip(wear.ys);
-                both.map(|(f, wear)| f - wear).collect()
-            }
-            _ => radii.iter().map(|&r| unworn(r)).collect(),
+            (Some(profile), Some(wear)) => less(profile.ys, wear.ys),
+            _ => trace.xs.iter().map(|&r| unworn(r)).collect(),
         };
         let wear = match wear {
             Some(wear) => wear.ys.to_vec(),
-            None => trace.ys.iter().zip(&unworn).map(|(f, f0)| f - f0).collect(),
+            None => less(trace.ys, &unworn),
         };
         Some(Worn {
-            radii,
+            radii: trace.xs.to_vec(),
             unworn,
             wear,
             errors: trace.errors.map(<[f64]>::to_vec),
@@ -173,12 +169,9 @@ impl Ghost {
 
     /// The last cycle that it tells of.
     pub fn end(&self) -> f64 {
-        let histories = self
-            .tables
-            .iter()
-            .filter(|table| table.column("r_m").is_none());
-        let cycles = histories.filter_map(Table::last_cycle);
-        cycles.fold(0.0, f64::max)
+        let tables = self.tables.iter();
+        let histories = tables.filter(|table| table.column("r_m").is_none());
+        histories.filter_map(Table::last_cycle).fold(0.0, f64::max)
     }
 
     /// Says so where its radii and the `reach` of the contact, m, differ by so much that one of them is

@@ -62,12 +62,12 @@ impl Measured {
             (false, _) => (Axes::LOOP.x, Axes::LOOP.y),
         };
         let measured = read(columns, Axes::LOOP, shift, force)?;
-        if measured.at.len() < FEWEST_OF_LOOP {
+        let rows = measured.at.len();
+        if rows < FEWEST_OF_LOOP {
             let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
             return Err(columns.refuse(reason));
         }
         let spans = [&measured.at, &measured.values].map(|values| span(values));
-        let rows = measured.at.len();
         if spans.contains(&0.0) {
             return Err(columns.refuse("is not a loop: displacement or force never changes"));
         }
@@ -124,8 +124,8 @@ fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measure
     if measured.at.len() < FEWEST {
         return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));
     }
-    let errors = measured.errors.iter().flatten();
-    if let Some(row) = errors.clone().position(|error| *error <= 0.0) {
+    let mut errors = measured.errors.iter().flatten();
+    if let Some(row) = errors.position(|error| *error <= 0.0) {
         let line = columns.line(row);
         return Err(columns.refuse(format!("line {line}: an error must be greater than 0")));
     }
@@ -136,15 +136,13 @@ fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measure
 /// them is in another unit.
 pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), Refusal> {
     let widest = radii.iter().copied().fold(0.0, f64::max);
-    match (0.01 * reach..=100.0 * reach).contains(&widest) {
-        true => Ok(()),
-        false => Err(Refusal::new(
-            name,
-            format_args!(
-                "radii up to {widest:.1e} m, but the contact reaches only {reach:.1e} m: are they in m?"
-            ),
-        )),
+    if (0.01 * reach..=100.0 * reach).contains(&widest) {
+        return Ok(());
     }
+    let rule = format!(
+        "radii up to {widest:.1e} m, but the contact reaches only {reach:.1e} m: are they in m?"
+    );
+    Err(Refusal::new(name, rule))
 }
 
 fn span(values: &[f64]) -> f64 {

@@ -127,10 +127,8 @@ impl Table {
 
     /// One past the last column of the group that column `at` belongs to.
     fn group_end(&self, at: usize) -> usize {
-        let others = self.columns[at..].iter();
-        at + others
-            .take_while(|other| other.0 == self.columns[at].0)
-            .count()
+        let is_of_it = |other: &&Column| other.0 == self.columns[at].0;
+        at + self.columns[at..].iter().take_while(is_of_it).count()
     }
 }
 

@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
-use crate::reading::Subject;
+use crate::reading::{Moment, Subject};
 use crate::scenario::Scenario;
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
@@ -77,9 +77,8 @@ impl Setting {
 
     /// The same as options that `run` takes.
     pub fn assignments(&self) -> Vec<String> {
-        let keys = self.keys().into_iter();
-        keys.map(|(key, value)| format!("--set {key}={value}"))
-            .collect()
+        let set = |(key, value)| format!("--set {key}={value}");
+        self.keys().into_iter().map(set).collect()
     }
 
     /// Runs `scenario` so over `cycles`, as long as `go_on`, which is asked at every step, says so, and as often as a
@@ -119,10 +118,8 @@ pub fn settings(
     let wants_jumps = wants_jumps(scenario);
     let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
     let mut settings = Vec::new();
-    for (&method, scheme) in methods
-        .iter()
-        .flat_map(|method| Scheme::ALL.map(|scheme| (method, scheme)))
-    {
+    let of_method = |&method| Scheme::ALL.map(|scheme| (method, scheme));
+    for (method, scheme) in methods.iter().flat_map(of_method) {
         let is_best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
         let mut tolerances = if wants_jumps { vec![] } else { vec![None] };
         if repeats && (is_best || wants_jumps) {
@@ -137,7 +134,7 @@ pub fn settings(
                 settings.extend(points.iter().map(|&points| Setting {
                     method,
                     scheme,
-                    level: level(points, steps, tolerance),
+                    level: Level::new(points, steps, tolerance),
                 }));
             }
         }
@@ -155,16 +152,7 @@ pub fn reference(scenario: &Scenario, points: &[usize], steps: &[u32]) -> Settin
     Setting {
         method: AbelMethod::Product,
         scheme: Scheme::Trapezoid,
-        level: level(2 * points, 2 * steps, tolerance),
-    }
-}
-
-fn level(points: usize, steps: u32, tolerance: Option<f64>) -> Level {
-    Level {
-        points,
-        steps,
-        tolerance,
-        nodes: None,
+        level: Level::new(2 * points, 2 * steps, tolerance),
     }
 }
 
@@ -223,17 +211,15 @@ impl Trial {
                 }
                 let simulation = session.simulation();
                 let (moment, exact) = (simulation.moment(), reference.simulation().moment());
+                let radius = |of: &Moment| of.permanent_stick_radius.unwrap_or(f64::NAN);
                 // In contact radii; it does not count towards the worst.
-                let stick = moment
-                    .permanent_stick_radius
-                    .zip(exact.permanent_stick_radius);
-                let stick = stick.map(|(here, there)| (here - there).abs() / exact.contact_radius);
-                let shown = [errors.worn_depth, errors.volume, errors.work, errors.force];
+                let stick = (radius(&moment) - radius(&exact)).abs() / exact.contact_radius;
+                let [depth, volume, work, force, _] = errors.numbers();
                 row.push(seconds.into());
                 row.push(simulation.steps().into());
                 row.push(simulation.stats().transforms.into());
-                let shown = shown.map(Some).into_iter().chain([stick]);
-                row.extend(shown.map(|error| error.filter(|error| error.is_finite()).into()));
+                let finite = |error: f64| Some(error).filter(|error| error.is_finite());
+                row.extend([depth, volume, work, force, stick].map(|error| finite(error).into()));
                 row.push(match complaints.is_empty() {
                     true => "ok".into(),
                     false => complaints.join(", ").into(),
@@ -308,7 +294,7 @@ mod tests {
             setting: Setting {
                 method: AbelMethod::A,
                 scheme: Scheme::Euler,
-                level: level(points, 100, None),
+                level: Level::new(points, 100, None),
             },
             point: Some([seconds, worst]),
             row: vec![Value::Missing; 15],

@@ -105,7 +105,7 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
             seconds: reached.seconds,
             last_rung: reached.rung.seconds,
             estimate: reached.error,
-            passes: passes(&reached.session),
+            passes: passes(&reached.rung.session),
             truth,
         }
     });

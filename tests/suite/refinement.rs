@@ -7,7 +7,7 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Integrator;
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::studies::refinement::{
-    Ladder, Level, Next, Outcome, Verdict, climb, resolve, resolve_soon, run, run_to_accuracy,
+    Level, Outcome, Verdict, climb, resolve, resolve_soon, run, run_to_accuracy,
 };
 
 use crate::common::{again, load, without_numerics};
@@ -124,9 +124,9 @@ fn the_result_is_the_run_of_the_last_rung() {
     assert_eq!(reached.verdict, Verdict::Met);
     assert!(reached.error.promised() <= 1e-3, "{:?}", reached.error);
     // As a user runs it again: from its own file.
-    let written = again(reached.session.loaded());
+    let written = again(reached.rung.session.loaded());
     let again = run(&written, 10.0, &|| true).expect("a run");
-    let moments = [&again, &reached.session].map(|run| run.simulation().moment());
+    let moments = [&again, &reached.rung.session].map(|run| run.simulation().moment());
     assert_eq!(moments[0], moments[1]);
     let fine = Level {
         points: 600,
@@ -175,25 +175,6 @@ fn what_does_not_wear_has_no_error_to_meet() {
     let scenario = load("li2019-fig3", &["wear.coefficient=0", "run.cycles=2"]);
     let reached = run_to_accuracy(&scenario, 2.0, 1e-3, f64::INFINITY, &|| true).expect("a result");
     assert_eq!(reached.verdict, Verdict::Unworn);
-}
-
-/// A level that breaks down is followed by a finer one, and a scenario that always does has no result.
-#[test]
-fn failures_climb_too_and_end() {
-    let scenario = load("li2019-fig3", &[]);
-    let mut ladder = Ladder::new(&scenario, 10.0, 1e-2, f64::INFINITY);
-    let Next::Twin(first) = ladder.next() else {
-        panic!("a level to run")
-    };
-    ladder.fail("broke".into(), 0.1);
-    let Next::Twin(second) = ladder.next() else {
-        panic!("a level to run")
-    };
-    assert!(second.points > first.points && second.steps > first.steps);
-    for _ in 0..3 {
-        ladder.fail("broke".into(), 0.1);
-    }
-    assert_eq!(ladder.next(), Next::Done(Verdict::Failed("broke".into())));
 }
 
 /// A screen is there to watch the cycles that a run without one jumps over.

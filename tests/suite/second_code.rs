@@ -36,7 +36,7 @@ fn an_accuracy_holds_against_a_code_of_its_own() {
         let met = run_to_accuracy(&scenario, plain.cycles, ACCURACY, f64::INFINITY, &|| true);
         let met = met.expect("a run");
         assert_eq!(met.verdict, Verdict::Met, "seed {seed}");
-        let simulation = met.session.simulation();
+        let simulation = met.rung.session.simulation();
         let (fine, own) = plain.resolved();
         let wear = simulation.worn_depth();
         let grid = &simulation.setup().grid;

@@ -107,6 +107,23 @@ pub struct Explore {
     /// beside.
     #[arg(long, value_name = "FILE", add = ArgValueCompleter::new(complete::overlays))]
     pub overlay: Vec<String>,
+    /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
+    #[arg(long)]
+    pub present: bool,
+    /// Continue from a checkpoint of the explorer or of a run; the simulation starts paused.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "set"])]
+    pub resume: Option<PathBuf>,
+    /// Checkpoint interval in seconds; 0: only at the end.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
+    pub checkpoint_every: Duration,
+    /// How the screen looks.
+    #[command(flatten)]
+    pub screen: Screen,
+}
+
+/// What opens the screen may say of it.
+#[derive(Debug, Clone, Args)]
+pub struct Screen {
     /// Maximum frame rate per second; default 10.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=120))]
     pub fps: Option<u16>,
@@ -124,9 +141,6 @@ pub struct Explore {
     /// Without this option the terminal keeps it for selecting text.
     #[arg(long)]
     pub mouse: bool,
-    /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
-    #[arg(long)]
-    pub present: bool,
     /// Press these keys instead of reading the keyboard, print the last screen and exit.
     #[arg(
         long,
@@ -138,12 +152,6 @@ pub struct Explore {
             keys, <lt> for \"<\". Each key waits until the simulation has handled the previous one."
     )]
     pub keys: Option<String>,
-    /// Continue from a checkpoint of the explorer or of a run; the simulation starts paused.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenario", "set"])]
-    pub resume: Option<PathBuf>,
-    /// Checkpoint interval in seconds; 0: only at the end.
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = interval)]
-    pub checkpoint_every: Duration,
     /// Print the screen at this size after the last key, and exit; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = parse_size)]
     pub print: Option<Size>,

@@ -4,20 +4,16 @@ use std::path::PathBuf;
 
 use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{ArgGroup, Args};
-use ratatui::layout::Size;
 
-use super::Changes;
-use super::values::ColorChoice;
-use crate::plot::Marker;
-use crate::plot::theme::Look;
+use super::{Changes, Screen};
 use crate::scenario::printable;
 use crate::studies::sweep::Shard;
-use crate::tui::parse_size;
 
 /// Options of `sweep`.
 #[derive(Debug, Args)]
 #[command(after_help = include_str!("examples/sweep.txt").trim_end())]
 #[command(group = ArgGroup::new("what").required(true).args(["study", "merge", "view"]))]
+#[command(mut_group("Screen", |screen| screen.requires("view")))]
 pub struct Sweep {
     /// The study, a .toml file.
     pub study: Option<PathBuf>,
@@ -79,32 +75,15 @@ pub struct Sweep {
     /// Print how sensitive the columns are to the keys of [sensitivity], or of the axes.
     #[arg(long, conflicts_with_all = ["resume", "shard", "shards", "merge", "view", "point", "slurm", "skip_invalid"])]
     pub sensitivity: bool,
-    /// With --view, press these keys instead of reading the keyboard, print the screen and exit.
-    #[arg(
-        long,
-        value_name = "SCRIPT",
-        requires = "print",
-        allow_hyphen_values = true
-    )]
-    pub keys: Option<String>,
-    /// With --view, print the screen at this size.
-    #[arg(long, value_name = "COLUMNSxROWS", requires = "view", value_parser = parse_size)]
-    pub print: Option<Size>,
-    /// With --view, how curves are drawn.
-    #[arg(long, value_enum, requires = "view")]
-    pub marker: Option<Marker>,
-    /// With --view, when to use colour; auto obeys NO_COLOR.
-    #[arg(long, value_enum, default_value_t = ColorChoice::Auto)]
-    pub color: ColorChoice,
-    /// With --view, which colours.
-    #[arg(long, value_enum, requires = "view")]
-    pub theme: Option<Look>,
     /// Print the rows as JSON lines, in the order of the axes, as soon as they are known.
     #[arg(long)]
     pub json: bool,
     /// Print nothing but errors.
     #[arg(long)]
     pub quiet: bool,
+    /// How the map looks.
+    #[command(flatten, next_help_heading = "With --view")]
+    pub screen: Screen,
 }
 
 /// A word that a job script contains as it is.

@@ -46,12 +46,12 @@ impl ColorChoice {
 
 /// Seconds between two checkpoints; 0: only at the end.
 pub(super) fn interval(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok();
-    let seconds = seconds.filter(|seconds| *seconds == 0.0 || (1e-3..=1e6).contains(seconds));
-    let rule = "an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60";
-    seconds
-        .map(Duration::from_secs_f64)
-        .ok_or_else(|| rule.to_owned())
+    match text.parse() {
+        Ok(seconds) if seconds == 0.0 || (1e-3..=1e6).contains(&seconds) => {
+            Ok(Duration::from_secs_f64(seconds))
+        }
+        _ => Err("an interval is 0, or from 0.001 to 1000000 seconds, e.g. 60".into()),
+    }
 }
 
 /// A cycle as it was typed, which names the file.
@@ -123,9 +123,8 @@ where
     let rule = rule.into();
     move |text| {
         let value = text.trim().parse().ok();
-        value
-            .filter(|value| range.contains(value))
-            .ok_or_else(|| rule.clone())
+        let value = value.filter(|value| range.contains(value));
+        value.ok_or_else(|| rule.clone())
     }
 }
 

@@ -91,9 +91,9 @@ impl Body {
         }
         let Some((modulus, poisson)) = text.split_once(',') else {
             let names: Vec<&str> = materials().iter().map(|body| &*body.name).collect();
+            let names = names.join(", ");
             return Err(format!(
-                "must be one of {}, or E,NU such as \"200 GPa,0.3\"",
-                names.join(", ")
+                "must be one of {names}, or E,NU such as \"200 GPa,0.3\""
             ));
         };
         let modulus = quantity(modulus, "material.indenter.youngs_modulus", "GPa")?;
@@ -123,16 +123,12 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
         Ok(_) => format!("{text} {unit}").trim_end().to_owned(),
         Err(_) => text.to_owned(),
     };
-    let value = match units::quantity(&text, known, unit == "N") {
-        Some(value) => value?,
-        None => text
-            .parse::<f64>()
-            .ok()
-            .filter(|value| value.is_finite())
-            .ok_or_else(|| match unit {
-                "" => "must be a number".to_owned(),
-                unit => format!("must be a number, in {unit} or with its unit"),
-            })?,
+    let with_unit = units::quantity(&text, known, unit == "N");
+    let value = match (with_unit, text.parse::<f64>()) {
+        (Some(value), _) => value?,
+        (None, Ok(value)) if value.is_finite() => value,
+        (None, _) if unit.is_empty() => return Err("must be a number".into()),
+        (None, _) => return Err(format!("must be a number, in {unit} or with its unit")),
     };
     match known.range.holds(value) {
         true => Ok(Quantity { text, value }),

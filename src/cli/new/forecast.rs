@@ -88,11 +88,8 @@ impl Forecast {
 
     /// How many cycles of the test a day takes.
     pub fn a_day(&self) -> String {
-        format!(
-            "a day on the rig is {} cycles at {} Hz",
-            plain(self.frequency * DAY),
-            plain(self.frequency)
-        )
+        let (cycles, frequency) = (plain(self.frequency * DAY), plain(self.frequency));
+        format!("a day on the rig is {cycles} cycles at {frequency} Hz")
     }
 }
 

@@ -45,27 +45,21 @@ pub fn new(options: &New) -> Result<()> {
         writeln!(out, "  {}", forecast.regime())?;
         writeln!(out, "  {}", forecast.a_day())?;
     }
-    writeln!(
-        out,
-        "written to {file}; mdr-tui {file} opens it, mdr-tui run {file} --out DIR runs it"
-    )?;
+    let hint = format!("mdr-tui {file} opens it, mdr-tui run {file} --out DIR runs it");
+    writeln!(out, "written to {file}; {hint}")?;
     drop(out);
-    let opens = match asks && !options.open {
-        true => Confirm::with_theme(&*theme())
-            .with_prompt("Open it now?")
-            .default(true)
-            .interact()
-            .context("the scenario is written, but not opened")?,
-        false => options.open,
-    };
-    match opens {
-        // A name that begins with a dash is not an option.
-        true => {
-            let explorer = Arguments::parse_from(["mdr-tui", "--", &options.file]).explore;
-            explore::explore(&explorer, None)
-        }
-        false => Ok(()),
+    let mut opens = options.open;
+    if let (false, Some(theme)) = (opens, &interview.theme) {
+        let question = Confirm::with_theme(&**theme).with_prompt("Open it now?");
+        let answer = question.default(true).interact();
+        opens = answer.context("the scenario is written, but not opened")?;
     }
+    if opens {
+        // A name that begins with a dash is not an option.
+        let explorer = Arguments::parse_from(["mdr-tui", "--", &options.file]).explore;
+        explore::explore(&explorer, None)?;
+    }
+    Ok(())
 }
 
 fn theme() -> Box<dyn Theme> {
@@ -179,12 +173,10 @@ impl Interview {
             (None, None) => question.default.clone(),
             (None, Some(theme)) => {
                 writeln!(io::stderr(), "  {}", question.meaning)?;
-                Input::<String>::with_theme(&**theme)
-                    .with_prompt(&question.prompt)
-                    .default(question.default.clone())
-                    .validate_with(|text: &String| read(text).map(drop))
-                    .interact_text()
-                    .context("nothing was written")?
+                let input = Input::<String>::with_theme(&**theme).with_prompt(&question.prompt);
+                let input = input.default(question.default.clone());
+                let input = input.validate_with(|text: &String| read(text).map(drop));
+                input.interact_text().context("nothing was written")?
             }
         };
         let place = format!("--{} {}", question.option, printable(&text));
@@ -196,12 +188,9 @@ impl Interview {
         let Some(theme) = &self.theme else {
             return Ok(0);
         };
-        Select::with_theme(&**theme)
-            .with_prompt(prompt)
-            .items(items)
-            .default(0)
-            .interact()
-            .context("nothing was written")
+        let question = Select::with_theme(&**theme).with_prompt(prompt);
+        let answer = question.items(items).default(0).interact();
+        answer.context("nothing was written")
     }
 
     /// Tells a user what closed forms say of the answers so far.

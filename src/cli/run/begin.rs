@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, bail};
+use anyhow::{Context, ensure};
 
 use super::*;
 use crate::export::autosave::state_directory;
@@ -15,10 +15,9 @@ impl<'a> Job<'a> {
     pub(super) fn start(options: &'a Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
         let mut scenario = Scenario::load(name, &options.changes.set)?;
         let mut job = RunJob::new(options, &scenario, name)?;
-        if options.budget.is_some() && scenario.accuracy().is_none() {
-            let rule = "limits the search for numerics.accuracy, but that key is not set";
-            bail!(Refusal::new("--budget", rule));
-        }
+        let has_search = options.budget.is_none() || scenario.accuracy().is_some();
+        let rule = "limits the search for numerics.accuracy, but that key is not set";
+        ensure!(has_search, Refusal::new("--budget", rule));
         let directory = match &options.out {
             Some(path) => RunDirectory::claim(path, options.force)?,
             None => new_directory(&scenario)?,

@@ -170,10 +170,8 @@ impl Job<'_> {
 
     /// The snapshots state what the run states at its end, as they do where its `scenario.toml` is run again.
     fn restate(&mut self) {
-        let stated = self.session.statements().iter();
-        let stated: String = stated
-            .map(|(key, value)| header::line(key, value))
-            .collect();
+        let line = |(key, value): &(String, String)| header::line(key, value);
+        let stated: String = self.session.statements().iter().map(line).collect();
         for name in self.job.snapshots.iter().map(file_of) {
             let is_owed = self.owed.iter().any(|(owed, _)| *owed == name);
             let written = fs::read_to_string(self.directory.path().join(&name));
@@ -204,10 +202,9 @@ impl Job<'_> {
             let (session, job) = safe.copy.get().clone();
             safe.save(&session, &job);
             let cycle = session.simulation().cycle();
+            let (at, hint) = (number(cycle), safe.how_to_resume(cycle));
             complain(&format!(
-                "interrupted at cycle {}, in the middle of a long step; {}",
-                number(cycle),
-                safe.how_to_resume(cycle)
+                "interrupted at cycle {at}, in the middle of a long step; {hint}"
             ));
             std::process::exit(FAILED.into());
         });
@@ -232,9 +229,9 @@ impl Job<'_> {
         match ended {
             Err(SessionError::Interrupted) => {
                 let cycle = number(self.session.simulation().cycle());
-                let directory = self.directory.path().display();
+                let place = self.directory.path().display();
                 Ok(Some(format!(
-                    "interrupted at cycle {cycle}; saved in {directory}"
+                    "interrupted at cycle {cycle}; saved in {place}"
                 )))
             }
             ended => Ok(ended.map(|()| None)?),
@@ -332,9 +329,8 @@ impl Job<'_> {
             ("field.csv", field),
         ];
         let owed = self.owed.iter().map(|(name, table)| (name.as_str(), table));
-        let files = files
-            .iter()
-            .filter_map(|(name, text)| Some((*name, text.as_ref()?)));
+        let files = files.iter();
+        let files = files.filter_map(|(name, text)| Some((*name, text.as_ref()?)));
         for (name, text) in owed.chain(files) {
             outcome = outcome.and(self.directory.write(name, text));
         }

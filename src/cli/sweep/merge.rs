@@ -15,9 +15,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
     let out = options.out.as_ref().and_then(|out| out.canonicalize().ok());
     files.retain(|file| out.is_none() || file.canonicalize().ok() != out);
-    let Some(first) = files.first() else {
-        bail!(Refusal::new(shown, "has no table written by mdr-tui sweep"));
-    };
+    let rule = "has no table written by mdr-tui sweep";
+    let first = files.first().ok_or_else(|| Refusal::new(&shown, rule))?;
     let record = Record::of_file(first)?;
     let study = &record.study()?;
     record.expect(study, "this version of mdr-tui")?;
@@ -50,9 +49,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let rows = &ledger;
     if !doubles.is_empty() {
         let (count, named) = (doubles.len(), some(&doubles));
-        complain(&format!(
-            "{count} identical duplicate rows were dropped: {named}"
-        ));
+        let word = format!("{count} identical duplicate rows were dropped: {named}");
+        complain(&word);
     }
     if !contradictions.is_empty() {
         let (count, named) = (contradictions.len(), some(&contradictions));
@@ -75,9 +73,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     }
     let (all, failed) = (rows.rows(), rows.failed());
     if failed > 0 {
-        complain(&format!(
-            "{failed} of {all} points failed; their status says why"
-        ));
+        let word = format!("{failed} of {all} points failed; their status says why");
+        complain(&word);
     }
     Ok(())
 }

@@ -9,11 +9,12 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use clap::Parser;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::args::Sweep;
-use super::{UNFINISHED, complain, progress, stop, succeeded};
+use super::args::{Arguments, Sweep};
+use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
 use crate::export::file::shell_word;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, limited, printable};
@@ -21,12 +22,12 @@ use crate::studies::sweep::engine::{self, Check};
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record};
 use crate::studies::sweep::{Shard, Study, Success};
+use crate::tui::map::live::Live;
 
 mod merge;
 mod output;
 mod sensitivity;
 mod slurm;
-mod view;
 
 use output::Output;
 
@@ -42,7 +43,7 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         return merge::merge(directory, options).map(|()| ExitCode::SUCCESS);
     }
     if let Some(file) = &options.view {
-        return view::view(file, options).map(|()| ExitCode::SUCCESS);
+        return view(file, options).map(|()| ExitCode::SUCCESS);
     }
     let path = options.study.clone().unwrap_or_default();
     let study = read(&path, &options.changes.set)?;
@@ -62,6 +63,14 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         return run(options, &path, &study);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Shows a table as a map until the user quits.
+fn view(file: &Path, options: &Sweep) -> Result<()> {
+    let map = Live::of_file(file)?;
+    let mut explorer = Arguments::try_parse_from(["mdr-tui"])?.explore;
+    explorer.screen = options.screen.clone();
+    explore::explore(&explorer, Some(map))
 }
 
 /// The threads to run on: as many as are asked for, or one for each processor.
@@ -85,10 +94,9 @@ fn read(path: &Path, sets: &[String]) -> Result<Study> {
 }
 
 fn print_point(study: &Study, point: usize) -> Result<()> {
-    if point >= study.points() {
-        let rule = format!("the study has {} points, counted from 0", study.points());
-        bail!(Refusal::new(format_args!("--point {point}"), rule));
-    }
+    let (place, points) = (format!("--point {point}"), study.points());
+    let rule = format!("the study has {points} points, counted from 0");
+    ensure!(point < points, Refusal::new(place, rule));
     let scenario = study.scenario(point)?;
     let (name, scenario) = (study.name(point), scenario.to_toml());
     Ok(writeln!(io::stdout(), "# {name}\n{scenario}")?)
@@ -127,10 +135,8 @@ fn invalid(refusal: Refusal) -> Refusal {
 
 fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let shard = shard(options)?;
-    let out = options
-        .out
-        .clone()
-        .unwrap_or_else(|| default_out(path, shard));
+    let out = options.out.clone();
+    let out = out.unwrap_or_else(|| default_out(path, shard));
     let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
     let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
@@ -149,11 +155,8 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         while options.json
             && let Some(point) = points.next_if(|&point| ledger.has(point))
         {
-            writeln!(
-                out,
-                "{}",
-                record::json(&study.columns(), &ledger.row(point)?)
-            )?;
+            let row = record::json(&study.columns(), &ledger.row(point)?);
+            writeln!(out, "{row}")?;
         }
         Ok(())
     };
@@ -222,15 +225,13 @@ fn shard(options: &Sweep) -> Result<Shard> {
 
 /// The default output file.
 fn default_out(study: &Path, shard: Shard) -> PathBuf {
-    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
     match shard {
-        Shard::WHOLE => PathBuf::from(format!("{stem}.csv")),
-        Shard { index, .. } => shards_directory(study).join(format!("shard-{index}.csv")),
+        Shard::WHOLE => named_after(study, "csv"),
+        Shard { index, .. } => named_after(study, "shards").join(format!("shard-{index}.csv")),
     }
 }
 
-/// The directory for the shards of a study.
-fn shards_directory(study: &Path) -> PathBuf {
-    let stem = study.file_stem().unwrap_or_default().to_string_lossy();
-    PathBuf::from(format!("{stem}.shards"))
+/// A path here with the name of a study and another `ending`: its table, and the directory for its shards.
+fn named_after(study: &Path, ending: &str) -> PathBuf {
+    Path::new(study.file_name().unwrap_or_default()).with_extension(ending)
 }

@@ -30,17 +30,14 @@ impl Output {
         let mut rows = None;
         if target.exists() && !options.force {
             let refuse = |why: String| Refusal::new(path.display(), why);
-            if !options.resume {
-                let rule = "already exists; --resume continues it, --force starts over, --out names another file";
-                bail!(refuse(rule.into()));
-            }
+            let rule = "already exists; --resume continues it, --force starts over, --out names another file";
+            ensure!(options.resume, refuse(rule.into()));
             let file = own::read(path);
             let file = file.map_err(|error| refuse(format!("cannot be read: {error}")))?;
             let record = Record::open(file, &path.display().to_string())?;
             record.expect(study, "the study now")?;
-            if record.shard != shard {
-                bail!(refuse(format!("holds shard {}, not {shard}", record.shard)));
-            }
+            let rule = format!("holds shard {}, not {shard}", record.shard);
+            ensure!(record.shard == shard, refuse(rule));
             arithmetic.extend(record.arithmetic.iter().cloned());
             rows = Some(record.rows(study)?);
         }

@@ -10,9 +10,8 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let pool = super::pool(options)?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
-    let Some(found) = sensitivity::run(study, &pool, &go_on)? else {
-        bail!("interrupted before all runs had finished: nothing was saved");
-    };
+    let found = sensitivity::run(study, &pool, &go_on)?;
+    let found = found.context("interrupted before all runs had finished: nothing was saved")?;
     let table = &found.table;
     let lines = study.to_toml();
     let mut lines = lines.lines().filter(|line| !line.is_empty());

@@ -18,12 +18,10 @@ const MOST_REQUEUES: u32 = 100;
 pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
     let shards = options.shards.unwrap_or(1);
     let directory = options.out.clone();
-    let directory = directory.unwrap_or_else(|| shards_directory(study));
+    let directory = directory.unwrap_or_else(|| named_after(study, "shards"));
     let (study, directory) = (shell_word(study), shell_word(&directory));
-    let sets = options.changes.set.iter();
-    let mut more: String = sets
-        .map(|set| format!(" --set {}", shell_word(Path::new(set))))
-        .collect();
+    let set = |set: &String| format!(" --set {}", shell_word(Path::new(set)));
+    let mut more: String = options.changes.set.iter().map(set).collect();
     if options.skip_invalid {
         more += " --skip-invalid";
     }
@@ -33,14 +31,10 @@ pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
         ("partition", options.partition.as_ref()),
         ("mem", options.mem.as_ref()),
     ];
-    let wanted = wanted.into_iter();
-    let wanted: String = wanted
-        .filter_map(|(name, value)| Some(format!("#SBATCH --{name}={}\n", value?)))
-        .collect();
-    let modules = options.module.iter();
-    let modules: String = modules
-        .map(|name| format!("module load {name}\n"))
-        .collect();
+    let line = |(name, value)| Some(format!("#SBATCH --{name}={}\n", value?));
+    let wanted: String = wanted.into_iter().filter_map(line).collect();
+    let load = |name: &String| format!("module load {name}\n");
+    let modules: String = options.module.iter().map(load).collect();
     format!(
         include_str!("slurm.sh"),
         points = points,

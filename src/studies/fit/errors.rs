@@ -26,6 +26,8 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
+use crate::math::scan::largest;
+
 /// Influence below this, relative to that of the most influential key, is rounding.
 const NO_INFLUENCE: f64 = 1e-9;
 
@@ -49,14 +51,11 @@ impl Errors {
     ) -> Self {
         let keys = derivatives.len();
         let norm = |column: &Vec<f64>| column.iter().map(|d| d * d).sum::<f64>().sqrt();
-        let norms: Vec<f64> = derivatives
-            .iter()
-            .map(|column| column.as_ref().map_or(0.0, norm))
-            .collect();
-        let largest = norms.iter().copied().fold(0.0, f64::max);
-        let seen: Vec<usize> = (0..keys)
-            .filter(|&i| norms[i] > NO_INFLUENCE * largest)
-            .collect();
+        let norms = derivatives.iter();
+        let norms = norms.map(|column| column.as_ref().map_or(0.0, norm));
+        let norms: Vec<f64> = norms.collect();
+        let least = NO_INFLUENCE * largest(&norms);
+        let seen: Vec<usize> = (0..keys).filter(|&i| norms[i] > least).collect();
         // Columns of length 1: keys may differ by many powers of ten.
         let jacobian = DMatrix::from_fn(z.len(), seen.len(), |row, i| {
             let column = derivatives[seen[i]].as_deref().unwrap_or_default();

@@ -22,11 +22,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use serde::Serialize;
 
 use crate::scenario::session::SessionError;
-use crate::scenario::{MOST_CYCLES, Refusal, Scenario, ScenarioError};
+use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
 use crate::traces::Axes;
 use errors::{Errors, freedom};
@@ -81,19 +81,14 @@ pub struct Value {
 pub struct Compared {
     /// As it was measured.
     pub measured: Measured,
-    /// The same points, simulated.
-    pub simulated: Vec<f64>,
+    /// Measured less simulated.
+    pub residuals: Vec<f64>,
 }
 
 impl Compared {
-    /// Measured less simulated.
-    pub fn residuals(&self) -> Vec<f64> {
-        residuals(&self.measured, &self.simulated)
-    }
-
-    /// The root of their mean square.
+    /// The root of the mean square of the residuals.
     pub fn rms(&self) -> f64 {
-        rms(&self.residuals())
+        rms(&self.residuals)
     }
 }
 
@@ -127,49 +122,40 @@ impl Fit {
         free: &[String],
         cycles: Option<f64>,
         robust: bool,
-    ) -> Result<Self, ScenarioError> {
+    ) -> Result<Self> {
         let free = free.iter().map(|key| Free::of(&scenario, key));
-        let free: Vec<Free> = free.collect::<Result<_, _>>()?;
+        let free: Vec<Free> = free.collect::<Result<_>>()?;
+        let is_empty = free.is_empty() || data.is_empty();
+        let rule = "needs a key to fit and a data set to fit it to".to_owned();
+        ensure!(!is_empty, Refusal::from(rule));
         let points: usize = data.iter().map(|set| set.values.len()).sum();
-        if free.is_empty() || data.is_empty() {
-            return refuse("needs a key to fit and a data set to fit it to".into());
+        let rule = format!("{points} points cannot determine {} keys", free.len());
+        ensure!(points > free.len(), Refusal::from(rule));
+        for (i, Free { key, .. }) in free.iter().enumerate() {
+            let is_new = free[..i].iter().all(|other| other.key != *key);
+            ensure!(is_new, Refusal::from(format!("{key} is given twice")));
         }
-        if points <= free.len() {
-            let keys = free.len();
-            return refuse(format!("{points} points cannot determine {keys} keys"));
-        }
-        for (i, key) in free.iter().enumerate() {
-            if free[..i].iter().any(|other| other.key == key.key) {
-                return refuse(format!("{} is given twice", key.key));
-            }
-        }
-        let histories = data
-            .iter()
-            .filter(|set| set.axes.x == "cycle")
-            .flat_map(|set| set.at.iter().copied());
-        let last = histories.fold(0.0, f64::max);
+        let histories = data.iter().filter(|set| set.axes.x == "cycle");
+        let cycles_of = histories.flat_map(|set| &set.at);
+        let last = cycles_of.copied().fold(0.0, f64::max);
         let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
         let cycles = planned.max(last);
-        if cycles > MOST_CYCLES {
-            return refuse(format!(
-                "the data end at cycle {cycles:e}; a run has at most {MOST_CYCLES:e} cycles"
-            ));
-        }
+        let most = format!("a run has at most {MOST_CYCLES:e} cycles");
+        let rule = format!("the data end at cycle {cycles:e}; {most}");
+        ensure!(cycles <= MOST_CYCLES, Refusal::from(rule));
         let domain = scenario.setup().grid.radius();
         for set in &data {
             let is_loop = set.axes == Axes::LOOP;
-            if cycles <= 0.0 || is_loop && cycles < 1.0 {
-                let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
-                return refuse(rule.into());
-            }
-            if let Some(end) = set.cycle.filter(|_| is_loop)
-                && !(1.0..=cycles).contains(&end)
-            {
-                let name = &set.name;
-                return refuse(format!(
-                    "{name}: its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
+            let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
+            let is_long = cycles > 0.0 && (!is_loop || cycles >= 1.0);
+            ensure!(is_long, Refusal::from(rule.to_owned()));
+            if let Some(end) = set.cycle.filter(|_| is_loop) {
+                let rule = format!(
+                    "its loop ends at cycle {end}, but the run has the cycles 1 to {cycles}; --cycles and \
                      --loop FILE@CYCLE say others"
-                ));
+                );
+                let is_run = (1.0..=cycles).contains(&end);
+                ensure!(is_run, Refusal::new(&set.name, rule));
             }
             if set.axes.over_r() {
                 check_radii(&set.name, &set.at, domain)?;
@@ -200,6 +186,9 @@ impl Fit {
         let mut errors: Vec<f64> = self.data.iter().flat_map(first_errors).collect();
         let is_given = self.data.iter().all(|set| set.errors.is_some());
         let rounds = if is_given && !self.robust { 1 } else { ROUNDS };
+        // The points of the data sets whose error is estimated, among all points.
+        let estimated = self.places().filter(|(set, _)| set.errors.is_none());
+        let estimated: Vec<Range<usize>> = estimated.map(|(_, points)| points).collect();
         let mut round = 1;
         loop {
             let deviations = |theta: &[f64]| Some(self.deviations(&simulate(theta).ok()?, &errors));
@@ -218,7 +207,7 @@ impl Fit {
             let simulated = simulate(&theta);
             let simulated = simulated.map_err(|error| anyhow!("no minimum was found: {error}"))?;
             let z = self.deviations(&simulated, &errors);
-            let uncertainty = Errors::new(&z, &derivatives, &self.estimated(), self.robust);
+            let uncertainty = Errors::new(&z, &derivatives, &estimated, self.robust);
             if round == rounds {
                 let scenario = self.at(&theta).context("no minimum was found")?;
                 return Ok(self.fitted(&theta, &uncertainty, simulated, scenario, runs.get()));
@@ -249,12 +238,6 @@ impl Fit {
             *end += set.values.len();
             Some((set, first..*end))
         })
-    }
-
-    /// The points of the data sets whose error is estimated, among all points.
-    fn estimated(&self) -> Vec<Range<usize>> {
-        let estimated = self.places().filter(|(set, _)| set.errors.is_none());
-        estimated.map(|(_, points)| points).collect()
     }
 
     /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be
@@ -314,8 +297,7 @@ impl Fit {
         scenario: Scenario,
         runs: usize,
     ) -> Fitted {
-        let mut remarks = Vec::new();
-        let mut values = Vec::new();
+        let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
         let covariance = &uncertainty.covariance;
         let correlation = |i: usize, j: usize| {
             let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
@@ -324,7 +306,6 @@ impl Fit {
                 false => 0.0,
             }
         };
-        let mut alike = Vec::new();
         for (i, (free, &theta)) in self.free.iter().zip(theta).enumerate() {
             let error = covariance[(i, i)].sqrt();
             let at_bound = free.is_at_bound(theta);
@@ -357,10 +338,10 @@ impl Fit {
             });
         }
         remarks.extend(alike);
-        let compared = self.data.iter().cloned().zip(simulated);
-        let compared = compared.map(|(measured, simulated)| Compared {
-            measured,
-            simulated,
+        let compared = self.data.iter().zip(&simulated);
+        let compared = compared.map(|(set, simulated)| Compared {
+            measured: set.clone(),
+            residuals: residuals(set, simulated),
         });
         Fitted {
             values,
@@ -373,16 +354,11 @@ impl Fit {
     }
 }
 
-fn refuse<T>(line: String) -> Result<T, ScenarioError> {
-    Err(Refusal::from(line).into())
-}
-
 /// The errors of a data set: as given, or its size until a fit estimates them.
 fn first_errors(set: &Measured) -> Vec<f64> {
     let size = rms(&set.values).max(f64::MIN_POSITIVE);
-    set.errors
-        .clone()
-        .unwrap_or_else(|| vec![size; set.values.len()])
+    let given = set.errors.clone();
+    given.unwrap_or_else(|| vec![size; set.values.len()])
 }
 
 /// Measured less simulated.

@@ -1,10 +1,10 @@
 //! The search for the minimum.
 
+use anyhow::{Result, bail, ensure};
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
 
-use super::refuse;
 use crate::scenario::schema::{self, Kind, Range};
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::{Refusal, Scenario};
 
 /// By how many e-folds a positive key may move.
 const FARTHEST: f64 = 12.0;
@@ -36,31 +36,26 @@ impl Free {
     ///
     /// # Errors
     /// A key that is unknown, is no physical number, or has no value to start from.
-    pub fn of(scenario: &Scenario, key: &str) -> Result<Self, ScenarioError> {
+    pub fn of(scenario: &Scenario, key: &str) -> Result<Self> {
+        let refused = |rule: &str| Refusal::from(format!("{key} {rule}"));
         let Some(parameter) = schema::find(key) else {
             // The scenario's own words for a key that is unknown.
             scenario.with(key, "1.0")?;
-            return refuse(format!("{key}: no such key"));
+            bail!(Refusal::new(key, "no such key"));
         };
-        if parameter.kind != Kind::Number {
-            return refuse(format!("{key} is not a number that can be fitted"));
-        }
-        if ["run", "changes", "numerics"].contains(&parameter.section()) {
-            return refuse(format!(
-                "{key} is not a physical property, so data cannot determine it"
-            ));
-        }
-        let value = scenario.value(key);
-        let Some(value) = value.and_then(|value| value.parse::<f64>().ok()) else {
-            return refuse(format!(
-                "{key} has no value to start from; give one with --set {key}=..."
-            ));
-        };
-        if parameter.range == Range::NotNegative && value == 0.0 {
-            return refuse(format!(
-                "{key} starts at 0; give a value greater than 0 with --set"
-            ));
-        }
+        let rule = "is not a number that can be fitted";
+        ensure!(parameter.kind == Kind::Number, refused(rule));
+        let is_physical = !["run", "changes", "numerics"].contains(&parameter.section());
+        let rule = "is not a physical property, so data cannot determine it";
+        ensure!(is_physical, refused(rule));
+        let value = scenario
+            .value(key)
+            .and_then(|value| value.parse::<f64>().ok());
+        let rule = format!("has no value to start from; give one with --set {key}=...");
+        let value = value.ok_or_else(|| refused(&rule))?;
+        let is_zero = parameter.range == Range::NotNegative && value == 0.0;
+        let rule = "starts at 0; give a value greater than 0 with --set";
+        ensure!(!is_zero, refused(rule));
         let (positive, limits) = match parameter.range {
             Range::Any => (false, [f64::NEG_INFINITY, f64::INFINITY]),
             Range::Positive | Range::NotNegative => (true, [0.0, f64::INFINITY]),
@@ -98,19 +93,17 @@ impl Free {
 
     /// The size against which an error is vague.
     pub fn vague_at(&self, theta: f64) -> f64 {
-        if self.positive {
-            1.0
-        } else {
-            2.0 * theta.abs()
+        match self.positive {
+            true => 1.0,
+            false => 2.0 * theta.abs(),
         }
     }
 
     /// The step of differences around `theta`.
     pub fn step(&self, theta: f64) -> f64 {
-        STEP * if self.positive {
-            1.0
-        } else {
-            theta.abs().max(1e-12)
+        match self.positive {
+            true => STEP,
+            false => STEP * theta.abs().max(1e-12),
         }
     }
 
@@ -175,13 +168,11 @@ pub(super) fn solve(
     let mut config = MPConfig::new();
     (config.ftol, config.xtol, config.gtol) = (1e-7, 1e-6, 1e-10);
     config.max_iter = 60;
+    let parameters = free.iter().zip(theta);
+    let parameters = parameters.map(|(free, theta)| free.limits(*theta));
     let mut problem = Problem {
         points,
-        parameters: free
-            .iter()
-            .zip(theta)
-            .map(|(free, theta)| free.limits(*theta))
-            .collect(),
+        parameters: parameters.collect(),
         config,
         residuals,
     };

@@ -1,11 +1,11 @@
 //! Estimates the error of a run from coarser twins.
 //!
 //! Two twins with a half and a quarter of the cells and of the steps give two differences, which tell the error as
-//! rungs of the [ladder](super::Ladder) do. A run too coarse to be halved twice is compared with a finer twin instead.
+//! rungs of the [ladder](super::climb) do. A run too coarse to be halved twice is compared with a finer twin instead.
 
 use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
-use super::run;
+use super::rung::run;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
 
@@ -50,10 +50,8 @@ pub fn by_twin(twin: &Outcome, run: &Outcome) -> Difference {
 
 /// The run with half its cells and steps, at its start; `None` if it is too coarse to be halved.
 pub fn twin(session: &Session) -> Option<Result<Session, SessionError>> {
-    let level = Level::of(session.loaded());
-    level
-        .can_be(0.5)
-        .then(|| Session::start(twin_of(session, 0.5)?))
+    let can_be = Level::of(session.loaded()).can_be(0.5);
+    can_be.then(|| Session::start(twin_of(session, 0.5)?))
 }
 
 impl Level {
@@ -69,16 +67,12 @@ impl Level {
 fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
     let loaded = session.loaded();
     let level = Level::of(loaded);
+    let whole = |number: f64, least: f64| (number * factor).round().max(least).to_string();
     let changes = session.changes().iter().map(|change| {
-        let value = change.value().parse::<f64>();
-        let scaled = match (change.key(), value) {
-            ("numerics.points", Ok(points)) => (points * factor).round().max(8.0).to_string(),
-            ("numerics.steps_per_cycle", Ok(steps)) => {
-                (steps * factor).round().max(4.0).to_string()
-            }
-            ("numerics.tolerance", Ok(tolerance)) => {
-                format!("{:e}", at_steps(tolerance, factor))
-            }
+        let scaled = match (change.key(), change.value().parse::<f64>()) {
+            ("numerics.points", Ok(points)) => whole(points, 8.0),
+            ("numerics.steps_per_cycle", Ok(steps)) => whole(steps, 4.0),
+            ("numerics.tolerance", Ok(before)) => format!("{:e}", at_steps(before, factor)),
             _ => return change.clone(),
         };
         Change::new(change.at_cycle, change.key(), &scaled)

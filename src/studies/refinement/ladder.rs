@@ -1,22 +1,18 @@
 //! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
 //! The first rung comes with two twins, one on fewer cells and one of fewer steps, so that the errors of cells and of time
-//! are known apart. Each further rung refines what dominates. A difference D of two levels, the one ρ times finer, tells
-//! the error of the finer one:
-//!
-//! ```text
-//! e = D/(ρᵖ − 1),   p = 1.1,   but at least e of the rung before/ρ²
-//! ```
-//!
-//! Where cells and steps are both refined, D is shared out as the errors stood before. Errors of several sources add up
-//! as independent ones do: as the root of the sum of squares.
+//! are known apart. Each further rung refines what dominates.
+
+use std::time::Instant;
 
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
+use super::rung::{Rung, Top, run};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
+use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Integrator;
 
 /// The order by which the next rung is chosen.
@@ -33,7 +29,7 @@ const FIRST_TRY: f64 = 0.5;
 
 /// The run that places the first nodes: this many times the cells and steps of the first rung's twin. Cells are
 /// what it must see the scar with.
-const PILOT: [f64; 2] = [1.0, 0.5];
+const PILOT: Ratio = [1.0, 0.5, 1.0];
 
 /// Runs of this many periods of the motion jump over cycles.
 const WORTH_JUMPING: f64 = 100.0;
@@ -50,17 +46,6 @@ const MOST_STEPS: u32 = 100_000;
 
 /// The ladder ends after this many rungs in a row without progress.
 const MOST_STALLS: u32 = 3;
-
-/// One run of the ladder.
-#[derive(Debug, Clone)]
-pub struct Rung {
-    /// How finely it was computed.
-    pub level: Level,
-    /// How it ended.
-    pub outcome: Outcome,
-    /// What it cost, s.
-    pub seconds: f64,
-}
 
 /// Why a ladder ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,298 +64,240 @@ pub enum Verdict {
     Failed(String),
 }
 
-/// What is to be done next.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Next {
-    /// Run this level and report it: it may be the result.
-    Run(Level),
-    /// Run this level and report it: a coarser twin, which serves only to estimate an error.
-    Twin(Level),
-    /// The last rung that was run is the result.
-    Done(Verdict),
-}
-
-/// A rung and its errors, by what they come from.
+/// The end of a ladder.
 #[derive(Debug, Clone)]
-struct Top {
-    rung: Rung,
-    /// Those of cells, of steps and of jumps.
-    sources: Vec<Difference>,
+pub struct Reached {
+    /// The last rung.
+    pub rung: Rung,
+    /// Its estimated error.
+    pub error: Difference,
+    /// Whether the accuracy is met, or why the ladder ended before.
+    pub verdict: Verdict,
+    /// The time of all rungs, s.
+    pub seconds: f64,
 }
 
-impl Top {
-    fn error(&self) -> Difference {
-        let squares = self.sources.iter().fold(Difference::NONE, |sum, one| {
-            sum.with(one, |sum, one| sum + one * one)
-        });
-        let sum = squares.with(&squares, |sum, _| sum.sqrt());
-        sum.as_estimate()
-    }
-
-    /// The error that a promise is held against: V and k E_d must agree as well, since they are two computations of one
-    /// number.
-    fn promised(&self) -> f64 {
-        self.error().promised().max(self.rung.outcome.imbalance)
-    }
-}
-
-/// Chooses levels and judges them; whoever drives it does the running.
-#[derive(Debug, Clone)]
-pub struct Ladder {
+/// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an
+/// estimated error of at most `accuracy`, or the search takes longer than `budget` seconds: then the last level that came
+/// to its end is the result. The coarsest first level is always finished, since nothing is known before.
+/// `go_on` is asked at every step; if it says no, there is no result.
+///
+/// # Errors
+/// If a level is refused, if no level runs to its end, or on an interrupt.
+pub fn run_to_accuracy(
+    scenario: &Scenario,
+    cycles: f64,
     accuracy: f64,
     budget: f64,
-    spent: f64,
-    /// The accuracy that the first rung is chosen for.
-    aim: f64,
-    /// The coarsest first rung, where time runs short before another one is done.
-    coarsest: Option<Level>,
-    /// The shape that nodes are placed for; `None` if the scenario says where they lie.
-    placing: Option<Indenter>,
-    base: Level,
-    /// Whether the run that places the first nodes is still to be made.
-    wants_pilot: bool,
-    /// The twins that have been run for the present base.
-    twins: Vec<Rung>,
-    top: Option<Top>,
-    planned: Level,
-    failures: u32,
-    stalls: u32,
-    last_failure: String,
-    /// Whether the time was up in the middle of a level.
-    is_cut: bool,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Reached, SessionError> {
+    let begin = Instant::now();
+    let clock = || begin.elapsed().as_secs_f64();
+    climb(scenario, cycles, accuracy, budget, go_on, &clock)
 }
 
-impl Ladder {
-    /// A ladder for `scenario` over `cycles` to a worn depth and a volume with errors of at most `accuracy`, that begins no
-    /// rung that would end after `budget` seconds.
-    pub fn new(scenario: &Scenario, cycles: f64, accuracy: f64, budget: f64) -> Self {
-        let base = first(scenario, cycles, accuracy);
-        let coarsest = first(scenario, cycles, COARSE);
-        let places = scenario.setup().method == AbelMethod::Product
-            && scenario.value("numerics.grid").is_none();
-        let mut ladder = Self {
-            accuracy,
-            budget,
-            spent: 0.0,
-            aim: accuracy,
-            coarsest: (coarsest.points < base.points).then_some(coarsest),
-            placing: places.then(|| scenario.setup().indenter.clone()),
-            wants_pilot: false,
-            twins: Vec::new(),
-            top: None,
-            planned: base.clone(),
-            base,
-            failures: 0,
-            stalls: 0,
-            last_failure: String::new(),
-            is_cut: false,
-        };
-        ladder.begin();
-        ladder
-    }
+/// [`run_to_accuracy`] with the seconds of another clock.
+///
+/// # Errors
+/// As there.
+pub fn climb(
+    scenario: &Scenario,
+    cycles: f64,
+    accuracy: f64,
+    budget: f64,
+    go_on: &dyn Fn() -> bool,
+    clock: &dyn Fn() -> f64,
+) -> Result<Reached, SessionError> {
+    let ladder = Ladder {
+        scenario,
+        cycles,
+        accuracy,
+        budget,
+        run: &run,
+        go_on,
+        clock,
+        begin: clock(),
+        spent: 0.0,
+        failures: 0,
+    };
+    ladder.climb()
+}
 
-    /// Begins with the present base: with the run that places its nodes, if it is to have its own.
-    fn begin(&mut self) {
-        self.wants_pilot = self.placing.is_some();
-        self.base.nodes = None;
-        self.planned = match self.wants_pilot {
-            true => self.base.refined([PILOT[0], PILOT[1], 1.0]),
-            false => self.twin_of_base(),
-        };
-    }
+/// Why a level has no result.
+#[derive(Debug)]
+enum Failure {
+    /// The time was up in the middle of it.
+    Late,
+    /// It could not be run to its end, for this reason.
+    Broken(String),
+    /// The whole search ends.
+    Over(SessionError),
+}
 
-    /// The next twin of the base, or the base itself after the last one.
-    fn twin_of_base(&self) -> Level {
-        match self.twins.len() {
-            known if known == self.base.sources() => self.base.clone(),
-            source => self.base.refined(coarser(source)),
-        }
-    }
+/// Runs a scenario to a cycle, as long as it is told to go on.
+type Run<'a> = dyn Fn(&Scenario, f64, &dyn Fn() -> bool) -> Result<Session, SessionError> + 'a;
 
-    /// The level to run now, or that the last rung is the result.
-    pub fn next(&self) -> Next {
-        let failed = || Next::Done(Verdict::Failed(self.last_failure.clone()));
-        let Some(top) = &self.top else {
-            return match self.failures > MOST_STALLS {
-                true => failed(),
-                false if self.twins.len() == self.base.sources() => Next::Run(self.planned.clone()),
-                false => Next::Twin(self.planned.clone()),
-            };
-        };
-        let is_unworn = top.rung.outcome.volume <= 0.0;
-        if top.promised() <= MARGIN * self.accuracy && !is_unworn {
-            return Next::Done(Verdict::Met);
-        }
-        if self.failures > MOST_STALLS {
-            return failed();
-        }
-        Next::Done(
-            if self.planned.points > MOST_POINTS || self.planned.steps > MOST_STEPS {
-                Verdict::Finest
-            } else if self.stalls >= MOST_STALLS && is_unworn {
-                Verdict::Unworn
-            } else if self.stalls >= MOST_STALLS {
-                Verdict::Stalled
-            } else if !self.is_cut && self.affords(&self.planned) {
-                return Next::Run(self.planned.clone());
-            } else {
-                Verdict::OutOfTime
-            },
-        )
-    }
+/// Chooses levels, runs and judges them.
+struct Ladder<'a> {
+    scenario: &'a Scenario,
+    cycles: f64,
+    accuracy: f64,
+    budget: f64,
+    run: &'a Run<'a>,
+    go_on: &'a dyn Fn() -> bool,
+    clock: &'a dyn Fn() -> f64,
+    begin: f64,
+    spent: f64,
+    /// How many levels in a row could not be run to their end.
+    failures: u32,
+}
 
-    /// Takes the outcome of a run at the requested level, and the seconds that it took.
-    pub fn report(&mut self, outcome: Outcome, seconds: f64) {
-        let next = self.next();
-        self.spent += seconds;
-        self.failures = 0;
-        let (Next::Run(level) | Next::Twin(level)) = next else {
-            return;
-        };
-        let rung = Rung {
-            level,
-            outcome,
-            seconds,
-        };
-        match self.top.take() {
-            Some(top) => self.climb(&top, rung),
-            None if self.wants_pilot => {
-                self.settle_tolerance(&rung.outcome);
-                self.base.nodes = self.placed(&rung.outcome, self.base.points);
-                self.wants_pilot = false;
-                self.planned = self.twin_of_base();
+impl Ladder<'_> {
+    fn climb(mut self) -> Result<Reached, SessionError> {
+        let mut top = self.first()?;
+        let mut planned = self.plan(&top);
+        let mut stalls = u32::from(top.is_unworn());
+        let verdict = loop {
+            if top.promised() <= MARGIN * self.accuracy && !top.is_unworn() {
+                break Verdict::Met;
+            } else if planned.points > MOST_POINTS || planned.steps > MOST_STEPS {
+                break Verdict::Finest;
+            } else if stalls >= MOST_STALLS {
+                break match top.is_unworn() {
+                    true => Verdict::Unworn,
+                    false => Verdict::Stalled,
+                };
+            } else if !self.affords(&planned, &top.rung) {
+                break Verdict::OutOfTime;
             }
-            None if self.twins.len() < self.base.sources() => {
-                if self.twins.is_empty() && self.placing.is_none() {
-                    self.settle_tolerance(&rung.outcome);
+            match self.run(&planned, self.budget) {
+                Ok(rung) => {
+                    let sources = top.errors_of(&rung);
+                    let next = Top { rung, sources };
+                    let is_nearer = next.promised() < 0.9 * top.promised();
+                    stalls = if is_nearer { 0 } else { stalls + 1 };
+                    stalls += u32::from(next.is_unworn());
+                    planned = self.plan(&next);
+                    top = next;
                 }
-                self.twins.push(rung);
-                self.planned = self.twin_of_base();
+                Err(Failure::Broken(why)) if self.failures > MOST_STALLS => {
+                    break Verdict::Failed(why);
+                }
+                Err(Failure::Broken(_)) => planned = planned.refined([1.0, TWIN, 1.0]),
+                Err(Failure::Late) => break Verdict::OutOfTime,
+                Err(Failure::Over(error)) => return Err(error),
             }
-            None => self.stand(rung),
-        }
-    }
-
-    /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar.
-    fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
-        outcome.place(cells, self.placing.as_ref()?)
-    }
-
-    /// Takes word that the level could not be run to its end: the next one is finer.
-    pub fn fail(&mut self, why: String, seconds: f64) {
-        self.spent += seconds;
-        self.failures += 1;
-        self.last_failure = why;
-        match self.top.take() {
-            None => {
-                self.base = self.base.refined([2.0, 2.0, 1.0]);
-                self.twins.clear();
-                self.begin();
-            }
-            Some(top) => {
-                self.planned = self.planned.refined([1.0, TWIN, 1.0]);
-                self.top = Some(top);
-            }
-        }
-    }
-
-    /// How long the search may take before the level that runs now is [cut](Self::cut), s.
-    pub fn deadline(&self) -> f64 {
-        match (&self.top, &self.coarsest) {
-            (Some(_), _) => self.budget,
-            (None, Some(_)) => FIRST_TRY * self.budget,
-            // Without this one there is no result.
-            (None, None) => f64::INFINITY,
-        }
-    }
-
-    /// Takes word that the time was up in the middle of a level: the last rung is the result. Without one, the ladder
-    /// begins anew from the coarsest.
-    pub fn cut(&mut self, seconds: f64) {
-        self.spent += seconds;
-        match self.coarsest.take() {
-            Some(coarsest) if self.top.is_none() => {
-                (self.base, self.aim) = (coarsest, COARSE);
-                self.twins.clear();
-                self.begin();
-            }
-            _ => self.is_cut = true,
-        }
-    }
-
-    /// The rung reached and its estimated error, once there is one.
-    pub fn reached(&self) -> Option<(&Rung, Difference)> {
-        let top = self.top.as_ref()?;
-        Some((&top.rung, top.error()))
-    }
-
-    /// The time that all runs took, s.
-    pub fn spent(&self) -> f64 {
-        self.spent
-    }
-
-    /// Whether there is time for a level, as far as the last rung tells.
-    fn affords(&self, level: &Level) -> bool {
-        self.top.as_ref().is_none_or(|top| {
-            let work: f64 = level.ratio(&top.rung.level).iter().product();
-            self.spent + top.rung.seconds * work <= self.budget
+        };
+        Ok(Reached {
+            error: top.error(),
+            rung: top.rung,
+            verdict,
+            seconds: self.spent,
         })
     }
 
-    /// The tolerance of jumps is measured in depths, the accuracy in the depth of the scar.
-    fn settle_tolerance(&mut self, outcome: &Outcome) {
-        let scar = outcome.scar_depth() / outcome.depth;
-        if let Some(tolerance) = &mut self.base.tolerance
-            && scar > 0.0
-        {
-            *tolerance = (self.aim * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
+    /// The first rung: finer after one that breaks down, and the coarsest where time runs short before another is done.
+    fn first(&mut self) -> Result<Top, SessionError> {
+        let mut aim = self.accuracy;
+        let mut base = first(self.scenario, self.cycles, aim);
+        let coarsest = first(self.scenario, self.cycles, COARSE);
+        let mut coarsest = Some(coarsest).filter(|coarsest| coarsest.points < base.points);
+        loop {
+            // Without the coarsest there is no result.
+            let deadline = match coarsest {
+                Some(_) => FIRST_TRY * self.budget,
+                None => f64::INFINITY,
+            };
+            match self.stand(&mut base, aim, deadline) {
+                Ok(top) => return Ok(top),
+                Err(Failure::Broken(why)) if self.failures > MOST_STALLS => {
+                    return Err(SessionError::Unfinished(why));
+                }
+                Err(Failure::Broken(_)) => base = base.refined([2.0, 2.0, 1.0]),
+                Err(Failure::Late) => {
+                    base = coarsest.take().unwrap_or(base);
+                    aim = COARSE;
+                }
+                Err(Failure::Over(error)) => return Err(error),
+            }
         }
     }
 
-    /// The first rung, all of whose twins are there.
-    fn stand(&mut self, rung: Rung) {
-        let twins = self.twins.iter().enumerate();
-        let sources = twins.map(|(source, twin)| {
+    /// Runs a first rung and its twins, with the jumps and nodes that suit its scar.
+    fn stand(&mut self, base: &mut Level, aim: f64, deadline: f64) -> Result<Top, Failure> {
+        base.nodes = None;
+        let placing = self.placing().is_some();
+        if placing {
+            let pilot = self.run(&base.refined(PILOT), deadline)?;
+            base.settle_tolerance(aim, &pilot.outcome);
+            base.nodes = self.placed(&pilot.outcome, base.points);
+        }
+        let mut twins = Vec::new();
+        for source in 0..base.sources() {
+            let twin = self.run(&base.refined(coarser(source)), deadline)?;
+            if twins.is_empty() && !placing {
+                base.settle_tolerance(aim, &twin.outcome);
+            }
+            twins.push(twin);
+        }
+        let rung = self.run(base, deadline)?;
+        let sources = twins.iter().enumerate().map(|(source, twin)| {
             let ratio = rung.level.ratio(&twin.level)[source];
             twin.outcome.against(&rung.outcome).error_of_finer(ratio)
         });
         let sources = sources.collect();
-        self.settle(Top { rung, sources });
+        Ok(Top { rung, sources })
     }
 
-    /// A rung above another one.
-    fn climb(&mut self, before: &Top, rung: Rung) {
-        let ratios = rung.level.ratio(&before.rung.level);
-        let difference = before.rung.outcome.against(&rung.outcome);
-        let known = || before.sources.iter().zip(ratios);
-        let refined = || known().filter(|(_, ratio)| *ratio > 1.0);
-        let total = refined().fold(Difference::NONE, |sum, (error, _)| {
-            sum.with(error, |sum, error| sum + error)
-        });
-        let alone = refined().count() == 1;
-        let after = |(before, ratio): (&Difference, f64)| {
-            if ratio <= 1.0 {
-                return *before;
+    /// Runs a level, and leaves it where the search takes longer than to the `deadline`, s.
+    fn run(&mut self, level: &Level, deadline: f64) -> Result<Rung, Failure> {
+        let (go_on, clock, begin) = (self.go_on, self.clock, self.begin);
+        let start = clock();
+        let is_late = || clock() - begin > deadline;
+        let scenario = level.of_scenario(self.scenario);
+        let scenario = scenario.map_err(|refused| Failure::Over(refused.into()))?;
+        let ended = (self.run)(&scenario, self.cycles, &|| go_on() && !is_late());
+        let seconds = clock() - start;
+        self.spent += seconds;
+        match ended {
+            Ok(session) => {
+                self.failures = 0;
+                Ok(Rung {
+                    level: level.clone(),
+                    outcome: Outcome::of(&session),
+                    session,
+                    seconds,
+                })
             }
-            let share = before.with(&total, |error, total| match total {
-                _ if alone => 1.0,
-                0.0 => 1.0,
-                total => error / total,
-            });
-            let own = share.with(&difference, |share, d| share * d);
-            own.error_above(before, ratio)
-        };
-        let top = Top {
-            sources: known().map(after).collect(),
-            rung,
-        };
-        let nearer = top.promised() < 0.9 * before.promised();
-        self.stalls = if nearer { 0 } else { self.stalls + 1 };
-        self.settle(top);
+            Err(SessionError::Interrupted) if go_on() && is_late() => Err(Failure::Late),
+            Err(SessionError::Interrupted) => Err(Failure::Over(SessionError::Interrupted)),
+            Err(error) => {
+                self.failures += 1;
+                Err(Failure::Broken(error.to_string()))
+            }
+        }
     }
 
-    /// Takes a rung and plans the next one: finer in what uses up more than its share, where all have equal ones.
-    fn settle(&mut self, top: Top) {
+    /// Whether there is time for a level, as far as the last rung tells.
+    fn affords(&self, level: &Level, last: &Rung) -> bool {
+        let work: f64 = level.ratio(&last.level).iter().product();
+        self.spent + last.seconds * work <= self.budget
+    }
+
+    /// The shape that nodes are placed for; `None` if the scenario says where they lie.
+    fn placing(&self) -> Option<&Indenter> {
+        let setup = self.scenario.setup();
+        let is_open = self.scenario.value("numerics.grid").is_none();
+        (setup.method == AbelMethod::Product && is_open).then_some(&setup.indenter)
+    }
+
+    /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar.
+    fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
+        outcome.place(cells, self.placing()?)
+    }
+
+    /// The level after a rung: finer in what uses up more than its share, where all have equal ones.
+    fn plan(&self, top: &Top) -> Level {
         let allowed = MARGIN * self.accuracy / (top.sources.len() as f64).sqrt();
         let mut finer = [1.0; 3];
         for (finer, source) in finer.iter_mut().zip(&top.sources) {
@@ -380,19 +307,30 @@ impl Ladder {
                 *finer = wanted.clamp(STRIDE.0, STRIDE.1);
             }
         }
-        if top.rung.outcome.volume <= 0.0 {
+        let Rung { level, outcome, .. } = &top.rung;
+        if top.is_unworn() {
             finer = [STRIDE.1, 1.0, 1.0];
-            self.stalls += 1;
-        } else if finer == [1.0; 3] && top.rung.outcome.imbalance > MARGIN * self.accuracy {
+        } else if finer == [1.0; 3] && outcome.imbalance > MARGIN * self.accuracy {
             // V and k E_d part where an edge lies between two nodes, or where a jump is too long.
             finer = [STRIDE.0, 1.0, STRIDE.0];
         }
-        let mut planned = top.rung.level.refined(finer);
-        if planned.points != top.rung.level.points {
-            planned.nodes = self.placed(&top.rung.outcome, planned.points);
+        let mut planned = level.refined(finer);
+        if planned.points != level.points {
+            planned.nodes = self.placed(outcome, planned.points);
         }
-        self.planned = planned;
-        self.top = Some(top);
+        planned
+    }
+}
+
+impl Level {
+    /// The tolerance of jumps is measured in depths, the accuracy in the depth of the scar.
+    fn settle_tolerance(&mut self, aim: f64, outcome: &Outcome) {
+        let scar = outcome.scar_depth() / outcome.depth;
+        if let Some(tolerance) = &mut self.tolerance
+            && scar > 0.0
+        {
+            *tolerance = (aim * scar).clamp(1e-9, MOST_TOLERANT / 2.0);
+        }
     }
 }
 
@@ -414,10 +352,46 @@ fn first(scenario: &Scenario, cycles: f64, accuracy: f64) -> Level {
         Some(_) => matches!(setup.integrator, Integrator::CycleJump { .. }),
         None => is_long && setup.wear.is_some() && setup.drive.tangential().is_some(),
     };
-    Level {
-        points: (20.0 * finer.powf(0.4)).round() as usize,
-        steps: (12.0 * finer.powf(0.3) * turns).round() as u32,
-        tolerance: jumps.then(|| (0.1 * accuracy).min(0.05)),
-        nodes: None,
+    let points = (20.0 * finer.powf(0.4)).round() as usize;
+    let steps = (12.0 * finer.powf(0.3) * turns).round() as u32;
+    Level::new(points, steps, jumps.then(|| (0.1 * accuracy).min(0.05)))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+    use crate::scenario::Refusal;
+
+    /// A level that breaks down is followed by a finer one, and a scenario that always does has no result.
+    #[test]
+    fn failures_climb_too_and_end() {
+        let tried = RefCell::new(Vec::new());
+        let run = |scenario: &Scenario, _: f64, _: &dyn Fn() -> bool| {
+            tried.borrow_mut().push(Level::of(scenario));
+            Err(SessionError::Scenario(
+                Refusal::from("broke".to_owned()).into(),
+            ))
+        };
+        let ladder = Ladder {
+            scenario: &Scenario::load("li2019-fig3", &[]).expect("a scenario"),
+            cycles: 10.0,
+            accuracy: 1e-2,
+            budget: f64::INFINITY,
+            run: &run,
+            go_on: &|| true,
+            clock: &|| 0.0,
+            begin: 0.0,
+            spent: 0.0,
+            failures: 0,
+        };
+        let error = ladder.climb().expect_err("no result");
+        assert!(matches!(error, SessionError::Unfinished(why) if why == "broke"));
+        let tried = tried.into_inner();
+        assert_eq!(tried.len() as u32, MOST_STALLS + 1);
+        let finer =
+            |pair: &[Level]| pair[1].points > pair[0].points && pair[1].steps > pair[0].steps;
+        assert!(tried.windows(2).all(finer), "{tried:?}");
     }
 }

@@ -31,6 +31,16 @@ pub struct Level {
 }
 
 impl Level {
+    /// A level without nodes of its own.
+    pub fn new(points: usize, steps: u32, tolerance: Option<f64>) -> Self {
+        Self {
+            points,
+            steps,
+            tolerance,
+            nodes: None,
+        }
+    }
+
     /// The level of a scenario as it stands.
     pub fn of(scenario: &Scenario) -> Self {
         let setup = scenario.setup();
@@ -121,9 +131,7 @@ impl Level {
     /// # Errors
     /// If the scenario's method or shape does not allow this many cells.
     pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
-        let keys = self.keys();
-        let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
-        scenario.with_all(&keys)
+        scenario.with_all(&self.keys())
     }
 }
 

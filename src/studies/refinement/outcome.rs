@@ -5,6 +5,7 @@ use super::placing;
 use crate::contact::indenter::Indenter;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
+use crate::math::scan::largest;
 use crate::scenario::session::Session;
 use crate::simulation::drive::Control;
 
@@ -51,7 +52,7 @@ pub struct Outcome {
 }
 
 /// How far a run is from another one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Difference {
     /// Of the worn depth, rms over the scar, relative to its largest value.
     pub worn_depth: f64,
@@ -66,28 +67,30 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// No difference.
-    pub const NONE: Self = Self {
-        worn_depth: 0.0,
-        volume: 0.0,
-        work: 0.0,
-        force: 0.0,
-        pressure: 0.0,
-    };
-
     /// The larger of the two that an accuracy promises: worn depth and volume.
     pub fn promised(&self) -> f64 {
         self.worn_depth.max(self.volume)
     }
 
+    /// All of them: of depth, volume, work, force and pressure.
+    pub fn numbers(&self) -> [f64; 5] {
+        [
+            self.worn_depth,
+            self.volume,
+            self.work,
+            self.force,
+            self.pressure,
+        ]
+    }
+
     /// The worst of depth, volume, work and force; NaN if one of them is.
     pub fn worst(&self) -> f64 {
-        let errors = [self.worn_depth, self.volume, self.work, self.force];
+        let [errors @ .., _] = self.numbers();
         // In this order NaN is the largest.
-        errors
+        let worst = errors
             .into_iter()
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
-            .unwrap_or(f64::NAN)
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        worst.unwrap_or(f64::NAN)
     }
 
     /// As an estimate. V and E_d are integrals of one scar: where two runs differ in its depth, that theirs agree is
@@ -160,7 +163,7 @@ impl Outcome {
 
     /// The largest worn depth, m.
     pub fn scar_depth(&self) -> f64 {
-        self.wear.iter().copied().fold(0.0, f64::max)
+        largest(&self.wear)
     }
 
     /// Where the scar begins and ends, m, if there is one.
@@ -169,11 +172,9 @@ impl Outcome {
         let is_worn = |&wear: &f64| wear > least;
         let first = self.wear.iter().position(is_worn)?;
         let last = self.wear.iter().rposition(is_worn)?;
-        let nodes = self.grid.nodes();
-        Some((
-            nodes[first.saturating_sub(1)],
-            nodes[(last + 1).min(self.grid.cells())],
-        ))
+        let before = first.saturating_sub(1);
+        let after = (last + 1).min(self.grid.cells());
+        Some((self.grid.nodes()[before], self.grid.nodes()[after]))
     }
 
     /// How far this run is from a finer one, in the finer one's measures.
@@ -207,22 +208,17 @@ impl Outcome {
     /// The rms difference of the worn depth over both scars, m.
     fn worn_difference(&self, fine: &Self) -> f64 {
         let (here, there) = (self.scar(), fine.scar());
-        let Some((from, to)) = here
-            .into_iter()
-            .chain(there)
-            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-        else {
+        let both = here.into_iter().chain(there);
+        let Some((from, to)) = both.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
             return 0.0;
         };
-        let sum: f64 = (0..RADII)
-            .map(|i| from + (to - from) * i as f64 / (RADII - 1) as f64)
-            .map(|r| {
-                let here = worn::interpolate(&self.grid, &self.wear, r);
-                let there = worn::interpolate(&fine.grid, &fine.wear, r);
-                (here - there).powi(2)
-            })
-            .sum();
-        (sum / RADII as f64).sqrt()
+        let squares = (0..RADII).map(|i| {
+            let r = from + (to - from) * i as f64 / (RADII - 1) as f64;
+            let here = worn::interpolate(&self.grid, &self.wear, r);
+            let there = worn::interpolate(&fine.grid, &fine.wear, r);
+            (here - there).powi(2)
+        });
+        (squares.sum::<f64>() / RADII as f64).sqrt()
     }
 }
 
@@ -234,10 +230,9 @@ fn rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
         count += 1;
         largest = largest.max(there.abs());
     }
-    if largest > 0.0 {
-        (sum / f64::from(count)).sqrt() / largest
-    } else {
-        0.0
+    match largest > 0.0 {
+        true => (sum / f64::from(count)).sqrt() / largest,
+        false => 0.0,
     }
 }
 
@@ -246,7 +241,7 @@ mod tests {
     use super::*;
 
     fn all(value: f64) -> Difference {
-        Difference::NONE.with(&Difference::NONE, |_, _| value)
+        Difference::default().with(&Difference::default(), |_, _| value)
     }
 
     #[test]

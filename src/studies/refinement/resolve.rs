@@ -2,7 +2,9 @@
 
 use std::time::Instant;
 
-use super::{Difference, Level, Reached, Verdict, run_to_accuracy};
+use super::ladder::{Reached, Verdict, run_to_accuracy};
+use super::level::Level;
+use super::outcome::Difference;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, USUAL_ACCURACY};
 use crate::simulation::Integrator;
@@ -34,6 +36,19 @@ pub struct Resolved {
     pub ended: Option<Session>,
 }
 
+impl Resolved {
+    /// A scenario as it is, of whose error nothing is known.
+    fn unsought(scenario: Scenario) -> Self {
+        Self {
+            scenario,
+            statements: Vec::new(),
+            warning: None,
+            missed_by: None,
+            ended: None,
+        }
+    }
+}
+
 /// Finds the points and steps that meet the accuracy of `scenario` in a run of `cycles` (those of its own plan if
 /// `None`), looking for `budget` seconds at most. A scenario without an accuracy is returned as it is.
 ///
@@ -46,13 +61,7 @@ pub fn resolve(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Resolved, SessionError> {
     let Some(accuracy) = scenario.accuracy() else {
-        return Ok(Resolved {
-            scenario: scenario.clone(),
-            statements: Vec::new(),
-            warning: None,
-            missed_by: None,
-            ended: None,
-        });
+        return Ok(Resolved::unsought(scenario.clone()));
     };
     let cycles = cycles.or(scenario.run().cycles).unwrap_or(WITHOUT_END);
     let reached = run_to_accuracy(scenario, cycles, accuracy, budget, go_on)?;
@@ -64,11 +73,11 @@ pub fn resolve(
     let is_missed = !matches!(reached.verdict, Verdict::Met | Verdict::Unworn);
     statements.extend(warning.clone().map(|word| ("warning".to_owned(), word)));
     Ok(Resolved {
-        scenario: reached.session.loaded().clone(),
+        scenario: reached.rung.session.loaded().clone(),
         statements,
         warning,
         missed_by: is_missed.then(|| error_of(&reached)),
-        ended: Some(reached.session),
+        ended: Some(reached.rung.session),
     })
 }
 
@@ -93,11 +102,8 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
                 level.points, level.steps
             );
             Ok(Resolved {
-                scenario: level.of_scenario(scenario)?,
-                statements: Vec::new(),
                 warning: Some(warning),
-                missed_by: None,
-                ended: None,
+                ..Resolved::unsought(level.of_scenario(scenario)?)
             })
         }
         Ok(found) if is_watched(scenario) => Ok(Resolved {
@@ -115,42 +121,29 @@ fn is_watched(scenario: &Scenario) -> bool {
     is_open && scenario.run().cycles.is_none_or(|cycles| cycles < WATCHED)
 }
 
-/// What the headers of files and the summary of a run call an estimated error.
-type Stated = (&'static str, &'static str, fn(&Difference) -> f64);
-
-const STATED: [Stated; 5] = [
+/// What the headers of files and the summary of a run call the numbers of an estimated error.
+const STATED: [(&str, &str); 5] = [
     (
         "estimated_error",
         "of the worn depth (rms, relative to the largest)",
-        |error| error.worn_depth,
     ),
-    ("estimated_error_volume", "of the worn volume", |error| {
-        error.volume
-    }),
-    (
-        "estimated_error_energy",
-        "of the dissipated energy",
-        |error| error.work,
-    ),
-    ("estimated_error_force", "of F_x", |error| error.force),
-    (
-        "estimated_error_pressure",
-        "of p, away from borders",
-        |error| error.pressure,
-    ),
+    ("estimated_error_volume", "of the worn volume"),
+    ("estimated_error_energy", "of the dissipated energy"),
+    ("estimated_error_force", "of F_x"),
+    ("estimated_error_pressure", "of p, away from borders"),
 ];
 
 /// Estimated errors as the headers of files state them.
 pub fn statements_of(error: &Difference) -> Vec<(String, String)> {
-    STATED
-        .map(|(key, _, of)| (key.to_owned(), format!("{:.1e}", of(error))))
-        .to_vec()
+    let keys = STATED.iter().map(|(key, _)| (*key).to_owned());
+    let numbers = error.numbers().map(|number| format!("{number:.1e}"));
+    keys.zip(numbers).collect()
 }
 
 /// Names the quantity whose estimated error a header states as `key`; `None` for other keys.
 pub fn words_of(key: &str) -> Option<&'static str> {
-    let found = STATED.iter().find(|(stated, ..)| *stated == key);
-    found.map(|(_, words, _)| *words)
+    let found = STATED.iter().find(|(stated, _)| *stated == key);
+    found.map(|(_, words)| *words)
 }
 
 /// What is said of an accuracy that is not met.

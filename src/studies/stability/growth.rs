@@ -19,9 +19,8 @@ pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
     let at_limit = limit(scheme) / stiffest;
     let factor = |rung: i32| at_limit * 1.01_f64.powi(rung);
     let grows = |rung: i32| {
-        let logs = stiffness
-            .iter()
-            .map(|z| amplification(scheme, factor(rung) * z).ln());
+        let logs = stiffness.iter();
+        let logs = logs.map(|z| amplification(scheme, factor(rung) * z).ln());
         logs.sum::<f64>() > 0.0
     };
     (0..REACH).find(|&rung| grows(rung)).map(factor)

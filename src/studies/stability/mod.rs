@@ -177,27 +177,25 @@ impl Study {
         go_on: &dyn Fn() -> bool,
         mut on_run: impl FnMut(),
     ) -> Result<(), SessionError> {
-        let (mut below, mut above) = (None, None);
         for &wear_number in wear_numbers {
             let outcome = self.run(line.setting, wear_number, go_on)?;
-            match (outcome.is_stable(), above) {
-                (true, None) => below = Some(wear_number),
-                (false, None) => above = Some(wear_number),
-                _ => {}
-            }
             line.outcomes.push((wear_number, outcome));
             on_run();
         }
-        // After a sawtooth on the lowest rung: the boundary lies below the ladder.
-        let (Some(mut low), Some(mut high)) = (below, above) else {
-            line.seen = above;
+        let tried = &line.outcomes;
+        let Some(above) = tried.iter().position(|(_, outcome)| !outcome.is_stable()) else {
             return Ok(());
         };
-        for _ in 0..HALVINGS {
-            let middle = (low * high).sqrt();
-            match self.run(line.setting, middle, go_on)?.is_stable() {
-                true => low = middle,
-                false => high = middle,
+        let mut high = tried[above].0;
+        // After a sawtooth on the lowest rung: the boundary lies below the ladder.
+        if above > 0 {
+            let mut low = tried[above - 1].0;
+            for _ in 0..HALVINGS {
+                let middle = (low * high).sqrt();
+                match self.run(line.setting, middle, go_on)?.is_stable() {
+                    true => low = middle,
+                    false => high = middle,
+                }
             }
         }
         line.seen = Some(high);

@@ -71,10 +71,8 @@ impl Cycle {
 /// The wear number from which `setting` is expected to show a sawtooth within the cycles of the study; `None` if
 /// nothing slips.
 pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, SessionError> {
-    let guarded = Setting {
-        guard: true,
-        ..setting
-    };
+    let mut guarded = setting;
+    guarded.guard = true;
     let mut mild = study.start(guarded, MILD)?;
     // The first cycle lets the springs settle.
     cycle(&mut mild, MILD, 0.0)?;

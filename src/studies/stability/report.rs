@@ -87,22 +87,16 @@ pub fn maps(lines: &[Line]) -> String {
         };
         let _ = writeln!(text, "{}, guard {}", first.setting.method, guard(first));
         for line in group {
-            let _ = writeln!(
-                text,
-                "{:>6} {}",
-                line.setting.points,
-                strip(line).trim_end()
-            );
+            let (points, strip) = (line.setting.points, strip(line));
+            let _ = writeln!(text, "{points:>6} {}", strip.trim_end());
         }
         let rungs = first.outcomes.iter().map(|(k, _)| format!("{k:<RUNG$}"));
         let rungs: String = rungs.collect();
         let _ = writeln!(text, "  N  K={}", rungs.trim_end());
         if let Some((_, why)) = sawtooth_from(first.setting.method) {
-            let _ = writeln!(
-                text,
-                "  Measured, not derived: the sawtooth grows with K x cycles at any step \
-                 size;\n  {why}."
-            );
+            let measured =
+                "Measured, not derived: the sawtooth grows with K x cycles at any step size";
+            let _ = writeln!(text, "  {measured};\n  {why}.");
         }
         text.push('\n');
     }
@@ -111,17 +105,18 @@ pub fn maps(lines: &[Line]) -> String {
 
 /// One row of a map.
 fn strip(line: &Line) -> String {
-    let marks = line.outcomes.iter().map(|(_, outcome)| outcome.words().1);
-    let mut strip: Vec<char> = marks
-        .flat_map(|mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']))
-        .collect();
+    let rung = |mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']);
+    let rungs = line
+        .outcomes
+        .iter()
+        .flat_map(|(_, outcome)| rung(outcome.words().1));
+    let mut strip: Vec<char> = rungs.collect();
     if let Some(predicted) = line.predicted {
         let place = line.outcomes.windows(2).enumerate().find_map(|(i, pair)| {
             let (low, high) = (pair[0].0, pair[1].0);
             let share = (predicted / low).ln() / (high / low).ln();
-            (0.0..1.0)
-                .contains(&share)
-                .then(|| i * RUNG + (share * RUNG as f64) as usize)
+            let is_here = (0.0..1.0).contains(&share);
+            is_here.then(|| i * RUNG + (share * RUNG as f64) as usize)
         });
         if let Some(place) = place {
             strip[place] = '|';

@@ -16,15 +16,13 @@
 
 /// The height of the highest sawtooth in `values`, from peak to valley, in their unit; 0 if they are smooth.
 pub fn sawtooth(values: &[f64]) -> f64 {
-    let bends: Vec<f64> = values
+    let bends = values.windows(3).map(|v| (v[0] - v[1]) + (v[2] - v[1]));
+    let bends: Vec<f64> = bends.collect();
+    let turns = bends
         .windows(3)
-        .map(|v| (v[0] - v[1]) + (v[2] - v[1]))
-        .collect();
-    bends
-        .windows(3)
-        .filter(|d| d[0] * d[1] < 0.0 && d[1] * d[2] < 0.0)
-        .map(|d| 0.5 * d.iter().fold(f64::INFINITY, |least, d| least.min(d.abs())))
-        .fold(0.0, f64::max)
+        .filter(|d| d[0] * d[1] < 0.0 && d[1] * d[2] < 0.0);
+    let heights = turns.map(|d| 0.5 * d[0].abs().min(d[1].abs()).min(d[2].abs()));
+    heights.fold(0.0, f64::max)
 }
 
 #[cfg(test)]

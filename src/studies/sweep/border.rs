@@ -17,63 +17,56 @@ use crate::scenario::Scenario;
 use crate::simulation::Unworn;
 use crate::simulation::drive::Control;
 
-/// A border.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Border {
-    /// Between partial and gross slip.
-    GrossSlip,
-    /// Between a contact that stays closed and one that opens.
-    LiftOff,
+/// How far a scenario is from a border: negative beyond it, `None` without a closed form.
+pub type Distance = fn(&Scenario) -> Option<f64>;
+
+/// The [distance](Distance), m or N, from the border between a contact that stays closed and one that opens.
+pub fn to_lift_off(scenario: &Scenario) -> Option<f64> {
+    Some(scenario.setup().drive.normal().oscillation().lowest())
 }
 
-impl Border {
-    /// How far (m, or N for the lift-off of a prescribed force) a scenario is from the border:
-    /// negative beyond it, `None` without a closed form.
-    pub fn distance(self, scenario: &Scenario) -> Option<f64> {
-        let setup = scenario.setup();
-        let normal = setup.drive.normal();
-        if self == Self::LiftOff {
-            return Some(normal.oscillation().lowest());
-        }
-        let ratio = setup.material.stick_ratio();
-        if let Some(depth) = setup.drive.shakedown_depth(ratio) {
-            return Some(depth);
-        }
-        let Control::Displacement(shift) = setup.drive.tangential()? else {
-            return None;
-        };
-        let unworn = Unworn::of(setup);
-        let rig = setup.drive.rig_compliance();
-        let steady = normal.oscillation().amplitude() == 0.0;
-        let lowest = normal.oscillation().lowest();
-        let (depth, force) = match normal {
-            // No closed form for the share of a rig under a varying load.
-            _ if rig > 0.0 && !steady => return None,
-            Control::Force(_) => (unworn.depth(lowest.max(0.0)), lowest.max(0.0)),
-            Control::Displacement(_) => (lowest, unworn.force(lowest)),
-        };
-        let taken_by_rig = rig * setup.material.friction() * force;
-        Some(depth - ratio * (shift.amplitude() - taken_by_rig))
+/// The [distance](Distance), m, from the border between partial and gross slip.
+pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
+    let setup = scenario.setup();
+    let normal = setup.drive.normal();
+    let ratio = setup.material.stick_ratio();
+    if let Some(depth) = setup.drive.shakedown_depth(ratio) {
+        return Some(depth);
     }
+    let Control::Displacement(shift) = setup.drive.tangential()? else {
+        return None;
+    };
+    let unworn = Unworn::of(setup);
+    let rig = setup.drive.rig_compliance();
+    let steady = normal.oscillation().amplitude() == 0.0;
+    let lowest = normal.oscillation().lowest();
+    let (depth, force) = match normal {
+        // No closed form for the share of a rig under a varying load.
+        _ if rig > 0.0 && !steady => return None,
+        Control::Force(_) => (unworn.depth(lowest.max(0.0)), lowest.max(0.0)),
+        Control::Displacement(_) => (lowest, unworn.force(lowest)),
+    };
+    let taken_by_rig = rig * setup.material.friction() * force;
+    Some(depth - ratio * (shift.amplitude() - taken_by_rig))
+}
 
-    /// The value of axis `along` at which the border is crossed, the other axes standing at
-    /// `places`; none if it is not crossed between the ends of the axis, or the axis holds no numbers.
-    pub fn crossing(self, study: &Study, places: &[usize], along: usize) -> Option<f64> {
-        let axis = &study.axes[along];
-        let ends = [axis.number(0)?, axis.number(axis.count() - 1)?];
-        let distance = |value: f64| {
-            let scenario = study.scenario_at(places, Some((along, value))).ok()?;
-            self.distance(&scenario)
-        };
-        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        let (at_low, at_high) = (distance(low)?, distance(high)?);
-        if at_low * at_high > 0.0 {
-            return None;
-        }
-        // Values that make no valid scenario count as beyond the border.
-        let sign = |value| distance(value).unwrap_or(at_high);
-        root::bracketed(sign, low, high, 1e-9 * (high - low))
+/// The value of axis `along` at which a border is crossed, the other axes standing at `places`; none if it is not
+/// crossed between the ends of the axis, or the axis holds no numbers.
+pub fn crossing(to_border: Distance, study: &Study, places: &[usize], along: usize) -> Option<f64> {
+    let axis = &study.axes[along];
+    let ends = [axis.number(0)?, axis.number(axis.count() - 1)?];
+    let distance = |value: f64| {
+        let scenario = study.scenario_at(places, Some((along, value))).ok()?;
+        to_border(&scenario)
+    };
+    let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+    let (at_low, at_high) = (distance(low)?, distance(high)?);
+    if at_low * at_high > 0.0 {
+        return None;
     }
+    // Values that make no valid scenario count as beyond the border.
+    let sign = |value| distance(value).unwrap_or(at_high);
+    root::bracketed(sign, low, high, 1e-9 * (high - low))
 }
 
 #[cfg(test)]
@@ -135,14 +128,12 @@ mod tests {
             sets.push("motion.normal.control=force".to_owned());
             sets.push(set("motion.normal.mean", load));
             for scenario in [held, scenario(&sets)] {
-                let distance = Border::GrossSlip
-                    .distance(&scenario)
-                    .expect("a closed form");
+                let distance = to_gross_slip(&scenario).expect("a closed form");
                 assert!(distance.abs() < 1e-5 * depth, "{share}: {distance:e}");
             }
         }
         // Under a varying load there is no closed form.
         let swinging = scenario(&[set("motion.tangential.rig_stiffness", 1e7)]);
-        assert_eq!(Border::GrossSlip.distance(&swinging), None);
+        assert_eq!(to_gross_slip(&swinging), None);
     }
 }

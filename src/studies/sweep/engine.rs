@@ -123,9 +123,8 @@ pub fn run(
     let mut refused = Ok(());
     std::thread::scope(|scope| {
         let check = scope.spawn(|| {
-            let checked = check.map_or(Ok(()), |check| {
-                check.finish(&|| !is_done.load(Ordering::Relaxed))
-            });
+            let is_needed = || !is_done.load(Ordering::Relaxed);
+            let checked = check.map_or(Ok(()), |check| check.finish(&is_needed));
             if checked.is_err() {
                 halt();
             }

@@ -15,9 +15,8 @@ pub(super) struct Finder {
 impl Finder {
     pub fn new(study: &Study) -> Self {
         let places = study.axes.iter().map(|axis| {
-            let places = 0..axis.count();
-            let hashed = places.map(|place| (crc32fast::hash(&value(axis, place)), place as u32));
-            let mut hashed: Vec<_> = hashed.collect();
+            let hash = |place| (crc32fast::hash(&value(axis, place)), place as u32);
+            let mut hashed: Vec<_> = (0..axis.count()).map(hash).collect();
             hashed.sort_unstable();
             hashed
         });
@@ -40,9 +39,8 @@ impl Finder {
             let alike = places[first..].iter();
             let alike = alike.take_while(|(known, _)| *known == hash);
             let alike = alike.map(|(_, place)| *place as usize);
-            alike
-                .filter(|place| value(axis, *place) == wanted)
-                .collect::<Vec<_>>()
+            let equal = alike.filter(|place| value(axis, *place) == wanted);
+            equal.collect::<Vec<_>>()
         });
         if study.design == Design::Grid {
             let axes = places.zip(&study.axes);

@@ -68,10 +68,9 @@ impl Ledger {
     pub fn add(&mut self, point: usize, fields: &[String]) -> io::Result<()> {
         let line = csv_line(fields);
         let entry = [self.length, line.len() as u64].map(u64::to_le_bytes);
-        let written = self.rows.write_all(line.as_bytes()).and_then(|()| {
-            self.index
-                .write_all_at(entry.as_flattened(), (ENTRY * point) as u64)
-        });
+        let (entry, place) = (entry.as_flattened(), (ENTRY * point) as u64);
+        let written = self.rows.write_all(line.as_bytes());
+        let written = written.and_then(|()| self.index.write_all_at(entry, place));
         if let Err(error) = written {
             let _ = self.rows.set_len(self.length);
             return Err(error);
@@ -171,9 +170,8 @@ impl Ledger {
     }
 
     fn line(&self, point: usize) -> io::Result<Vec<u8>> {
-        let mut entry = [0; ENTRY];
-        self.index
-            .read_exact_at(&mut entry, (ENTRY * point) as u64)?;
+        let (mut entry, place) = ([0; ENTRY], (ENTRY * point) as u64);
+        self.index.read_exact_at(&mut entry, place)?;
         let entry = u128::from_le_bytes(entry);
         let mut line = vec![0; (entry >> 64) as usize];
         self.rows.read_exact_at(&mut line, entry as u64)?;

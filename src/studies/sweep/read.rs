@@ -1,5 +1,6 @@
 //! From a TOML text to a study. Each refusal is one line: what is wrong, where, what would be right.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -120,27 +121,20 @@ impl Written {
             sensitivity: varied.unwrap_or_default(),
             written,
         };
-        if self.axis.is_empty() && self.sensitivity.is_none() {
-            return error(
-                "there is no axis: add [[axis]] with key and values, linspace or logspace",
-            );
-        }
-        if study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES {
-            let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
-            return error(rule);
-        }
-        let mut taken: Vec<String> = study.set.keys().cloned().collect();
+        let has_purpose = !self.axis.is_empty() || self.sensitivity.is_some();
+        let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
+        ensure(has_purpose, rule)?;
+        let is_many = study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES;
+        let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
+        ensure(!is_many, rule)?;
+        let mut taken: BTreeSet<String> = study.set.keys().cloned().collect();
         for (at, axis) in self.axis.into_iter().enumerate() {
             let place = format!("axis[{at}]");
             let axis = read_axis(axis, &place, &study, samples)?;
             for key in std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key)) {
-                if taken.contains(key) {
-                    return error(format!(
-                        "{place}: {key} is given twice; [set], the axes and tied keys must name \
-                         different keys"
-                    ));
-                }
-                taken.push(key.clone());
+                let rule = "[set], the axes and tied keys must name different keys";
+                let why = format!("{place}: {key} is given twice; {rule}");
+                ensure(taken.insert(key.clone()), why)?;
             }
             study.axes.push(axis);
         }
@@ -151,6 +145,10 @@ impl Written {
 
 fn error<T>(why: impl Display) -> Result<T> {
     Err(Refusal::from(why.to_string()))
+}
+
+fn ensure(holds: bool, why: impl Display) -> Result<()> {
+    if holds { Ok(()) } else { error(why) }
 }
 
 fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> {
@@ -166,14 +164,13 @@ fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
         (Some(_), None, _) => error(format!(
             "samples is missing: the number of points that design = \"{design}\" draws"
         )),
-        (Some(most), Some(samples), seed) => match (1..=most).contains(&samples) {
-            true => Ok(Some((samples, seed.unwrap_or(0)))),
-            false => refuse(
-                "samples",
-                samples,
-                format!("must be a whole number from 1 to {most}"),
-            ),
-        },
+        (Some(most), Some(samples), seed) if (1..=most).contains(&samples) => {
+            Ok(Some((samples, seed.unwrap_or(0))))
+        }
+        (Some(most), Some(samples), _) => {
+            let rule = format!("must be a whole number from 1 to {most}");
+            refuse("samples", samples, rule)
+        }
     }
 }
 
@@ -183,9 +180,8 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
     for (key, value) in table {
         flatten(key, value, &mut found);
     }
-    found
-        .iter()
-        .try_for_each(|(key, _)| known_key(key, place))?;
+    let mut keys = found.iter().map(|(key, _)| key);
+    keys.try_for_each(|key| known_key(key, place))?;
     Ok(found)
 }
 
@@ -256,9 +252,8 @@ fn read_axis(
             return error(format!("{place} ({key}): {rule}"));
         }
     };
-    if axis.scale.is_some() && name != "values" {
-        return error(format!("{place}.scale: goes with values, not with {name}"));
-    }
+    let why = format!("{place}.scale: goes with values, not with {name}");
+    ensure(axis.scale.is_none() || name == "values", why)?;
     let named = format!("{place}.{name}");
     // Texts may be numbers with a unit.
     for value in &mut list {
@@ -278,16 +273,13 @@ fn read_axis(
         ("values", _) => Values::Listed(listed(&key, &named, list)?),
         (_, None) => {
             let ends = ends(&named, &list, spread, 3)?;
-            let count = list[2].as_integer().map(usize::try_from);
-            match count {
-                Some(Ok(count)) if (1..=MOST_POINTS).contains(&count) => {
-                    Values::Between(ends, count, Spacing::Even)
-                }
-                _ => {
-                    let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
-                    return refuse(&named, Value::from(list), rule);
-                }
-            }
+            let count = list[2].as_integer();
+            let count = count.and_then(|count| usize::try_from(count).ok());
+            let Some(count) = count.filter(|count| (1..=MOST_POINTS).contains(count)) else {
+                let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
+                return refuse(&named, Value::from(list), rule);
+            };
+            Values::Between(ends, count, Spacing::Even)
         }
         (_, Some((samples, spacing))) => {
             Values::Between(ends(&named, &list, spread, 2)?, samples, spacing)
@@ -337,11 +329,10 @@ fn ends(place: &str, list: &[Value], spread: Scale, length: usize) -> Result<[f6
 }
 
 fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
-    if let Values::Listed(values) = values
-        && !table.is_empty()
-        && values.iter().any(|value| values::number(value).is_none())
-    {
-        return error(format!("{place}: needs an axis of numbers"));
+    if let Values::Listed(values) = values {
+        let are_numbers = values.iter().all(|value| values::number(value).is_some());
+        let why = format!("{place}: needs an axis of numbers");
+        ensure(table.is_empty() || are_numbers, why)?;
     }
     numbers(place, table, "must be a finite factor", |_| true)
 }
@@ -349,22 +340,16 @@ fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)
 /// Refuses too many points, and zipped axes of different lengths.
 fn check_count(study: &Study) -> Result<()> {
     if study.design == Design::Grid {
-        let lengths = study.axes.iter().map(|axis| axis.count() as f64);
-        let points: f64 = lengths.product();
-        return match points > MOST_POINTS as f64 {
-            true => error(format!("{points:.3e} points; the limit is {MOST_POINTS}")),
-            false => Ok(()),
-        };
+        let points: f64 = study.axes.iter().map(|axis| axis.count() as f64).product();
+        let why = format!("{points:.3e} points; the limit is {MOST_POINTS}");
+        return ensure(points <= MOST_POINTS as f64, why);
     }
     let length = study.points();
-    match study.axes.iter().find(|axis| axis.count() != length) {
-        None => Ok(()),
-        Some(axis) => error(format!(
-            "axis {}: has {} values, the first axis {length}; design = \"{}\" needs the same \
-             number on each",
-            axis.key,
-            axis.count(),
-            study.design
-        )),
-    }
+    let Some(axis) = study.axes.iter().find(|axis| axis.count() != length) else {
+        return Ok(());
+    };
+    let (key, count, design) = (&axis.key, axis.count(), study.design);
+    error(format!(
+        "axis {key}: has {count} values, the first axis {length}; design = \"{design}\" needs the same number on each"
+    ))
 }

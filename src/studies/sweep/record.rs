@@ -127,10 +127,8 @@ impl Record {
             let line = next_line(&mut *lines).map_err(unread)?.unwrap_or_default();
             let line = line.trim_start_matches('\u{feff}');
             if line.starts_with("\"#") {
-                return Err(refuse(
-                    "a spreadsheet has put the lines of its header in quotes; take them from the \
-                     original",
-                ));
+                let rule = "a spreadsheet has put the lines of its header in quotes";
+                return Err(refuse(rule).or("take them from the original"));
             }
             if !line.starts_with('#') {
                 break split(line);
@@ -148,9 +146,8 @@ impl Record {
             }
         };
         if !header.contains("# study: ") {
-            return Err(refuse(
-                "is not a table of mdr-tui sweep: its header has no study",
-            ));
+            let rule = "is not a table of mdr-tui sweep: its header has no study";
+            return Err(refuse(rule));
         }
         Ok(Self {
             header,
@@ -192,10 +189,8 @@ impl Record {
         let differing = ours.zip(theirs).find(|(our, their)| our != their);
         let (our, their) = differing.unwrap_or_default();
         let [our, their] = [our, their].map(|line| line.trim_start_matches("# "));
-        Err(Refusal::new(
-            &self.name,
-            format_args!("holds another study: {their} where {origin} has {our}"),
-        ))
+        let rule = format!("holds another study: {their} where {origin} has {our}");
+        Err(Refusal::new(&self.name, rule))
     }
 
     /// The rows that follow, with the columns in the order of `study`.
@@ -211,8 +206,9 @@ impl Record {
         let wanted = study.columns();
         if let Some(more) = self.columns.iter().find(|name| !wanted.contains(&&***name)) {
             let more = printable(more);
-            let rule = "which the study does not have";
-            return Err(refuse(format!("has a column {more}, {rule}")));
+            return Err(refuse(format!(
+                "has a column {more}, which the study does not have"
+            )));
         }
         let place = |name: &&str| {
             let at = self.columns.iter().position(|column| column == name);

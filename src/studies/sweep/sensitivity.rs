@@ -59,9 +59,8 @@ pub fn run(
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
-    let middle = study
-        .scenario_at(&[], None)
-        .map_err(|error| Refusal::from(error.to_string()))?;
+    let middle = study.scenario_at(&[], None);
+    let middle = middle.map_err(|error| Refusal::from(error.to_string()))?;
     let keys = study.varied();
     let valued = keys.iter().map(|(key, deviation)| {
         let deviation = Some(*deviation).filter(|known| *known > 0.0);
@@ -130,12 +129,18 @@ fn around(
         ("", "elasticity", Format::Fixed),
         ("", "error deviation relative_spread", Format::Rough),
     ]);
+    let row = |key: &str, value: Option<f64>, column: usize, found: [Option<f64>; 4]| {
+        let key = Value::from(key.to_owned());
+        let (name, result) = (study.columns[column].name, results[0][column]);
+        let row = [key, value.into(), name.into(), result.into()];
+        row.into_iter().chain(found.map(Value::from)).collect()
+    };
     let mut is_resolved = true;
     let has_deviation = keys.iter().any(|(_, deviation, _)| deviation.is_some());
     // The relative spread of each column, unless an elasticity that adds to it is not known.
     let mut spreads = vec![has_deviation.then_some(0.0); study.columns.len()];
     for (&(key, deviation, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
-        for (column, scalar) in study.columns.iter().enumerate() {
+        for column in 0..study.columns.len() {
             let around: Option<Vec<f64>> = around.iter().map(|run| run[column]).collect();
             let found = around.as_deref().and_then(difference);
             let good = |[found, error]: [f64; 2]| error <= WANTED.0.max(WANTED.1 * found.abs());
@@ -147,24 +152,14 @@ fn around(
                 let both = spreads[column].zip(spread);
                 spreads[column] = both.map(|(sum, spread)| f64::hypot(sum, spread));
             }
-            table.push(vec![
-                key.to_owned().into(),
-                value.into(),
-                scalar.name.into(),
-                results[0][column].into(),
-                elasticity.into(),
-                error.into(),
-                deviation.into(),
-                spread.into(),
-            ]);
+            let found = [elasticity, error, deviation, spread];
+            table.push(row(key, Some(value), column, found));
         }
     }
-    let columns = study.columns.iter().zip(&results[0]).zip(spreads);
-    for ((scalar, &result), spread) in columns.filter(|(_, spread)| spread.is_some()) {
-        let [key, column] = ["all", scalar.name].map(Value::from);
-        let row = [key, Value::Missing, column, result.into()].into_iter();
-        let unknown = [Value::Missing, Value::Missing, Value::Missing];
-        table.push(row.chain(unknown).chain([spread.into()]).collect());
+    for (column, spread) in spreads.into_iter().enumerate() {
+        if spread.is_some() {
+            table.push(row("all", None, column, [None, None, None, spread]));
+        }
     }
     let setup = fixed.setup();
     Ok(Some(Sensitivity {
@@ -179,10 +174,8 @@ fn difference(results: &[f64]) -> Option<[f64; 2]> {
     let &[far_below, below, above, far_above] = results else {
         return None;
     };
-    if results
-        .iter()
-        .any(|result| *result <= 0.0 || !result.is_finite())
-    {
+    let is_positive = |result: &f64| *result > 0.0 && result.is_finite();
+    if !results.iter().all(is_positive) {
         return None;
     }
     let near = (above / below).ln() / (2.0 * STEP);

@@ -1,6 +1,6 @@
 //! A table of a study along one or two of its axes: what a map shows, on the screen and on paper.
 
-use super::border::Border;
+use super::border::{Distance, crossing, to_gross_slip, to_lift_off};
 use super::finder::Finder;
 use super::record::Record;
 use super::{Axis, Design, Study, Success};
@@ -260,12 +260,12 @@ impl Slice {
             return Vec::new();
         };
         let [wide, high] = self.size();
-        let line = |border: Border| {
+        let line = |to_border: Distance| {
             // Along one axis, the other one at a place.
             let crossed = |along: usize, other: usize, place: usize| {
                 let mut places = self.at.clone();
                 places[other] = place;
-                let value = border.crossing(&self.study, &places, along)?;
+                let value = crossing(to_border, &self.study, &places, along)?;
                 self.study.axes[along].place_of(value)
             };
             let columns = (0..wide).filter_map(|at| Some([at as f64, crossed(y, self.x, at)?]));
@@ -273,9 +273,9 @@ impl Slice {
             columns.chain(rows).collect()
         };
         let gross = "gross slip, closed form, unworn";
-        let gross = Line::new('G', gross, line(Border::GrossSlip));
+        let gross = Line::new('G', gross, line(to_gross_slip));
         let open = "lift-off, closed form, unworn";
-        let open = Line::new('L', open, line(Border::LiftOff));
+        let open = Line::new('L', open, line(to_lift_off));
         gross.into_iter().chain(open).collect()
     }
 }

@@ -77,16 +77,15 @@ impl Study {
     pub fn values(&self, point: usize) -> Vec<String> {
         let places = self.places(point);
         let axes = self.axes.iter().zip(places);
-        axes.map(|(axis, place)| printable(&axis.text(place)))
-            .collect()
+        let shown = axes.map(|(axis, place)| printable(&axis.text(place)));
+        shown.collect()
     }
 
     /// `point` in words: its number and its values.
     pub fn name(&self, point: usize) -> String {
         let values = self.axes.iter().zip(self.values(point));
-        let values: Vec<String> = values
-            .map(|(axis, value)| format!("{} = {value}", axis.key))
-            .collect();
+        let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
+        let values: Vec<String> = values.collect();
         format!("point {point} ({})", values.join(", "))
     }
 
@@ -116,13 +115,23 @@ impl Study {
         places: &[usize],
         other: Option<(usize, f64)>,
     ) -> Result<Scenario, ScenarioError> {
+        let set = self.set.iter();
+        let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
         let axes = self.axes.iter().zip(places).enumerate();
-        self.build(axes.flat_map(|(at, (axis, &place))| match other {
+        let axes = axes.flat_map(|(at, (axis, &place))| match other {
             Some((along, value)) if along == at => {
                 axis.assignments(&axis::value_of(&axis.key, value))
             }
             _ => axis.assignments(&axis.value(place)),
-        }))
+        });
+        let all: Vec<(&str, String)> = set.chain(axes).collect();
+        let scenario = self.base.with_all(&all)?;
+        if scenario.run().cycles.is_none() {
+            let (name, key) = (&self.base_name, "run.cycles");
+            let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
+            return Err(ScenarioError::missing(name, key, meaning));
+        }
+        Ok(scenario)
     }
 
     /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.
@@ -151,27 +160,6 @@ impl Study {
             None => self.base.value(&control),
         };
         control.is_some_and(|control| control.trim_matches('"') == "force")
-    }
-
-    fn build<'a>(
-        &'a self,
-        axes: impl Iterator<Item = (&'a str, String)>,
-    ) -> Result<Scenario, ScenarioError> {
-        let set = self.set.iter();
-        let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
-        let all: Vec<(&str, String)> = set.chain(axes).collect();
-        let scenario = self.base.with_all(&all)?;
-        match scenario.run().cycles {
-            Some(_) => Ok(scenario),
-            None => {
-                let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
-                Err(ScenarioError::missing(
-                    &self.base_name,
-                    "run.cycles",
-                    meaning,
-                ))
-            }
-        }
     }
 
     /// Sets a key for all points, as `--set` does: `KEY=VALUE`. It takes the place of what `[set]`

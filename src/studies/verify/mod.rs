@@ -5,10 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use thiserror::Error;
-
 use crate::math::abel::AbelMethod;
-use crate::math::invalid::Invalid;
 use crate::simulation::Breakdown;
 
 pub mod errors;
@@ -41,28 +38,7 @@ pub struct Outcome {
     /// What was tried.
     pub task: Task,
     /// The errors of the problem's quantities, in their order; or why there are none.
-    pub errors: Result<Vec<Errors>, Stop>,
-}
-
-/// Why there is no result.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Stop {
-    /// The run broke down.
-    #[error(transparent)]
-    Breakdown(#[from] Breakdown),
-    /// The parts cannot be put together.
-    #[error(transparent)]
-    Invalid(#[from] Invalid),
-}
-
-impl Stop {
-    /// The cycle that was reached.
-    pub fn cycle(&self) -> f64 {
-        match self {
-            Self::Breakdown(breakdown) => breakdown.cycle,
-            Self::Invalid(_) => 0.0,
-        }
-    }
+    pub errors: Result<Vec<Errors>, Breakdown>,
 }
 
 /// The tasks of some problems, by problem, method and rising N; `long` ones, which take minutes, only if asked for.

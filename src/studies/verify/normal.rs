@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::Stop;
 use super::errors::{Errors, Sample};
-use super::scene::pressed;
+use super::scene::{grid, pressed};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
@@ -12,7 +11,7 @@ use crate::oracle::flat_punch::FlatPunch;
 use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated::TruncatedParaboloid;
 use crate::reading::Curves;
-use crate::simulation::Simulation;
+use crate::simulation::{Breakdown, Simulation};
 
 /// L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points` on which the contact radius a = 1
 /// and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third of a cell outside
@@ -62,7 +61,7 @@ impl Exact {
         grid: &RadialGrid,
         indenter: Option<Indenter>,
         is_relative: bool,
-    ) -> Result<Vec<Errors>, Stop> {
+    ) -> Result<Vec<Errors>, Breakdown> {
         let plan = AbelPlan::new(method, grid);
         let transform = |source: &[f64], apply: fn(&AbelPlan, &[f64], &mut [f64])| {
             let mut out = vec![f64::NAN; source.len()];
@@ -109,47 +108,48 @@ fn simulated(
     grid: &RadialGrid,
     indenter: Indenter,
     depth: f64,
-) -> Result<Vec<f64>, Stop> {
-    let setup = pressed(method, grid.clone(), indenter, depth)?;
+) -> Result<Vec<f64>, Breakdown> {
+    let setup = pressed(method, grid.clone(), indenter, depth);
     Ok(Simulation::new(setup)?.observe(Curves::PRESSURE).pressure)
 }
 
 /// The paraboloid of the paper's Fig. 2.
-pub fn hertz(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let grid = RadialGrid::uniform(points, 1.0)?;
+pub fn hertz(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+    let grid = grid(points, 1.0);
     Exact::power_law(PowerLaw::paraboloid(1.0), &grid).errors(method, &grid, None, true)
 }
 
 /// A cone of slope 1.
-pub fn cone(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let grid = RadialGrid::uniform(points, 1.0)?;
+pub fn cone(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+    let grid = grid(points, 1.0);
     Exact::power_law(PowerLaw::cone(1.0), &grid).errors(method, &grid, None, false)
 }
 
 /// f = r⁴, the edge between nodes.
-pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let grid = RadialGrid::uniform(points, between_nodes(points).0)?;
+pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+    let grid = grid(points, between_nodes(points).0);
     let exact = Exact::power_law(PowerLaw::quartic(1.0), &grid);
-    exact.errors(method, &grid, Some(Indenter::power(1.0, 4.0)?), false)
+    let indenter = Indenter::power(1.0, 4.0).expect("a shape");
+    exact.errors(method, &grid, Some(indenter), false)
 }
 
 /// R = 1, b about a/2, both edges between nodes.
-pub fn truncated_paraboloid(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+pub fn truncated_paraboloid(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
-    let grid = RadialGrid::uniform(points, domain)?;
+    let grid = grid(points, domain);
     let shape = TruncatedParaboloid {
         e_star: 1.0,
         radius: 1.0,
         tip_radius: inner,
     };
     let exact = Exact::truncated(shape, &grid);
-    let indenter = Indenter::truncated_paraboloid(1.0, inner)?;
+    let indenter = Indenter::truncated_paraboloid(1.0, inner).expect("a shape");
     exact.errors(method, &grid, Some(indenter), false)
 }
 
 /// a = d = 1.
-pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
-    let grid = RadialGrid::uniform(points, 1.0)?;
+pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+    let grid = grid(points, 1.0);
     let punch = FlatPunch {
         e_star: 1.0,
         g_star: 1.0,
@@ -157,7 +157,8 @@ pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop
         radius: 1.0,
         depth: 1.0,
     };
-    let pressure = simulated(method, &grid, Indenter::flat_punch(1.0)?, punch.depth)?;
+    let indenter = Indenter::flat_punch(1.0).expect("a shape");
+    let pressure = simulated(method, &grid, indenter, punch.depth)?;
     let theory = nodal(&grid, |r| punch.pressure(r));
     let samples = inside(&grid, &pressure, &theory);
     Ok(vec![Errors::new(Some(punch.force() / PI), samples)])

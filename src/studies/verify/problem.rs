@@ -7,12 +7,16 @@ use serde::Deserialize;
 use strum::{Display, IntoStaticStr, VariantArray};
 
 use super::errors::Errors;
-use super::{Stop, normal, sliding};
+use super::{normal, sliding};
 use crate::math::abel::AbelMethod;
+use crate::simulation::Breakdown;
 
 /// A problem with a closed form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Display, IntoStaticStr, VariantArray)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, Deserialize, IntoStaticStr, VariantArray,
+)]
 #[strum(serialize_all = "kebab-case")]
+#[serde(rename_all = "kebab-case")]
 pub enum Problem {
     /// The paraboloid of the paper's Fig. 2.
     Hertz,
@@ -35,9 +39,8 @@ pub const STICK_RADIUS: &str = "c";
 
 /// What there is to know of a problem.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, bound(deserialize = "'de: 'static"))]
 pub struct Facts {
-    name: &'static str,
     /// The symbols of what is compared.
     pub quantities: Vec<&'static str>,
     /// What is solved, how, where the edges lie, in what the error is measured and what is left
@@ -46,11 +49,10 @@ pub struct Facts {
 }
 
 /// What `problems.toml` says.
-static FACTS: LazyLock<HashMap<&str, Vec<Facts>>> = LazyLock::new(|| {
+static FACTS: LazyLock<HashMap<Problem, Facts>> = LazyLock::new(|| {
     let table = toml::Deserializer::parse(include_str!("problems.toml"));
-    table
-        .and_then(HashMap::deserialize)
-        .expect("the problems are whole")
+    let facts = table.and_then(HashMap::deserialize);
+    facts.expect("the problems are whole")
 });
 
 impl Problem {
@@ -64,13 +66,11 @@ impl Problem {
 
     /// What there is to know of it.
     pub fn facts(self) -> &'static Facts {
-        let mut all = FACTS["problem"].iter();
-        let found = all.find(|facts| facts.name == self.name());
-        found.expect("every problem is described")
+        &FACTS[&self]
     }
 
     /// Solves it by a method on N cells; gives the errors of the quantities.
-    pub(super) fn solve(self, method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+    pub(super) fn solve(self, method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
         let solve = match self {
             Self::Hertz => normal::hertz,
             Self::Cone => normal::cone,

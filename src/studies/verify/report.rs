@@ -22,10 +22,8 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
     }
     let mut table = Table::of(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
-        let mut row = vec![
-            outcome.task.method.name().into(),
-            outcome.task.points.into(),
-        ];
+        let task = outcome.task;
+        let mut row = vec![task.method.name().into(), task.points.into()];
         for (at, quantity) in quantities.iter().enumerate() {
             let mut cells = group(outcome, at, outcomes);
             cells.truncate(shown(quantity, roomy).len());
@@ -62,7 +60,7 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
             order(outcome, at, outcomes, Errors::rms).into(),
         ],
         Err(stop) => {
-            let mut cells = vec![format!("stopped at cycle {:.2}", stop.cycle()).into()];
+            let mut cells = vec![format!("stopped at cycle {:.2}", stop.cycle).into()];
             cells.resize(4, Value::Missing);
             cells
         }
@@ -78,21 +76,15 @@ fn order(
     size: fn(&Errors) -> f64,
 ) -> Option<f64> {
     let task = outcome.task;
-    let coarser = outcomes
-        .iter()
-        .filter(|o| o.task.problem == task.problem && o.task.method == task.method)
-        .filter(|o| o.task.points < task.points)
-        .max_by_key(|o| o.task.points)?;
-    let (Ok(before), Ok(now)) = (&coarser.errors, &outcome.errors) else {
-        return None;
-    };
-    let (before, now) = (size(&before[at]), size(&now[at]));
-    if before.min(now) < ROUNDING {
-        return None;
-    }
+    let is_alike = |o: &&Outcome| (o.task.problem, o.task.method) == (task.problem, task.method);
+    let alike = outcomes.iter().filter(is_alike);
+    let coarser = alike.filter(|o| o.task.points < task.points);
+    let coarser = coarser.max_by_key(|o| o.task.points)?;
+    let size = |outcome: &Outcome| Some(size(outcome.errors.as_ref().ok()?.get(at)?));
+    let (before, now) = (size(coarser)?, size(outcome)?);
     let ratio = task.points as f64 / coarser.task.points as f64;
     let order = (before / now).log2() / ratio.log2();
-    order.is_finite().then_some(order)
+    (order.is_finite() && before.min(now) >= ROUNDING).then_some(order)
 }
 
 /// Every row of every problem, a quantity a row.
@@ -119,7 +111,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
                 }
                 Err(stop) => {
                     row.resize(row.len() + 6, Value::Missing);
-                    row.push(stop.cycle().into());
+                    row.push(stop.cycle.into());
                     row.push(stop.to_string().into());
                 }
             }
@@ -161,7 +153,7 @@ fn key(outcome: &Outcome, quantity: &'static str) -> Vec<Value> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Stop, Task};
+    use super::super::Task;
     use super::*;
     use crate::math::abel::AbelMethod;
     use crate::simulation::{Breakdown, Cause};
@@ -174,10 +166,10 @@ mod tests {
                 method: AbelMethod::Benad,
                 points: 400,
             },
-            errors: Err(Stop::Breakdown(Breakdown {
+            errors: Err(Breakdown {
                 cycle: 12.5,
                 cause: Cause::EdgeReached { domain_radius: 1.5 },
-            })),
+            }),
         };
         let outcomes = [outcome];
         let text = problem_table(Problem::Limit, &outcomes).text();

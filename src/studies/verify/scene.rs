@@ -4,7 +4,6 @@ use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
-use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Integrator, Scheme, Setup, Spacing, Stability};
 
@@ -18,17 +17,12 @@ pub const POISSON: f64 = 0.3;
 const STEPS: u32 = 40;
 
 /// `indenter` pressed to `depth` on the nodes of `grid`, by the paper's scheme; nothing moves sideways or wears.
-pub fn pressed(
-    method: AbelMethod,
-    grid: RadialGrid,
-    indenter: Indenter,
-    depth: f64,
-) -> Result<Setup, Invalid> {
-    Ok(Setup {
+pub fn pressed(method: AbelMethod, grid: RadialGrid, indenter: Indenter, depth: f64) -> Setup {
+    Setup {
         grid,
-        material: Material::new(1.0, POISSON, FRICTION)?,
+        material: Material::new(1.0, POISSON, FRICTION).expect("a material"),
         indenter,
-        drive: Drive::new(swing(depth, 0.0)?, None),
+        drive: Drive::new(swing(depth, 0.0), None),
         wear: None,
         method,
         spacing: Spacing::Uniform,
@@ -39,10 +33,19 @@ pub fn pressed(
         scar: None,
         hardness: None,
         steps_per_cycle: STEPS,
-    })
+    }
 }
 
 /// A displacement of angular frequency 1.
-pub fn swing(mean: f64, amplitude: f64) -> Result<Control, Invalid> {
-    Oscillation::new(mean, amplitude, 1.0, 0.0).map(Control::Displacement)
+pub fn swing(mean: f64, amplitude: f64) -> Control {
+    let swing = Oscillation::new(mean, amplitude, 1.0, 0.0);
+    Control::Displacement(swing.expect("a motion"))
+}
+
+/// N = `points` equal cells up to `radius`.
+///
+/// # Panics
+/// With fewer or more cells than a grid can have.
+pub fn grid(points: usize, radius: f64) -> RadialGrid {
+    RadialGrid::uniform(points, radius).expect("a grid")
 }

@@ -1,19 +1,16 @@
 //! Tangential contact of a paraboloid with a = d = R = 1: first loading, and the end of all wear.
 
-use super::Stop;
 use super::errors::Errors;
 use super::normal::between_nodes;
-use super::scene::{FRICTION, POISSON, pressed, swing};
+use super::scene::{FRICTION, POISSON, grid, pressed, swing};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
-use crate::math::grid::RadialGrid;
-use crate::math::invalid::Invalid;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::partial_slip::stiffness_ratio;
 use crate::reading::Curves;
 use crate::simulation::drive::Drive;
-use crate::simulation::{Scheme, Setup, Simulation, Spacing};
+use crate::simulation::{Breakdown, Scheme, Setup, Simulation, Spacing};
 use crate::wear::WearLaw;
 
 /// The closed form, moved by `amplitude`.
@@ -29,18 +26,19 @@ fn theory(amplitude: f64) -> CattaneoMindlin {
 }
 
 /// The paraboloid, moved by `amplitude`, on N = `points` over `domain`.
-fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Result<Setup, Invalid> {
-    let grid = RadialGrid::uniform(points, domain)?;
-    let mut setup = pressed(method, grid, Indenter::paraboloid(1.0)?, 1.0)?;
-    setup.drive = Drive::new(swing(1.0, 0.0)?, Some(swing(0.0, amplitude)?));
-    Ok(setup)
+fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setup {
+    let indenter = Indenter::paraboloid(1.0).expect("a shape");
+    Setup {
+        drive: Drive::new(swing(1.0, 0.0), Some(swing(0.0, amplitude))),
+        ..pressed(method, grid(points, domain), indenter, 1.0)
+    }
 }
 
 /// τ and slip after a quarter of a cycle without wear, c about a/2: c² = 1 − κU.
-pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
     let exact = theory((1.0 - inner * inner) * theory(0.0).gross_slip_displacement());
-    let setup = moved(method, points, domain, exact.amplitude)?;
+    let setup = moved(method, points, domain, exact.amplitude);
     let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(0.25)?;
     let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE);
@@ -70,7 +68,7 @@ const WEAR: f64 = 3.0;
 const CYCLES: f64 = 400.0;
 
 /// f and the permanent stick radius after a long run.
-pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
+pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let stick_radius = theory(AMPLITUDE).stick_radius();
     let exact = LimitingProfile {
         e_star: 1.0,
@@ -78,8 +76,8 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Stop> {
         depth: 1.0,
         stick_radius,
     };
-    let mut setup = moved(method, points, DOMAIN, AMPLITUDE)?;
-    setup.wear = Some(WearLaw::archard(WEAR)?);
+    let mut setup = moved(method, points, DOMAIN, AMPLITUDE);
+    setup.wear = Some(WearLaw::archard(WEAR).expect("a law"));
     if !AbelMethod::PUBLISHED.contains(&method) {
         (setup.spacing, setup.scheme) = (Spacing::Graded, Scheme::Trapezoid);
     }

@@ -1,0 +1,94 @@
+//! A rung of the ladder and its errors.
+//!
+//! A difference D of two levels, the one ρ times finer, tells the error of the finer one:
+//!
+//! ```text
+//! e = D/(ρᵖ − 1),   p = 1.1,   but at least e of the rung before/ρ²
+//! ```
+//!
+//! Where cells and steps are both refined, D is shared out as the errors stood before. Errors of several sources add up
+//! as independent ones do: as the root of the sum of squares.
+
+use super::level::Level;
+use super::outcome::{Difference, Outcome};
+use crate::scenario::Scenario;
+use crate::scenario::session::{Session, SessionError};
+
+/// One run of the ladder.
+#[derive(Debug, Clone)]
+pub struct Rung {
+    /// How finely it was computed.
+    pub level: Level,
+    /// The run at its end.
+    pub session: Session,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What it cost, s.
+    pub seconds: f64,
+}
+
+/// A rung and its errors, by what they come from.
+#[derive(Debug)]
+pub(super) struct Top {
+    pub rung: Rung,
+    /// Those of cells, of steps and of jumps.
+    pub sources: Vec<Difference>,
+}
+
+impl Top {
+    pub fn error(&self) -> Difference {
+        let add = |sum: Difference, one: &Difference| sum.with(one, |sum, one| sum + one * one);
+        let squares = self.sources.iter().fold(Difference::default(), add);
+        let sum = squares.with(&squares, |sum, _| sum.sqrt());
+        sum.as_estimate()
+    }
+
+    /// The error that a promise is held against: V and k E_d must agree as well, since they are two computations of one
+    /// number.
+    pub fn promised(&self) -> f64 {
+        self.error().promised().max(self.rung.outcome.imbalance)
+    }
+
+    pub fn is_unworn(&self) -> bool {
+        self.rung.outcome.volume <= 0.0
+    }
+
+    /// The errors of a finer rung.
+    pub fn errors_of(&self, finer: &Rung) -> Vec<Difference> {
+        let ratios = finer.level.ratio(&self.rung.level);
+        let difference = self.rung.outcome.against(&finer.outcome);
+        let known = || self.sources.iter().zip(ratios);
+        let refined = || known().filter(|(_, ratio)| *ratio > 1.0);
+        let add =
+            |sum: Difference, (one, _): (&Difference, f64)| sum.with(one, |sum, one| sum + one);
+        let total = refined().fold(Difference::default(), add);
+        let alone = refined().count() == 1;
+        let after = |(before, ratio): (&Difference, f64)| {
+            if ratio <= 1.0 {
+                return *before;
+            }
+            let share = before.with(&total, |error, total| match total {
+                _ if alone => 1.0,
+                0.0 => 1.0,
+                total => error / total,
+            });
+            let own = share.with(&difference, |share, d| share * d);
+            own.error_above(before, ratio)
+        };
+        known().map(after).collect()
+    }
+}
+
+/// Runs a scenario to `cycles`, as long as `go_on` says so.
+///
+/// # Errors
+/// If the run stops, or is [interrupted](SessionError::Interrupted).
+pub fn run(
+    scenario: &Scenario,
+    cycles: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Session, SessionError> {
+    let mut session = Session::start(scenario.clone())?;
+    session.advance_while(cycles, |_| go_on())?;
+    Ok(session)
+}

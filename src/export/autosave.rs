@@ -141,7 +141,7 @@ impl Autosave {
     }
 }
 
-/// A copy of what is computed that survives a bug: never older than [`COPY_INTERVAL`] where it is refreshed at every step.
+/// A copy of what is computed that survives a bug: never older than `COPY_INTERVAL` where it is refreshed at every step.
 #[derive(Debug)]
 pub struct Recent<T> {
     copy: T,

@@ -30,7 +30,7 @@
 //! and with many short steps it comes first (400 per cycle: at 0.4 to 0.9 of what is predicted).
 //!
 //! **Methods that are unstable at any step size.** For b and benad, a constant of the method that
-//! was [measured](sawtooth_from), not derived.
+//! was measured, not derived.
 
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};

@@ -37,7 +37,7 @@ impl Worker {
         }
     }
 
-    /// Refines or coarsens cells and steps together, by [`STRIDE`] for each place.
+    /// Refines or coarsens cells and steps together, by `STRIDE` for each place.
     pub fn refine(&mut self, places: isize) {
         let scenario = self.run.session.scenario();
         let now = Level::of(scenario);

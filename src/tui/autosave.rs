@@ -17,7 +17,7 @@ pub struct ScreenAutosave {
     kept: Mark,
     /// The session a moment ago.
     copy: Recent<Session>,
-    /// The session is at its end.
+    /// Nothing more is saved: the session is at its end, or there is no directory.
     is_finished: bool,
 }
 
@@ -35,18 +35,17 @@ impl ScreenAutosave {
     /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the
     /// end if `None`; without a directory nothing is saved.
     pub fn new(directory: Option<PathBuf>, every: Option<Duration>, session: &Session) -> Self {
-        let every = every.filter(|_| directory.is_some());
         Self {
+            is_finished: directory.is_none(),
             autosave: Autosave::new(None, directory, every),
             kept: mark(session),
             copy: Recent::new(session.clone()),
-            is_finished: false,
         }
     }
 
     /// Time until a checkpoint is due; `None` while there is nothing new to save.
     pub fn wait(&self, session: &Session) -> Option<Duration> {
-        let wait = self.autosave.wait()?;
+        let wait = self.autosave.wait().filter(|_| !self.is_finished)?;
         (self.kept != mark(session)).then_some(wait)
     }
 

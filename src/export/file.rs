@@ -88,7 +88,7 @@ pub fn write_whole_with(
     })
 }
 
-/// [`write_whole`] with what `fill` writes and makes of the file that is to be there.
+/// [`write_whole`] by `fill`, which is given the new file; returns what `fill` returns.
 pub fn write_with<T, E: From<WriteError>>(
     path: &Path,
     fill: impl FnOnce(&mut fs::File) -> Result<T, E>,

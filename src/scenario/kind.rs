@@ -120,7 +120,7 @@ impl Range {
     }
 }
 
-/// As it stands after "must be"; nothing where every number is allowed.
+/// The rule as it follows "must be"; empty where every number is allowed.
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

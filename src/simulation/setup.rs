@@ -31,8 +31,8 @@ pub struct Setup {
     pub hardness: Option<f64>,
     /// The way to compute the transforms.
     pub method: AbelMethod,
-    /// Whether the grid is to be graded towards the stick border; [`grid`](Self::grid) then only
-    /// says how many cells there are and where the domain ends.
+    /// How the nodes are placed; where they are graded towards the stick border, only the number of cells and the radius
+    /// of [`grid`](Self::grid) count.
     pub spacing: Spacing,
     /// How a step in time is taken.
     pub scheme: Scheme,

@@ -7,7 +7,7 @@ use super::model::Model;
 use crate::math::vector::vectorized;
 
 /// p of a solved contact, Pa, at the nodes: as far inwards as a step has needed it.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Pressure {
     /// The innermost node with a value of this contact.
     pub from: usize,

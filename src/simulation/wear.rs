@@ -261,9 +261,9 @@ impl Increment {
         );
     }
 
-    /// The mean of the stress over a step between the springs that stick in the middle and the `zone` outside: of τ where
-    /// that has one sign, half of τ where it turned and now works with the slip. Returns how many transforms that took:
-    /// none where nothing slips there, as in most steps.
+    /// The mean of the stress over a step between the springs that stick in the middle and the outermost slip `zone`: of τ
+    /// where its sign stays, half of τ where it turned and now works with the slip. Returns the number of transforms: 0
+    /// where nothing slips there, which is so in most steps.
     pub fn mean_of_shear(&mut self, model: &Model, contacts: [&Contact; 2], zone: usize) -> u64 {
         let nodes = self.nodes.start.min(zone)..zone;
         let slips = &self.surface_slip[nodes.clone()];

@@ -104,7 +104,7 @@ impl Past {
         self.make_room(BUDGET);
     }
 
-    /// Thins the past, then drops the oldest states, until the rest is within so many bytes. The last
+    /// Thins the past, then drops the oldest states, until it takes at most `budget` bytes. The last
     /// state stays, and the first as long as possible.
     fn make_room(&mut self, budget: usize) {
         while self.kept.len() > 2 && self.bytes() > budget {

@@ -26,7 +26,7 @@
 //!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
 //!   odd places, so neighbouring rungs scatter by a third. The error at 100 steps is below that of
 //!   explicit Euler at 800.
-//! - **Cost**: three transforms per step, and two for τ where springs within the outermost slip zone slip.
+//! - **Cost**: three transforms per step, and two for τ where springs further in than the outermost slip zone slip.
 
 use super::super::model::Model;
 use super::super::state::State;

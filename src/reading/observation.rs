@@ -275,7 +275,7 @@ impl Simulation {
             shear: when(Curves::SHEAR, &|| {
                 let mut out = vec![0.0; nodes];
                 if with_springs {
-                    traction::shear(model, contact, &mut out);
+                    traction::shear(model, contact, 0, &mut out);
                 }
                 out
             }),

@@ -1,6 +1,8 @@
 //! When steps end: at equal fractions of a period of the faster motion, where the motion reverses,
 //! and where contact is made or lost.
 
+use std::sync::Arc;
+
 use super::Setup;
 use super::choices::Scheme;
 use super::state::State;
@@ -9,12 +11,14 @@ use super::state::State;
 const SLIVER: f64 = 0.1;
 
 /// What the contact has to do with when the motion turns.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Touch {
-    /// The contact radius a, m.
-    pub radius: f64,
-    /// The lowest point of the 1D profile, m, or one that the motion does not come up to either.
-    pub tip: f64,
+    /// κ.
+    stick_ratio: f64,
+    /// What an amplitude of each direction is in displacement.
+    yields: [f64; 2],
+    /// The lowest point of the 1D profile, m; −∞ where the motion never comes up to the axis.
+    tip: f64,
 }
 
 impl Touch {
@@ -23,12 +27,14 @@ impl Touch {
         let axis = g.next().unwrap_or(f64::INFINITY);
         // What never leaves the axis never leaves a lower point.
         let tip = if setup.drive.normal().oscillation().lowest() > axis {
-            axis
+            f64::NEG_INFINITY
         } else {
             g.fold(axis, f64::min)
         };
+        let radius = state.contact.normal.radius;
         Self {
-            radius: state.contact.normal.radius,
+            stick_ratio: setup.material.stick_ratio(),
+            yields: setup.drive.yields(&setup.material, radius),
             tip,
         }
     }
@@ -70,21 +76,31 @@ pub(super) fn next(setup: &Setup, touch: Touch, now: f64, under_way: bool) -> (f
 
 /// The first point at which the motion turns, or contact is made or lost.
 fn turn(setup: &Setup, touch: Touch, from: f64, until: f64) -> Option<f64> {
-    let (drive, material) = (&setup.drive, &setup.material);
-    let yields = drive.yields(material, touch.radius);
-    let turn = drive.turning_point(material.stick_ratio(), yields, from, until);
+    let drive = &setup.drive;
+    let turn = drive.turning_point(touch.stick_ratio, touch.yields, from, until);
     let touching = drive.touching_point(touch.tip, from, turn.unwrap_or(until));
     touching.or(turn)
 }
 
-/// The ends of all steps of one period of the motion, in cycles from its beginning.
-pub(super) fn of_period(setup: &Setup, touch: Touch, cycles: u32) -> Vec<f64> {
-    let end = f64::from(cycles);
-    let mut moments = Vec::new();
-    let mut now = 0.0;
-    while now < end {
-        now = next(setup, touch, now, true).0.min(end);
-        moments.push(now);
+/// The ends of all steps of a period of the motion, in cycles from its beginning, each with whether the motion turns
+/// there; found once for as long as the contact stays.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Period {
+    touch: Option<Touch>,
+    moments: Arc<[(f64, bool)]>,
+}
+
+impl Period {
+    /// Those of a period of `cycles`.
+    pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[(f64, bool)]> {
+        if self.touch != Some(touch) {
+            let after = |now: f64| {
+                let (moment, turns) = next(setup, touch, now, true);
+                (now < cycles).then(|| (moment.min(cycles), turns))
+            };
+            let moments = std::iter::successors(after(0.0), |&(now, _)| after(now));
+            (self.touch, self.moments) = (Some(touch), moments.collect());
+        }
+        Arc::clone(&self.moments)
     }
-    moments
 }

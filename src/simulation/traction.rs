@@ -44,16 +44,14 @@ pub(crate) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
 }
 
 /// τ, Pa, of the solved contact.
-pub(crate) fn shear(model: &Model, contact: &Contact, out: &mut [f64]) {
-    let touching = contact.normal.nodes;
-    contact
-        .spring
-        .stress(&model.plan, &model.grid, touching, out);
+pub(crate) fn shear(model: &Model, contact: &Contact, first: usize, out: &mut [f64]) {
+    let (plan, grid, touching) = (&model.plan, &model.grid, contact.normal.nodes);
+    contact.spring.stress_from(first, plan, grid, touching, out);
     let modulus = model.setup.material.tangential_modulus();
     vectorized(
         #[inline(always)]
         || {
-            for stress in out {
+            for stress in &mut out[first..] {
                 *stress *= modulus;
             }
         },

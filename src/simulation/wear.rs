@@ -272,7 +272,7 @@ impl Increment {
             return 0;
         }
         for (contact, shear) in contacts.into_iter().zip(&mut self.shear_at_ends) {
-            traction::shear(model, contact, shear);
+            traction::shear(model, contact, nodes.start, shear);
         }
         let [was, is] = self
             .shear_at_ends

@@ -287,10 +287,7 @@ impl AbelPlan {
     pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
         match &self.operators {
             Operators::Dense { stress, .. } => stress.apply_from(first, q, p),
-            Operators::Fast(fast) => {
-                fast.stress(q, p);
-                0
-            }
+            Operators::Fast(fast) => fast.stress_from(first, q, p),
         }
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scr
         increment.slip_of_surface(model);
         let first = leading(&increment.surface_slip[..end], |&slip| slip == 0.0);
         increment.nodes = first..end;
-        traction::shear(model, contact, &mut increment.shear);
+        traction::shear(model, contact, 0, &mut increment.shear);
         scratch.transforms += 2;
         increment.wear(model, model.seconds(cycle - state.cycle));
     }

@@ -20,6 +20,7 @@ use super::choices::Scheme;
 use super::contact;
 use super::drive::Control;
 use super::model::Model;
+use super::moments::Period;
 use super::setup::Setup;
 use super::state::State;
 use super::traction::Pressure;
@@ -44,6 +45,8 @@ pub(super) struct Scratch {
     pub(super) increment: Increment,
     /// Of the contact that a step begins with, where the state has too little of it.
     pub(super) pressure: Pressure,
+    /// What the steps of steady-state cycles are.
+    period: Period,
     /// Transforms computed since they were last counted.
     pub(super) transforms: u64,
 }
@@ -54,6 +57,7 @@ impl Scratch {
             g: vec![0.0; model.nodes()],
             increment: Increment::new(model),
             pressure: Pressure::unknown(model.springs()),
+            period: Period::default(),
             transforms: 0,
         }
     }

@@ -17,11 +17,12 @@
 
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
+use super::super::contact;
 use super::super::drive::{Control, Oscillation};
 use super::super::model::Model;
+use super::super::moments::Touch;
 use super::super::setup::Setup;
 use super::super::state::{State, SteadyCycle};
-use super::super::{contact, moments};
 use super::{Scratch, wear};
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
@@ -87,11 +88,11 @@ fn period(
     spare: &mut State,
     scratch: &mut Scratch,
 ) -> Result<SteadyCycle, Cause> {
-    let cycles = model.setup.drive.cycles_to_settle();
-    let touch = moments::Touch::on(&model.setup, memory, scratch.g.iter().copied());
-    let moments = moments::of_period(&model.setup, touch, cycles);
+    let cycles = f64::from(model.setup.drive.cycles_to_settle());
+    let touch = Touch::on(&model.setup, memory, scratch.g.iter().copied());
+    let moments = scratch.period.moments(&model.setup, touch, cycles);
     memory.cycle = 0.0;
-    for &moment in moments.iter() {
+    for &(moment, _) in moments.iter() {
         solve(model, memory, spare, scratch, moment)?;
         take_over(memory, spare, moment);
     }
@@ -104,7 +105,7 @@ fn period(
     };
     let mut stiffness = vec![0.0; model.nodes()];
     let modulus = model.setup.material.normal_modulus();
-    for &moment in moments.iter() {
+    for &(moment, _) in moments.iter() {
         solve(model, memory, spare, scratch, moment)?;
         wear(model, memory, spare, scratch, moment);
         let increment = &mut scratch.increment;
@@ -123,7 +124,6 @@ fn period(
         std::mem::swap(&mut memory.pressure, &mut spare.pressure);
         memory.stats.transforms += std::mem::take(&mut scratch.transforms);
     }
-    let cycles = memory.cycle;
     memory.stats.evaluated_cycles += cycles as u64;
     for worn in &mut steady.wear {
         *worn /= cycles;

@@ -82,10 +82,12 @@ impl Causal {
         }
     }
 
-    /// Asks for the `jumps` of some rows and hands over their `sums`, block by block, each with the first row.
+    /// Asks for the `jumps` of some rows and hands over their `sums`, block by block, each with the first row, until
+    /// `count` rows are done. Before the first jump all sums are zero.
     #[inline(always)]
     pub fn apply(
         &self,
+        count: usize,
         jumps: impl Fn(usize, &mut [f64]),
         mut sums: impl FnMut(usize, &mut [f64]),
     ) {
@@ -93,10 +95,16 @@ impl Causal {
         let mut state = [[0.0; LANES]; MOST_GROUPS];
         let mut window = [0.0; REACH + BLOCK];
         let mut lanes = [[0.0; LANES]; BLOCK];
-        for first in (0..self.near.len()).step_by(BLOCK) {
+        let mut is_idle = true;
+        for first in (0..count).step_by(BLOCK) {
             let rows = BLOCK.min(self.near.len() - first);
             window.copy_within(BLOCK.., 0);
             dispatch!(level, _simd => jumps(first, &mut window[REACH..][..rows]));
+            is_idle &= window[REACH..][..rows].iter().all(|&jump| jump == 0.0);
+            if is_idle {
+                sums(first, &mut [0.0; BLOCK][..rows]);
+                continue;
+            }
             self.block(level, first, &window, &mut state, &mut lanes[..rows]);
             dispatch!(level, _simd => {
                 let mut block = [0.0; BLOCK];

@@ -93,6 +93,7 @@ fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
 #[inline(always)]
 fn outwards(operator: &Causal, values: &[f64], inverse: &[f64], squares: &[f64], out: &mut [f64]) {
     operator.apply(
+        squares.len(),
         #[inline(always)]
         |first, jumps| write_jumps(values, inverse, first, jumps),
         #[inline(always)]
@@ -164,10 +165,13 @@ impl FastProduct {
         outwards(&self.displacement, u, &self.inverse, &self.squares, w);
     }
 
-    /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
-    pub fn stress(&self, q: &[f64], p: &mut [f64]) {
+    /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal, from the node `first` on or from one
+    /// before it, which is returned. `q` ends at the grid's edge.
+    pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
         let rows = self.nodes.len();
+        let mut computed = rows;
         self.stress.apply(
+            rows - first,
             #[inline(always)]
             |first, jumps| {
                 let nodes = rows - first - jumps.len();
@@ -180,7 +184,8 @@ impl FastProduct {
             #[inline(always)]
             |first, sums| {
                 sums.reverse();
-                for (p, sum) in p[rows - first - sums.len()..].iter_mut().zip(sums) {
+                computed = rows - first - sums.len();
+                for (p, sum) in p[computed..].iter_mut().zip(sums) {
                     *p = FRAC_1_PI * *sum;
                 }
             },
@@ -189,11 +194,12 @@ impl FastProduct {
         let jump = FRAC_1_PI * q[last];
         if jump != 0.0 {
             let rim = self.nodes[last];
-            for (p, &r) in p[..last].iter_mut().zip(&self.nodes) {
+            for (p, &r) in p[computed..last].iter_mut().zip(&self.nodes[computed..]) {
                 *p += jump / leg(r, rim);
             }
             p[last] += 2.0 * jump / leg(self.nodes[last - 1], rim);
         }
+        computed
     }
 }
 
@@ -229,6 +235,7 @@ impl FastWorn {
         let start = FRAC_PI_2 * share(1);
         let g = &mut g[self.border..];
         self.outer.apply(
+            self.x.len(),
             |first, jumps| {
                 let mut before = first.checked_sub(1).map_or(0.0, slope);
                 for (jump, i) in jumps.iter_mut().zip(first..) {

@@ -107,7 +107,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
                 let l = grid.radius();
                 let scaled: Vec<f64> = scale.iter().map(|scale| scale * l).collect();
                 hold("p", &(&p * l), &values, tolerance, &scaled, &|q, p| {
-                    fast.stress(q, p);
+                    fast.stress_from(0, q, p);
                     p.iter_mut().for_each(|p| *p *= l);
                 });
             }
@@ -168,7 +168,7 @@ fn causality_is_strict() {
             let mut load = zeros_before(first, grid.len());
             load.reverse();
             load[..3].fill(0.0);
-            fast.stress(&load, &mut out);
+            fast.stress_from(0, &load, &mut out);
             assert!(out[grid.len() - first..].iter().all(|&p| p == 0.0));
         }
         if let Some(fast) = FastWorn::new(&grid, TOLERANCE) {
@@ -208,7 +208,7 @@ fn large_grids_are_no_trouble() {
     fast.displacement(grid.squares(), &mut out);
     assert!(is(&out, &|t| 0.5 * t));
     let load: Vec<f64> = grid.squares().iter().map(|t| 1.0 - t).collect();
-    fast.stress(&load, &mut out);
+    fast.stress_from(0, &load, &mut out);
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
 
@@ -229,7 +229,7 @@ fn large_grids_keep_the_tolerance_node_by_node() {
         let (mut g, mut w, mut p) = (vec![0.0; t.len()], vec![0.0; t.len()], vec![0.0; t.len()]);
         fast.profile(&values, &mut g);
         fast.displacement(&values, &mut w);
-        fast.stress(&values, &mut p);
+        fast.stress_from(0, &values, &mut p);
         for j in [700, 4321, 14_000, 20_011, 30_002, 35_555, cells - 1] {
             let r = x[j];
             let sums = |from: usize, to: usize, image: &dyn Fn(f64, f64) -> f64| {
@@ -276,7 +276,7 @@ fn kinks_between_nodes_are_as_exact_as_the_tolerance() {
             let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
             let q: Vec<f64> = t.iter().map(|&t| load(t)).collect();
             let mut p = vec![f64::NAN; grid.len()];
-            fast.stress(&q, &mut p);
+            fast.stress_from(0, &q, &mut p);
             let mut kinks = Vec::new();
             for k in 0..cells {
                 let inner = places.map(|at| (at, load(at)));

@@ -187,7 +187,7 @@ impl TestDir {
     pub fn wait_for(&self, child: &mut Child, name: &str) {
         let start = Instant::now();
         while !self.path(name).exists() {
-            assert!(start.elapsed() < Duration::from_secs(60), "no {name}");
+            assert!(start.elapsed() < Duration::from_secs(300), "no {name}");
             assert!(matches!(child.try_wait(), Ok(None)), "an early end");
             thread::sleep(Duration::from_millis(1));
         }
@@ -287,7 +287,7 @@ pub fn kill(mut child: Child) {
 pub fn end(mut child: Child) -> Said {
     let start = Instant::now();
     while let Ok(None) = child.try_wait() {
-        if start.elapsed() > Duration::from_secs(60) {
+        if start.elapsed() > Duration::from_secs(300) {
             let _ = child.kill();
             let said = child.wait_with_output();
             panic!("it does not end; so far it said {said:?}");

@@ -83,18 +83,13 @@ fn towards_ring(uniform: &Setup) -> Option<Setup> {
     let is_held = matches!(uniform.drive.normal(), Control::Force(_));
     let moves = uniform.wear.is_some() && is_held;
     let cells = uniform.grid.cells();
-    let grid = match thin_ring(&uniform.grid, border, ring.contact_radius) {
-        Some(within) => {
-            let ends = [border, ring.contact_radius];
-            RadialGrid::ringed(cells, ends, within, uniform.grid.radius()).ok()?
-        }
-        None if moves => RadialGrid::graded(cells, border, uniform.grid.radius()).ok()?,
+    let (edge, radius) = (ring.contact_radius, uniform.grid.radius());
+    let grid = match thin_ring(&uniform.grid, border, edge) {
+        Some(within) => RadialGrid::ringed(cells, [border, edge], within, radius),
+        None if moves => RadialGrid::graded(cells, border, radius),
         None => return None,
     };
-    Some(Setup {
-        grid: grid.without_border(),
-        ..uniform.clone()
-    })
+    Some(uniform.on(grid.ok()?.without_border()))
 }
 
 /// How many cells a ring from `border` to `edge` (m) is to get that has fewer than [`RING_CELLS`] on a `grid`; none
@@ -117,10 +112,7 @@ pub(crate) fn unseen_ring(setup: &Setup) -> Option<f64> {
 
 fn uniform(setup: &Setup) -> Setup {
     let grid = RadialGrid::uniform(setup.grid.cells(), setup.grid.radius());
-    Setup {
-        grid: grid.unwrap_or_else(|_| setup.grid.clone()),
-        ..setup.clone()
-    }
+    setup.on(grid.unwrap_or_else(|_| setup.grid.clone()))
 }
 
 /// g at the border of the permanent stick zone, and the radius at which the unworn indenter has it.
@@ -143,24 +135,17 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
     let rough = RadialGrid::graded(cells, border, radius).ok()?;
     let unworn = Unworn::of(setup);
     let edge = unworn.radius(unworn.deepest());
-    if let Some(within) = thin_ring(&rough, border, edge) {
+    let inside = |hair: f64| border - hair.max(INSIDE_MOVED * moved);
+    let grid = if let Some(within) = thin_ring(&rough, border, edge) {
         let hair = INSIDE_CELL * (edge - border) / RING_CELLS as f64;
-        let inside = border - hair.max(INSIDE_MOVED * moved);
-        let grid = RadialGrid::ringed(cells, [inside, edge], within, radius).ok()?;
-        return Some(Setup {
-            grid,
-            ..setup.clone()
-        });
-    }
-    let at = rough.border()?;
-    let cell = rough.nodes()[at + 1] - rough.nodes()[at];
-    let hair = f64::max(INSIDE_DOMAIN * radius, INSIDE_CELL * cell);
-    let inside = border - hair.max(INSIDE_MOVED * moved);
-    let grid = RadialGrid::graded(cells, inside, radius).ok()?;
-    Some(Setup {
-        grid,
-        ..setup.clone()
-    })
+        RadialGrid::ringed(cells, [inside(hair), edge], within, radius)
+    } else {
+        let at = rough.border()?;
+        let cell = rough.nodes()[at + 1] - rough.nodes()[at];
+        let hair = f64::max(INSIDE_DOMAIN * radius, INSIDE_CELL * cell);
+        RadialGrid::graded(cells, inside(hair), radius)
+    };
+    Some(setup.on(grid.ok()?))
 }
 
 /// Runs one period and reads where g reaches `depth`: by a parabola in x² through the last three

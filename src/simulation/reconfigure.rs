@@ -36,10 +36,7 @@ impl Simulation {
     pub fn reconfigure(&mut self, setup: Setup, domain: Domain) -> Result<(), Breakdown> {
         let setup = self.holding_wear(setup, domain)?;
         let setup = if border::stays(self.setup(), &setup) {
-            Setup {
-                grid: self.setup().grid.clone(),
-                ..setup
-            }
+            setup.on(self.setup().grid.clone())
         } else {
             border::graded(&setup, Some(self))
         };
@@ -73,10 +70,7 @@ impl Simulation {
         let Ok(grid) = before.grid.widened(radius) else {
             return Ok(false);
         };
-        let mut setup = Setup {
-            grid,
-            ..before.clone()
-        };
+        let mut setup = before.on(grid);
         if before.grid.border().is_some() {
             setup = border::graded(&setup, Some(self));
         }

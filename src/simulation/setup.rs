@@ -45,6 +45,14 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// The same on another grid.
+    pub(super) fn on(&self, grid: RadialGrid) -> Self {
+        Self {
+            grid,
+            ..self.clone()
+        }
+    }
+
     /// Tangential springs: one a node, none without tangential motion.
     pub fn springs(&self) -> usize {
         if self.drive.tangential().is_some() {

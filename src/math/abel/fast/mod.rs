@@ -192,7 +192,7 @@ impl FastProduct {
         );
         let last = rows - 1;
         let jump = FRAC_1_PI * q[last];
-        if jump != 0.0 {
+        if jump != 0.0 && computed < rows {
             let rim = self.nodes[last];
             for (p, &r) in p[computed..last].iter_mut().zip(&self.nodes[computed..]) {
                 *p += jump / leg(r, rim);

@@ -180,6 +180,35 @@ fn causality_is_strict() {
     }
 }
 
+/// Up to the node that is asked for, the stress is that of the whole, to the last bit; what lies further in is left.
+#[test]
+fn a_part_of_the_stress_is_that_of_the_whole() {
+    for grid in grids(200) {
+        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+        // With a jump at the end, and with nothing on the outer nodes.
+        for ends in [200, 120] {
+            let load: Vec<f64> = (0..grid.len())
+                .map(|k| {
+                    if k <= ends {
+                        1.0 + (k as f64).sin()
+                    } else {
+                        0.0
+                    }
+                })
+                .collect();
+            let mut whole = vec![f64::NAN; grid.len()];
+            assert_eq!(fast.stress_from(0, &load, &mut whole), 0);
+            for first in [0, 1, 64, 100, 137, 199, 200, 201] {
+                let mut part = vec![f64::NAN; grid.len()];
+                let from = fast.stress_from(first, &load, &mut part);
+                assert!(from <= first);
+                assert_eq!(part[from..], whole[from..], "{first}");
+                assert!(part[..from].iter().all(|p| p.is_nan()));
+            }
+        }
+    }
+}
+
 #[test]
 fn a_constant_and_not_a_number_are_passed_on() {
     let grid = RadialGrid::uniform(100, 1.0).expect("a grid");

@@ -69,7 +69,7 @@ impl History {
 
     fn row(&self, session: &Session) -> String {
         let values = self.values(session).into_iter();
-        let fields: Vec<String> = values.map(|(_, value)| value.field()).collect();
+        let fields: Vec<String> = values.map(|(_, value)| scalars::cell(&value)).collect();
         fields.join(",")
     }
 
@@ -170,5 +170,5 @@ impl History {
 
 /// The fields of a moment, in the order of the columns.
 pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
-    COLUMNS.map(|name| reading.value(name).field())
+    COLUMNS.map(|name| scalars::cell(&reading.value(name)))
 }

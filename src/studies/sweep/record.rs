@@ -76,7 +76,7 @@ pub(super) fn split(line: &str) -> Vec<String> {
 /// Returns a row as one JSON object: numbers as numbers, empty fields as null.
 pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) -> String {
     let value = |field: &String| match field.parse::<f64>() {
-        _ if field.is_empty() => Value::Missing,
+        _ if field.is_empty() => Value::Null,
         Ok(number) if number.is_finite() => number.into(),
         _ => field.clone().into(),
     };

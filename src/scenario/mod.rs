@@ -42,7 +42,7 @@ mod write;
 pub use changes::{Change, MOST_CHANGES};
 pub use complete::USUAL_ACCURACY;
 use error::{Faults, Origin, echo};
-pub use error::{Refusal, ScenarioError, printable};
+pub use error::{Refusal, printable};
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
@@ -72,7 +72,7 @@ impl PartialEq for Scenario {
 impl Scenario {
     /// Loads a preset by its name, or a file: what has a `/` or ends in `.toml` is a path. Each of
     /// `sets` is a `KEY=VALUE` that replaces what stands there.
-    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, ScenarioError> {
+    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Refusal> {
         if preset::is_path(name_or_path) {
             return Self::from_toml(&read::file(name_or_path)?, name_or_path, sets);
         }
@@ -80,13 +80,13 @@ impl Scenario {
             Some(preset) => Self::from_toml(preset.text, preset.name, sets),
             None => {
                 let rule = format!("no such preset; {}", preset::hint(name_or_path));
-                Err(Refusal::new(echo(name_or_path), rule).into())
+                Err(Refusal::new(echo(name_or_path), rule))
             }
         }
     }
 
     /// Reads a scenario from a text that messages call `origin`.
-    pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, ScenarioError> {
+    pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, Refusal> {
         let mut from = Origin::new(origin);
         let (mut table, commas) = read::table(text, &from)?;
         for set in sets {
@@ -96,13 +96,13 @@ impl Scenario {
         }
         let built = Self::build(table, from, origin);
         let errors = commas.into_iter().chain(built.as_ref().err().cloned());
-        ScenarioError::all(errors).map_or(built, Err)
+        Refusal::all(errors).map_or(built, Err)
     }
 
     /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
     /// word. Changing `indenter.shape` drops the keys of the shape before. Where the scenario gives
     /// no `numerics.grid` and `numerics.scheme`, they go with the `numerics.method` it is changed to.
-    pub fn with(&self, key: &str, value: &str) -> Result<Self, ScenarioError> {
+    pub fn with(&self, key: &str, value: &str) -> Result<Self, Refusal> {
         self.with_all(&[(key, value)])
     }
 
@@ -111,7 +111,7 @@ impl Scenario {
     pub fn with_all(
         &self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
-    ) -> Result<Self, ScenarioError> {
+    ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
         let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
@@ -272,7 +272,7 @@ impl Scenario {
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.
-    fn build(mut table: Table, mut from: Origin, origin: &str) -> Result<Self, ScenarioError> {
+    fn build(mut table: Table, mut from: Origin, origin: &str) -> Result<Self, Refusal> {
         blocks::expand(&mut table, &from)?;
         embed::files(&mut table, origin, &mut from)?;
         let from = &from;

@@ -327,7 +327,7 @@ mod tests {
         assert!(cheapest(&trials, 1e-4).is_none());
         let table = table(&trials, &trials);
         let rows = table.rows();
-        let stars = rows.iter().filter(|row| row[15] == Value::from("*"));
+        let stars = rows.iter().filter(|row| row[15] == "*");
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
         // No tangential motion, no stick radius; errors without a scar are no errors.

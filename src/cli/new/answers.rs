@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Value;
 
 use crate::scenario::schema::{self, Kind};
-use crate::scenario::{Scenario, ScenarioError, units, values};
+use crate::scenario::{Refusal, Scenario, units, values};
 
 /// What `questions.toml` says.
 #[derive(Deserialize)]
@@ -181,7 +181,7 @@ impl Draft {
     ///
     /// # Errors
     /// Answers that make no contact together.
-    pub fn scenario(&self, origin: &str) -> Result<Scenario, ScenarioError> {
+    pub fn scenario(&self, origin: &str) -> Result<Scenario, Refusal> {
         Scenario::from_toml(&self.to_toml(), origin, &[])
     }
 

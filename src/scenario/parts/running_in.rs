@@ -5,10 +5,7 @@ use crate::simulation::running_in::{Course, Over, RunningIn};
 
 impl Parts<'_> {
     /// The coefficients that run in; `None` if they are constant.
-    pub(super) fn running_in(
-        &self,
-        material: &Material,
-    ) -> Result<Option<RunningIn>, ScenarioError> {
+    pub(super) fn running_in(&self, material: &Material) -> Result<Option<RunningIn>, Refusal> {
         let mut all = RunningIn {
             friction: self.course("friction")?,
             wear: self.course("wear")?,
@@ -36,7 +33,7 @@ impl Parts<'_> {
         &self,
         per_load: f64,
         friction: Option<&Course>,
-    ) -> Result<Option<f64>, ScenarioError> {
+    ) -> Result<Option<f64>, Refusal> {
         let Some(friction) = friction else {
             return Ok(None);
         };
@@ -49,7 +46,7 @@ impl Parts<'_> {
     }
 
     /// The coefficient of a section as it runs in; `None` if it is constant.
-    fn course(&self, section: &str) -> Result<Option<Course>, ScenarioError> {
+    fn course(&self, section: &str) -> Result<Option<Course>, Refusal> {
         let key = |key: &str| join(section, key);
         let refused = |invalid| self.refused(section, invalid);
         for (at, over) in [("at_cycle", Over::Cycles), ("at_energy", Over::Energy)] {

@@ -11,7 +11,7 @@ const CUT_OFF: f64 = 0.05;
 
 impl Parts<'_> {
     /// The scar that the run begins with; `None` without `wear.initial`.
-    pub(super) fn scar(&self) -> Result<Option<Scar>, ScenarioError> {
+    pub(super) fn scar(&self) -> Result<Option<Scar>, Refusal> {
         if !self.has(RADII) && !self.has(DEPTHS) {
             return Ok(None);
         }
@@ -29,7 +29,7 @@ impl Parts<'_> {
         scar: &Scar,
         indenter: &Indenter,
         domain: f64,
-    ) -> Result<(), ScenarioError> {
+    ) -> Result<(), Refusal> {
         let (edge, (last, depth_there)) = (scar.edge(), scar.end());
         // A punch has no flank, and may be worn as deep as its slopes stay small.
         let flank = match indenter.rim() {

@@ -13,7 +13,7 @@ const FEWEST_IN_CONTACT: usize = 4;
 
 impl Parts<'_> {
     /// The unworn shape.
-    pub(super) fn indenter(&self) -> Result<Indenter, ScenarioError> {
+    pub(super) fn indenter(&self) -> Result<Indenter, Refusal> {
         let shape: String = self.require("indenter.shape")?;
         self.refuse_keys_of_other_shapes(&shape)?;
         let of = |key: &str| self.require::<f64>(&join("indenter", key));
@@ -36,7 +36,7 @@ impl Parts<'_> {
         .map_err(|invalid| self.refused("indenter", invalid))
     }
 
-    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), ScenarioError> {
+    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Refusal> {
         let foreign = schema::parameters()
             .iter()
             .find(|key| self.has(key.path) && !key.is_of(shape));
@@ -60,7 +60,7 @@ impl Parts<'_> {
         &self,
         measured: &MeasuredProfile,
         domain: f64,
-    ) -> Result<(), ScenarioError> {
+    ) -> Result<(), Refusal> {
         let last = measured.last_radius();
         let points = measured.points_within(domain);
         let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);

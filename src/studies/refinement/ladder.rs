@@ -370,9 +370,7 @@ mod tests {
         let tried = RefCell::new(Vec::new());
         let run = |scenario: &Scenario, _: f64, _: &dyn Fn() -> bool| {
             tried.borrow_mut().push(Level::of(scenario));
-            Err(SessionError::Scenario(
-                Refusal::from("broke".to_owned()).into(),
-            ))
+            Err(SessionError::Scenario(Refusal::from("broke".to_owned())))
         };
         let ladder = Ladder {
             scenario: &Scenario::load("li2019-fig3", &[]).expect("a scenario"),

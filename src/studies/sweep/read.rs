@@ -13,7 +13,7 @@ use super::study::{Stop, Study};
 use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
 use crate::scenario::scalars::{self, Scalar, number};
-use crate::scenario::{Refusal, Scenario, ScenarioError, printable, typed};
+use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{preset, schema, units, values};
 
 /// The columns of a study that names none.
@@ -92,13 +92,13 @@ impl Study {
     fn read_on(
         text: &str,
         origin: &str,
-        load: impl FnOnce(&str) -> std::result::Result<Scenario, ScenarioError>,
+        load: impl FnOnce(&str) -> Result<Scenario>,
     ) -> Result<Self> {
         let origin = printable(origin);
         let refused = |why: Refusal| Refusal::new(&origin, why);
         let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
-        let base = load(&given.base).map_err(|error| Refusal::from(error.to_string()))?;
+        let base = load(&given.base)?;
         given.study(base, written).map_err(refused)
     }
 }

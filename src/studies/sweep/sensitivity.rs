@@ -59,8 +59,7 @@ pub fn run(
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
-    let middle = study.scenario_at(&[], None);
-    let middle = middle.map_err(|error| Refusal::from(error.to_string()))?;
+    let middle = study.scenario_at(&[], None)?;
     let keys = study.varied();
     let valued = keys.iter().map(|(key, deviation)| {
         let deviation = Some(*deviation).filter(|known| *known > 0.0);

@@ -9,7 +9,7 @@ use super::Design;
 use super::axis::{self, Axis, known_key};
 use crate::scenario::scalars::Scalar;
 use crate::scenario::values::literal;
-use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
+use crate::scenario::{Refusal, Scenario, printable};
 use crate::scenario::{assign, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
@@ -101,7 +101,7 @@ impl Study {
     /// # Errors
     ///
     /// Refuses values that make no valid scenario, and one without an end.
-    pub fn scenario(&self, point: usize) -> Result<Scenario, ScenarioError> {
+    pub fn scenario(&self, point: usize) -> Result<Scenario, Refusal> {
         self.scenario_at(&self.places(point), None)
     }
 
@@ -114,7 +114,7 @@ impl Study {
         &self,
         places: &[usize],
         other: Option<(usize, f64)>,
-    ) -> Result<Scenario, ScenarioError> {
+    ) -> Result<Scenario, Refusal> {
         let set = self.set.iter();
         let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
         let axes = self.axes.iter().zip(places).enumerate();
@@ -129,7 +129,7 @@ impl Study {
         if scenario.run().cycles.is_none() {
             let (name, key) = (&self.base_name, "run.cycles");
             let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
-            return Err(ScenarioError::missing(name, key, meaning));
+            return Err(Refusal::missing(name, key, meaning));
         }
         Ok(scenario)
     }
@@ -168,14 +168,14 @@ impl Study {
     /// # Errors
     ///
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
-    pub fn assign(&mut self, set: &str) -> Result<(), ScenarioError> {
+    pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
         let (key, value) = assign::split(set, "--set ")?;
         let place = format!("--set {}", printable(set));
         known_key(key, &place)?;
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {
             let rule = format!("{key} is varied by an axis of the study");
-            return Err(Refusal::new(place, rule).into());
+            return Err(Refusal::new(place, rule));
         }
         let value: Value = value.parse().unwrap_or_else(|_| value.into());
         self.set.insert(key.to_owned(), value);

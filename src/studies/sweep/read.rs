@@ -111,7 +111,6 @@ impl Written {
         let varied = self.sensitivity.as_ref().map(sensitivity).transpose()?;
         let mut study = Study {
             title: self.title.as_deref().map(printable),
-            base_name: self.base,
             base,
             set: flat("set", &self.set)?.into_iter().collect(),
             axes: Vec::new(),

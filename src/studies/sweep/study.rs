@@ -31,8 +31,6 @@ pub struct Stop {
 pub struct Study {
     /// The `title`, if there is one.
     pub title: Option<String>,
-    /// The base as the study names it: a preset, or a path relative to the study.
-    pub base_name: String,
     /// The base.
     pub base: Scenario,
     /// What is set for all points, as `--set` takes it.
@@ -127,7 +125,7 @@ impl Study {
         let all: Vec<(&str, String)> = set.chain(axes).collect();
         let scenario = self.base.with_all(&all)?;
         if scenario.run().cycles.is_none() {
-            let (name, key) = (&self.base_name, "run.cycles");
+            let (name, key) = (self.base.origin(), "run.cycles");
             let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
             return Err(Refusal::missing(name, key, meaning));
         }

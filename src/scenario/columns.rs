@@ -105,12 +105,6 @@ impl Columns {
         })
     }
 
-    /// The cycle that the header states.
-    pub fn stated_cycle(&self) -> Option<f64> {
-        let (_, cycle) = self.header.iter().find(|(key, _)| key == "cycle")?;
-        cycle.parse().ok()
-    }
-
     /// The number of rows.
     pub fn rows(&self) -> usize {
         self.rows.len()

@@ -110,6 +110,7 @@ impl Measured {
 fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measured, Refusal> {
     let (_, unit) = values.rsplit_once('_').unwrap_or_default();
     let error = format!("error_{unit}");
+    let cycle = columns.header.iter().find(|(key, _)| key == "cycle");
     let measured = Measured {
         name: columns.path.clone(),
         axes,
@@ -119,7 +120,7 @@ fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measure
             true => Some(columns.column(&error)?),
             false => None,
         },
-        cycle: columns.stated_cycle(),
+        cycle: cycle.and_then(|(_, cycle)| cycle.parse().ok()),
     };
     if measured.at.len() < FEWEST {
         return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));

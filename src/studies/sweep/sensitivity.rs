@@ -48,7 +48,7 @@ pub struct Sensitivity {
     pub is_resolved: bool,
 }
 
-/// Finds the elasticities of the study's columns with respect to its [varied](Study::varied) keys, around its base with
+/// Finds the elasticities of the study's columns with respect to the keys that it asks for, or those of its axes, around its base with
 /// what it sets. None if `go_on` said no before the end.
 ///
 /// # Errors
@@ -60,7 +60,11 @@ pub fn run(
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
     let middle = study.scenario_at(&[], None)?;
-    let keys = study.varied();
+    let axes = study.axes.iter().map(|axis| (axis.key.clone(), 0.0));
+    let keys = match &study.sensitivity[..] {
+        [] => axes.collect(),
+        asked => asked.to_vec(),
+    };
     let valued = keys.iter().map(|(key, deviation)| {
         let deviation = Some(*deviation).filter(|known| *known > 0.0);
         let value = middle.value(key);

@@ -132,15 +132,6 @@ impl Study {
         Ok(scenario)
     }
 
-    /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.
-    pub fn varied(&self) -> Vec<(String, f64)> {
-        if !self.sensitivity.is_empty() {
-            return self.sensitivity.clone();
-        }
-        let axes = self.axes.iter().map(|axis| (axis.key.clone(), 0.0));
-        axes.collect()
-    }
-
     /// The unit of an axis.
     pub fn unit(&self, axis: &Axis) -> &'static str {
         let is_force = self.is_force(&axis.key);

@@ -105,7 +105,7 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
             .iter()
             .filter(|known| known.section() == "changes")
         {
-            if !table.contains_key(parameter.key()) && !faults.blames(parameter.path) {
+            if !table.contains_key(parameter.key()) && !faults.covers(parameter.path) {
                 let shown = values::join(&shown, parameter.key());
                 faults.note(&shown, origin.missing(&shown, parameter.described()));
             }

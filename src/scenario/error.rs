@@ -69,7 +69,7 @@ pub(super) struct Faults(Vec<(String, Option<Refusal>)>);
 impl Faults {
     /// Notes an error that is due to the key at `path`. A key is blamed once.
     pub fn note(&mut self, path: &str, error: Refusal) {
-        if !self.blames(path) {
+        if self.paths().all(|blamed| blamed != path) {
             self.0.push((path.to_owned(), Some(error)));
         }
     }
@@ -77,11 +77,6 @@ impl Faults {
     /// Notes that the key at `path` is dealt with by an error that is there already.
     pub fn blame(&mut self, path: &str) {
         self.0.push((path.to_owned(), None));
-    }
-
-    /// Whether an error deals with the key at `path`.
-    pub fn blames(&self, path: &str) -> bool {
-        self.paths().any(|blamed| blamed == path)
     }
 
     /// Whether an error deals with the key at `path`, or with the whole table that it stands in.

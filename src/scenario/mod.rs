@@ -7,7 +7,6 @@
 
 use std::path::Path;
 
-use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
 use crate::reading::fatigue::Limits;
@@ -279,7 +278,7 @@ impl Scenario {
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
         let (complete, setup) = parts::setup(&mut table, from, faults)?;
-        let changes: Vec<Change> = part(&table, "changes");
+        let changes: Vec<Change> = schema::read(&table, "changes").unwrap_or_default();
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
@@ -295,7 +294,7 @@ impl Scenario {
             description: lines.join("\n"),
             table: complete,
             setup,
-            run: part(&table, "run"),
+            run: schema::read(&table, "run").unwrap_or_default(),
             changes: Vec::new(),
         };
         scenario.check_changes(&changes, from)?;
@@ -315,11 +314,4 @@ impl Scenario {
         table.extend([("run".into(), plan), ("changes".into(), changes)]);
         table
     }
-}
-
-/// A part of a checked table as a value of its own.
-fn part<T: DeserializeOwned + Default>(table: &Table, key: &str) -> T {
-    let part = table.get(key).cloned();
-    part.and_then(|part| part.try_into().ok())
-        .unwrap_or_default()
 }

@@ -17,7 +17,16 @@ impl Parts<'_> {
         };
         if let Some(per_load) = self.get("wear.coefficient_per_load") {
             all.wear = None;
-            all.wear_per_load = self.over_friction(per_load, all.friction.as_ref())?;
+            all.wear_per_load = all.friction.as_ref().map(|_| per_load);
+            if all
+                .friction
+                .as_ref()
+                .is_some_and(|friction| friction.least() <= 0.0)
+            {
+                let rule = "needs friction greater than 0 at all times: per friction work it is \
+                            k = coefficient_per_load / friction";
+                return Err(self.refuse("wear.coefficient_per_load", rule));
+            }
         }
         // Behind the threshold the coefficient is what it is without one.
         if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
@@ -26,23 +35,6 @@ impl Parts<'_> {
             all.wear = Some(constant.map_err(|invalid| self.refused("wear", invalid))?);
         }
         Ok((all != RunningIn::default()).then_some(all))
-    }
-
-    /// A coefficient per load and distance, over friction that runs in; `None` where that is constant.
-    fn over_friction(
-        &self,
-        per_load: f64,
-        friction: Option<&Course>,
-    ) -> Result<Option<f64>, Refusal> {
-        let Some(friction) = friction else {
-            return Ok(None);
-        };
-        if friction.least() > 0.0 {
-            return Ok(Some(per_load));
-        }
-        let rule = "needs friction greater than 0 at all times: per friction work it is \
-                    k = coefficient_per_load / friction";
-        Err(self.refuse("wear.coefficient_per_load", rule))
     }
 
     /// The coefficient of a section as it runs in; `None` if it is constant.

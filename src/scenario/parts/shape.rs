@@ -65,7 +65,7 @@ impl Parts<'_> {
         let points = measured.points_within(domain);
         let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);
         let unit = "are r and f in m? columns r_mm and f_um are converted";
-        let edge = length(domain);
+        let [edge, end] = [domain, last].map(length);
         let rule = if slope > STEEPEST {
             format!("a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}")
         } else if domain > last {
@@ -74,10 +74,7 @@ impl Parts<'_> {
             } else {
                 "; a longer trace, or a smaller depth".into()
             };
-            format!(
-                "the table ends at r = {} m, but the contact can reach {edge} m{hint}",
-                length(last)
-            )
+            format!("the table ends at r = {end} m, but the contact can reach {edge} m{hint}")
         } else if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
             format!(
                 "only {points} points lie within {edge} m, where contact is possible, \

@@ -36,7 +36,7 @@ pub mod session;
 pub mod typed;
 pub mod units;
 pub(crate) mod values;
-mod write;
+pub(crate) mod write;
 
 pub use changes::{Change, MOST_CHANGES};
 pub use complete::USUAL_ACCURACY;

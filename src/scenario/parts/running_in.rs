@@ -40,29 +40,25 @@ impl Parts<'_> {
     /// The coefficient of a section as it runs in; `None` if it is constant.
     fn course(&self, section: &str) -> Result<Option<Course>, Refusal> {
         let key = |key: &str| join(section, key);
-        let refused = |invalid| self.refused(section, invalid);
-        for (at, over) in [("at_cycle", Over::Cycles), ("at_energy", Over::Energy)] {
-            let Some(rows) = self.get::<Vec<f64>>(&key(at)) else {
+        let forms = [
+            ("at_cycle", "running_in_cycles", Over::Cycles),
+            ("at_energy", "running_in_energy", Over::Energy),
+        ];
+        for (rows, constant, over) in forms {
+            let course = if let Some(rows) = self.get::<Vec<f64>>(&key(rows)) {
+                Course::table(&rows, &self.require::<Vec<f64>>(&key("values"))?, over)
+            } else if let Some(constant) = self.get(&key(constant)) {
+                let first = self.require(&key("coefficient"))?;
+                Course::exponential(first, self.require(&key("settled"))?, constant, over)
+            } else {
                 continue;
             };
-            let values: Vec<f64> = self.require(&key("values"))?;
-            return Course::table(&rows, &values, over)
+            return course
                 .map(Some)
-                .map_err(refused);
-        }
-        let constants = ["running_in_cycles", "running_in_energy"].map(key);
-        for (constant, over) in constants.iter().zip([Over::Cycles, Over::Energy]) {
-            let Some(constant) = self.get(constant) else {
-                continue;
-            };
-            let (first, settled) = (
-                self.require(&key("coefficient"))?,
-                self.require(&key("settled"))?,
-            );
-            let course = Course::exponential(first, settled, constant, over);
-            return course.map(Some).map_err(refused);
+                .map_err(|invalid| self.refused(section, invalid));
         }
         if self.has(&key("settled")) {
+            let constants = forms.map(|(_, constant, _)| key(constant));
             let rule = format!("needs {}", constants.join(" or "));
             return Err(self.refuse(&key("settled"), rule));
         }

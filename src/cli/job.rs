@@ -32,13 +32,10 @@ pub struct RunJob {
     /// The rows so far.
     pub history: History,
     /// The steps of the last cycle.
-    #[serde(default)]
     pub last_loop: LastLoop,
     /// Statements for the file headers, such as the estimated error.
-    #[serde(default)]
     pub statements: Vec<(String, String)>,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
-    #[serde(default)]
     pub home: Option<PathBuf>,
 }
 

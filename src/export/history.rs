@@ -26,11 +26,9 @@ pub struct History {
     /// The newest rows, which are not in the file yet.
     rows: String,
     /// How much of the file belongs to this history, in bytes.
-    #[serde(default)]
     written: u64,
     last_cycle: Option<f64>,
     /// Columns after the ones that every history has.
-    #[serde(default)]
     further: Vec<String>,
 }
 

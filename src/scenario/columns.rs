@@ -105,11 +105,6 @@ impl Columns {
         })
     }
 
-    /// The number of rows.
-    pub fn rows(&self) -> usize {
-        self.rows.len()
-    }
-
     /// The line of the file that holds `row`, counted from 1.
     pub fn line(&self, row: usize) -> u64 {
         self.rows.get(row).map_or(0, |(line, _)| *line)
@@ -228,7 +223,7 @@ mod tests {
             ),
         ] {
             let columns = parsed(text);
-            assert_eq!(columns.rows(), 2);
+            assert_eq!(columns.rows.len(), 2);
             for (name, value) in ["r", "f"].into_iter().zip(expected) {
                 let column = columns.column(&format!("{name}_m")).expect("a column");
                 assert!((column[1] / value - 1.0).abs() < 1e-14, "{text}");

@@ -47,7 +47,7 @@ pub type Column = (&'static str, &'static str, Format);
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     columns: Vec<Column>,
-    rows: Vec<Vec<Value>>,
+    pub(super) rows: Vec<Vec<Value>>,
 }
 
 impl Table {
@@ -71,11 +71,6 @@ impl Table {
         let mut row = row.as_array().cloned().unwrap_or_default();
         row.resize(self.columns.len(), Value::Null);
         self.rows.push(row);
-    }
-
-    /// The rows.
-    pub fn rows(&self) -> &[Vec<Value>] {
-        &self.rows
     }
 
     fn names(&self) -> Vec<&'static str> {

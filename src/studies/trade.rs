@@ -326,7 +326,7 @@ mod tests {
         assert_eq!(cheapest(&trials, 5e-3).map(points), Some(4));
         assert!(cheapest(&trials, 1e-4).is_none());
         let table = table(&trials, &trials);
-        let rows = table.rows();
+        let rows = &table.rows;
         let stars = rows.iter().filter(|row| row[15] == "*");
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));

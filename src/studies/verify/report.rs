@@ -179,6 +179,6 @@ mod tests {
         let json = serde_json::to_value(all_rows(&outcomes)).expect("JSON");
         assert_eq!(json[1]["stopped_at_cycle"], 12.5);
         assert!(json[1]["max"].is_null());
-        assert_eq!(all_nodes(&outcomes).rows().len(), 0);
+        assert_eq!(all_nodes(&outcomes).rows.len(), 0);
     }
 }

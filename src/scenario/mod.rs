@@ -9,7 +9,6 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use crate::reading::fatigue::Limits;
 use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
@@ -237,14 +236,6 @@ impl Scenario {
     /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
     pub fn fatigue_limit(&self) -> Option<f64> {
         schema::read(&self.table, "material.fatigue_limit")
-    }
-
-    /// Both fatigue limits, where both are given.
-    pub fn fatigue_limits(&self) -> Option<Limits> {
-        Some(Limits {
-            tension: self.fatigue_limit()?,
-            shear: schema::read(&self.table, "material.shear_fatigue_limit")?,
-        })
     }
 
     /// The value at a dotted path as TOML, where the scenario gives one.

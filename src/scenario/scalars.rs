@@ -4,7 +4,7 @@
 
 use std::cell::OnceCell;
 
-use super::{nearest, printable};
+use super::{nearest, printable, schema};
 use crate::math::scan::largest;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
@@ -107,7 +107,11 @@ impl<'a> Reading<'a> {
     }
 
     fn limits(&self) -> Option<Limits> {
-        self.session.scenario().fatigue_limits()
+        let scenario = self.session.scenario();
+        Some(Limits {
+            tension: scenario.fatigue_limit()?,
+            shear: schema::read(&scenario.table, "material.shear_fatigue_limit")?,
+        })
     }
 
     /// Where the Smith–Watson–Topper parameter is largest.

@@ -64,15 +64,10 @@ impl Setting {
         keys
     }
 
-    /// An estimate of the work of a run of `cycles`, in kernel values.
-    pub fn effort(&self, cycles: f64) -> f64 {
-        let cycles = match self.level.tolerance {
-            // What a jump looks at hardly depends on how far it goes.
-            Some(tolerance) => cycles.min(60.0 * tolerance.powf(-0.25)),
-            None => cycles,
-        };
+    /// An estimate of the work of a cycle, in kernel values.
+    fn effort(&self) -> f64 {
         let nodes = self.level.points as f64;
-        cycles * f64::from(self.level.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)
+        f64::from(self.level.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)
     }
 
     /// The same as options that `run` takes.
@@ -139,7 +134,7 @@ pub fn settings(
             }
         }
     }
-    settings.sort_by(|a, b| a.effort(1.0).total_cmp(&b.effort(1.0)));
+    settings.sort_by(|a, b| a.effort().total_cmp(&b.effort()));
     settings
 }
 

@@ -8,20 +8,15 @@ use super::hints;
 use super::schema::{self, Kind, Parameter};
 use super::values;
 
-/// Splits `KEY=VALUE`; `flag` stands before it in messages.
-pub(crate) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), Refusal> {
+/// Splits `KEY=VALUE`, which stands at `place`.
+pub(crate) fn split<'a>(text: &'a str, place: &str) -> Result<(&'a str, &'a str), Refusal> {
     let halves = text
         .split_once('=')
         .map(|(key, value)| (key.trim(), value.trim()));
-    match halves {
-        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key, value)),
-        _ => Err(no_assignment(format_args!("{flag}{}", echo(text)))),
-    }
-}
-
-/// Refuses what stands at `place` as no assignment.
-pub(super) fn no_assignment(place: impl std::fmt::Display) -> Refusal {
-    Refusal::new(place, "must be KEY=VALUE, as in numerics.points=400")
+    let rule = "must be KEY=VALUE, as in numerics.points=400";
+    halves
+        .filter(|(key, value)| !key.is_empty() && !value.is_empty())
+        .ok_or_else(|| Refusal::new(place, rule))
 }
 
 /// Puts `value` at the dotted path `key`; `written` is how the user wrote it.

@@ -85,8 +85,7 @@ impl Scenario {
         let mut table = self.with_changes(Vec::new()).whole();
         for (at, change) in changes.iter().enumerate() {
             let written = place(at);
-            let (key, value) =
-                assign::split(&change.set, "").map_err(|_| assign::no_assignment(&written))?;
+            let (key, value) = assign::split(&change.set, &written)?;
             if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
                 let rule = format!("{key} cannot change during a run: {because}");
                 return Err(Refusal::new(written, rule));

@@ -88,8 +88,8 @@ impl Scenario {
         let mut from = Origin::new(origin);
         let (mut table, commas) = read::table(text, &from)?;
         for set in sets {
-            let (key, value) = assign::split(set, "--set ")?;
             let written = format!("--set {}", echo(set));
+            let (key, value) = assign::split(set, &written)?;
             assign::assign(&mut table, &mut from, key, value, &written)?;
         }
         let built = Self::build(table, from, origin);

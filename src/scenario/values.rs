@@ -24,18 +24,13 @@ pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
 /// Writes the value, making the tables on the way. Where something else stands in the way of a
 /// table, it stays, and the check of all keys will find it.
 pub(super) fn insert(table: &mut Table, path: &str, value: Value) {
-    match path.split_once('.') {
-        None => {
-            table.insert(path.to_owned(), value);
-        }
-        Some((first, rest)) => {
-            let entry = table
-                .entry(first)
-                .or_insert_with(|| Value::Table(Table::new()));
-            if let Value::Table(inner) = entry {
-                insert(inner, rest, value);
-            }
-        }
+    let Some((first, rest)) = path.split_once('.') else {
+        table.insert(path.to_owned(), value);
+        return;
+    };
+    let entry = table.entry(first).or_insert(Value::Table(Table::new()));
+    if let Value::Table(inner) = entry {
+        insert(inner, rest, value);
     }
 }
 

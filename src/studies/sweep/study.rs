@@ -158,8 +158,8 @@ impl Study {
     ///
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
-        let (key, value) = assign::split(set, "--set ")?;
         let place = format!("--set {}", printable(set));
+        let (key, value) = assign::split(set, &place)?;
         known_key(key, &place)?;
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {

@@ -28,8 +28,10 @@ pub fn check(
     mut go_on: impl FnMut(usize) -> bool,
 ) -> Result<(), Refusal> {
     let all = shard.points(study.points());
-    let is_large = all.len() > CHUNK;
-    let first = is_large.then(|| edges(study, shard)).unwrap_or_default();
+    let first = match all.len() > CHUNK {
+        true => edges(study, shard),
+        false => Vec::new(),
+    };
     let mut left = first.into_iter().chain(all).peekable();
     let mut checked = 0;
     while left.peek().is_some() && go_on(checked) {

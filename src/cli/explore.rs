@@ -41,7 +41,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
             let scenario = Scenario::load(&options.scenario, &options.changes.set)
                 // The error itself names a preset that is as near.
                 .map_err(|error| match mistyped_command(&options.scenario) {
-                    Some(refusal) if !error.to_string().contains("did you mean") => refusal.into(),
+                    Some(refusal) if !error.to_string().contains("did you mean") => refusal,
                     _ => error,
                 })?;
             let found = accuracy::resolve(&scenario, false, refinement::resolve_soon)?;

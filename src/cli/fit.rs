@@ -13,7 +13,7 @@ use crate::plot::units::reading;
 use crate::plot::{Axis, Chart, Curve, Marker};
 use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Fit, Fitted};
+use crate::studies::fit::{Fit, Fitted, rms};
 use crate::studies::measured::Measured;
 use crate::studies::refinement;
 use crate::traces::Axes;
@@ -29,7 +29,11 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     let fit = Fit::new(found.scenario, data(options)?, free, cycles, robust)?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.quiet);
-    let outcome = fit.run(&mut || bar.inc(1));
+    let mut runs = 0;
+    let outcome = fit.run(&mut || {
+        runs += 1;
+        bar.inc(1);
+    });
     bar.finish_and_clear();
     let fitted = outcome?;
     if let Some(target) = target {
@@ -38,8 +42,9 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     let keys = fitted.values.iter().map(|value| (&value.key, value));
     let keys: BTreeMap<_, _> = keys.collect();
     results::print(options.json.then_some(&keys), || {
-        let plots = || residual_plots(&fitted, options.drawing.marker);
-        report(&fitted) + &options.drawing.plot.then(plots).unwrap_or_default()
+        let plots = || residual_plots(&fit, &fitted, options.drawing.marker);
+        let plots = options.drawing.plot.then(plots).unwrap_or_default();
+        format!("{}{runs} runs\n{plots}", report(&fit, &fitted))
     })?;
     let remarks = fitted.remarks.iter().filter(|_| options.json);
     remarks.for_each(|remark| complain(remark));
@@ -76,7 +81,7 @@ fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
 }
 
 /// The keys with their errors and correlations, and how well each data set is matched.
-fn report(fitted: &Fitted) -> String {
+fn report(fit: &Fit, fitted: &Fitted) -> String {
     let mut lines = Vec::new();
     let width = fitted.values.iter().map(|value| value.key.len()).max();
     let width = width.unwrap_or(0);
@@ -103,13 +108,13 @@ fn report(fitted: &Fitted) -> String {
             lines.push(format!("correlation {other} - {key}: {correlation:.3}"));
         }
     }
-    for set in &fitted.compared {
-        let (rms, points) = (set.rms(), set.residuals.len());
-        let (name, unit) = (&set.measured.name, set.measured.axes.unit());
-        let at = match (set.measured.axes, set.measured.cycle) {
+    for (set, left) in fit.data.iter().zip(&fitted.residuals) {
+        let (rms, points) = (rms(left), left.len());
+        let (name, unit) = (&set.name, set.axes.unit());
+        let at = match (set.axes, set.cycle) {
             (Axes::LOOP, Some(cycle)) => format!(" in cycle {cycle}"),
             (Axes::LOOP, None) => {
-                let last = fitted.cycles;
+                let last = fit.cycles;
                 format!(" in the last cycle, {last} (--loop {name}@CYCLE for another)")
             }
             _ => String::new(),
@@ -118,19 +123,17 @@ fn report(fitted: &Fitted) -> String {
         lines.push(format!("{name}: {points} points{at}, {residuals}"));
     }
     lines.extend(fitted.remarks.iter().cloned());
-    lines.push(format!("{} runs\n", fitted.runs));
-    lines.join("\n")
+    lines.iter().map(|line| format!("{line}\n")).collect()
 }
 
 /// Measured minus simulated values, one plot per data set.
-fn residual_plots(fitted: &Fitted, marker: Marker) -> String {
-    let charts = fitted.compared.iter().map(|set| {
-        let measured = &set.measured;
+fn residual_plots(fit: &Fit, fitted: &Fitted, marker: Marker) -> String {
+    let sets = fit.data.iter().zip(&fitted.residuals);
+    let charts = sets.map(|(measured, left)| {
         let abscissa = measured.axes.x;
         let (name, unit) = abscissa.rsplit_once('_').unwrap_or((abscissa, ""));
         let ordinate = Axis::new(format!("{}: residual", measured.name), measured.axes.unit());
-        let (at, left) = (measured.at.clone(), set.residuals.clone());
-        let curve = Curve::new("", at, left, Role::Profile);
+        let curve = Curve::new("", &measured.at[..], &left[..], Role::Profile);
         Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
     });
     small_multiples::draw(&charts.collect::<Vec<_>>(), marker)

@@ -25,23 +25,17 @@ pub struct RunJob {
     pub cycles: f64,
     /// Whether the history has a row per step or per cycle.
     every_step: bool,
-    /// Cycles at which the state is written, in the order given, those beyond the end included.
+    /// Cycles at which the state is written, in order, those beyond the end included.
     pub snapshots: Vec<CycleAsGiven>,
-    /// Those up to the end, sorted by cycle.
-    #[serde(skip)]
-    due: Vec<CycleAsGiven>,
     /// How many of these are done.
     taken: usize,
     /// The rows so far.
     pub history: History,
     /// The steps of the last cycle.
-    #[serde(default)]
     pub last_loop: LastLoop,
     /// Statements for the file headers, such as the estimated error.
-    #[serde(default)]
     pub statements: Vec<(String, String)>,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
-    #[serde(default)]
     pub home: Option<PathBuf>,
 }
 
@@ -101,10 +95,9 @@ impl RunJob {
 
     /// Sorts the snapshots and refuses histories too large to store.
     fn ready(mut self, scenario: &Scenario) -> Result<Self> {
-        self.due = self.snapshots.clone();
-        self.due.retain(|snapshot| snapshot.cycle() <= self.cycles);
-        self.due.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
-        let count = self.due.len();
+        self.snapshots
+            .sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
+        let count = self.snapshots.len();
         let rule = format!("{count} snapshots; the limit is {MOST_SNAPSHOTS}");
         ensure!(count <= MOST_SNAPSHOTS, Refusal::new("--snapshot-at", rule));
         let rows = self.cycles * scenario.setup().steps_in_a_cycle();
@@ -119,19 +112,19 @@ impl RunJob {
     pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
         self.has_snapshot_before(cycle).then(|| {
             self.taken += 1;
-            self.due[self.taken - 1].clone()
+            self.snapshots[self.taken - 1].clone()
         })
     }
 
     /// Whether a snapshot is due before `cycle`.
     pub fn has_snapshot_before(&self, cycle: f64) -> bool {
-        let next = self.due.get(self.taken);
-        next.is_some_and(|next| next.cycle() < cycle)
+        let next = self.snapshots.get(self.taken).map(CycleAsGiven::cycle);
+        next.is_some_and(|next| next < cycle && next <= self.cycles)
     }
 
     /// The snapshots done so far.
     pub fn taken(&self) -> impl Iterator<Item = &CycleAsGiven> {
-        self.due.iter().take(self.taken)
+        self.snapshots.iter().take(self.taken)
     }
 
     /// The snapshots as `scenario.toml` is to name them.

@@ -17,7 +17,7 @@ use clap_complete::CompleteEnv;
 use crate::export::file::WriteError;
 use crate::scenario::nearest::nearest;
 use crate::scenario::session::SessionError;
-use crate::scenario::{Refusal, ScenarioError, preset, printable};
+use crate::scenario::{Refusal, preset, printable};
 use crate::tui::NoTerminal;
 
 mod accuracy;
@@ -76,10 +76,10 @@ pub fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            let refusals = error.downcast_ref().map(ScenarioError::refusals);
-            match refusals.unwrap_or_default() {
+            let lines = error.downcast_ref().map(Refusal::lines);
+            match lines.unwrap_or_default() {
                 [] | [_] => complain(&format!("{error:#}")),
-                several => several.iter().for_each(|each| complain(&each.to_string())),
+                several => several.iter().for_each(|line| complain(line)),
             }
             ExitCode::from(exit_code(&error))
         }
@@ -148,7 +148,6 @@ fn exit_code(error: &anyhow::Error) -> u8 {
         let written = cause.downcast_ref::<WriteError>();
         wraps_misuse
             || cause.is::<Refusal>()
-            || cause.is::<ScenarioError>()
             || cause.is::<NoTerminal>()
             || written.is_some_and(WriteError::is_misuse)
     };

@@ -17,6 +17,9 @@ const INTERVAL: Duration = Duration::from_millis(100);
 /// Template of a bar that can estimate the remaining time.
 pub const TIMES: &str = "{percent}%  {elapsed} gone, {eta} to go";
 
+/// Template of a bar that counts runs of different lengths, whose remaining time nobody knows.
+pub const COUNTS: &str = "{pos} of {len}  {elapsed} gone";
+
 /// A bar of `length`, with `behind` (placeholders of `indicatif`) behind it; silent if `quiet` or if
 /// stderr is no terminal.
 pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {

@@ -23,13 +23,6 @@ const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
 /// The accuracy that a setting is recommended for where none is asked for.
 const USUAL: f64 = ACCURACIES[0];
 
-/// Errors below this one are small enough for any figure: the search ends there, or where the reference blurs.
-const FINE: f64 = 1e-3;
-
-/// Once a setting is fine enough, others are tried up to this many times its work: work predicts the time of
-/// different methods only roughly.
-const SLOWER: f64 = 2.0;
-
 /// The longest that the search for an accuracy may take, s.
 const LONGEST_SEARCH: f64 = 10.0;
 
@@ -85,8 +78,11 @@ fn run(
     let (points, steps) = (&options.points, &options.steps);
     let settings = trade::settings(scenario, &options.methods, points, steps);
     let finest = trade::reference(scenario, points, steps);
-    let behind = "{pos} of {len}  {elapsed} gone";
-    let bar = progress::bar(settings.len() as u64, behind, options.output.quiet);
+    let bar = progress::bar(
+        settings.len() as u64,
+        progress::COUNTS,
+        options.output.quiet,
+    );
     let measure = |setting: &Setting, what: &str| {
         bar.set_message(format!("{what}{setting} by {}", setting.scheme));
         bar.tick();
@@ -101,24 +97,13 @@ fn run(
     let half = measure(&half, "reference, ").ok();
     let differs = |(half, _)| Outcome::of(&half).against(&Outcome::of(&reference)).worst();
     let blur = half.map(differs);
-    // With the default cells and steps, settings that are too slow are left out: once one is as good as the reference
-    // can resolve, slower ones add nothing.
-    let is_usual = points[..] == trade::POINTS && steps[..] == trade::STEPS;
-    let (resolved, mut enough) = (FINE.max(blur.unwrap_or(0.0)), f64::INFINITY);
     let mut trials: Vec<Trial> = Vec::new();
     for setting in &settings {
-        let effort = setting.effort(cycles);
-        if !is_usual || effort <= SLOWER * enough {
-            let ended = measure(setting, "");
-            if !go_on() {
-                break;
-            }
-            let trial = Trial::new(setting.clone(), ended, &reference);
-            if trial.point.is_some_and(|[_, error]| error <= resolved) {
-                enough = enough.min(effort);
-            }
-            trials.push(trial);
+        let ended = measure(setting, "");
+        if !go_on() {
+            break;
         }
+        trials.push(Trial::new(setting.clone(), ended, &reference));
         bar.inc(1);
     }
     let blur = blur.map_or(String::new(), |blur| {

@@ -34,16 +34,13 @@ pub fn verify(options: &Verify) -> Result<()> {
 }
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
-    let effort = |task: &Task| task.problem.effort(task.points);
-    // No remaining time: the effort is too rough an estimate.
-    let length = tasks.iter().map(effort).sum();
-    let bar = progress::bar(length, "{percent}%  {elapsed} gone", quiet);
+    let bar = progress::bar(tasks.len() as u64, progress::COUNTS, quiet);
     let outcomes = tasks.iter().map(|task| {
         let (problem, method, points) = (task.problem, task.method, task.points);
         bar.set_message(format!("{problem}, {method}, N = {points}"));
         bar.tick();
         let outcome = task.run();
-        bar.inc(effort(task));
+        bar.inc(1);
         outcome
     });
     let outcomes = outcomes.collect();

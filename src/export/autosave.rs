@@ -75,25 +75,22 @@ impl Autosave {
     /// Writes `checkpoint`, which holds `session`; returns a message when that begins to fail or to go elsewhere. The
     /// next one is due an interval later, even if this fails.
     pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
-        let home = self.home.as_deref();
-        let at_home = home.map(|path| write_whole(path, checkpoint).map(|()| path.to_owned()));
-        let elsewhere = match &at_home {
-            Some(Ok(_)) => {
-                if let Some(elsewhere) = self.elsewhere.take() {
-                    let _ = fs::remove_file(elsewhere.path());
-                }
-                None
-            }
-            _ => self.save_elsewhere(&session.loaded().stem(), checkpoint),
-        };
-        self.last = Instant::now();
         let (mut saved, mut failure) = (None, None);
-        for outcome in at_home.into_iter().chain(elsewhere) {
-            match outcome {
-                Ok(path) => saved = Some(path),
-                Err(error) => failure = failure.or(Some(error.to_string())),
+        if let Some(home) = &self.home {
+            match write_whole(home, checkpoint) {
+                Ok(()) => saved = Some(home.clone()),
+                Err(error) => failure = Some(error.to_string()),
             }
         }
+        if saved.is_none() {
+            match self.save_elsewhere(&session.loaded().stem(), checkpoint) {
+                Ok(place) => saved = place,
+                Err(error) => failure = failure.or(Some(error.to_string())),
+            }
+        } else if let Some(elsewhere) = self.elsewhere.take() {
+            let _ = fs::remove_file(elsewhere.path());
+        }
+        self.last = Instant::now();
         let outcome = match &saved {
             Some(path) => format!("checkpoints go to {}", path.display()),
             None => "the run continues without a checkpoint".to_owned(),
@@ -111,17 +108,16 @@ impl Autosave {
         &mut self,
         stem: &str,
         checkpoint: &[u8],
-    ) -> Option<Result<PathBuf, WriteError>> {
-        let place = self.elsewhere.take().map(Ok);
-        let place = place.or_else(|| Some(free(self.directory.as_deref()?, stem)))?;
-        Some(place.and_then(|place| {
-            let path = place.path().to_owned();
-            // An older checkpoint there is better than nothing.
-            self.elsewhere
-                .insert(place)
-                .write(checkpoint)
-                .map(|()| path)
-        }))
+    ) -> Result<Option<PathBuf>, WriteError> {
+        let place = match (self.elsewhere.take(), &self.directory) {
+            (Some(place), _) => place,
+            (None, Some(directory)) => free(directory, stem)?,
+            (None, None) => return Ok(None),
+        };
+        let path = place.path().to_owned();
+        // An older checkpoint there is better than nothing.
+        self.elsewhere.insert(place).write(checkpoint)?;
+        Ok(Some(path))
     }
 
     /// Continues with another session; the checkpoint of this one stays.

@@ -26,11 +26,9 @@ pub struct History {
     /// The newest rows, which are not in the file yet.
     rows: String,
     /// How much of the file belongs to this history, in bytes.
-    #[serde(default)]
     written: u64,
     last_cycle: Option<f64>,
     /// Columns after the ones that every history has.
-    #[serde(default)]
     further: Vec<String>,
 }
 
@@ -69,7 +67,7 @@ impl History {
 
     fn row(&self, session: &Session) -> String {
         let values = self.values(session).into_iter();
-        let fields: Vec<String> = values.map(|(_, value)| value.field()).collect();
+        let fields: Vec<String> = values.map(|(_, value)| scalars::cell(&value)).collect();
         fields.join(",")
     }
 
@@ -170,5 +168,5 @@ impl History {
 
 /// The fields of a moment, in the order of the columns.
 pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
-    COLUMNS.map(|name| reading.value(name).field())
+    COLUMNS.map(|name| scalars::cell(&reading.value(name)))
 }

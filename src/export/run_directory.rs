@@ -1,12 +1,12 @@
 //! The directory of one run: what it claims, holds until the run is at its end, and clears.
 
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::claim::Claim;
-use super::file::{INTERNAL, IRREGULAR, WriteError, shell_word, sweep, write_whole_with};
+use super::file::{INTERNAL, IRREGULAR, WriteError, shell_word, sweep, write_whole};
 use super::own;
 
 /// The name of the checkpoint in the directory of a run that is not at its end.
@@ -116,16 +116,7 @@ impl RunDirectory {
 
     /// Writes one of the run's files, whole.
     pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), WriteError> {
-        self.write_with(name, |out| out.write_all(contents.as_ref()))
-    }
-
-    /// Writes one of the run's files, whole, with what `fill` writes.
-    pub fn write_with(
-        &self,
-        name: &str,
-        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), WriteError> {
-        write_whole_with(&self.path.join(name), fill)
+        write_whole(&self.path.join(name), contents.as_ref())
     }
 
     /// Where the files stand.

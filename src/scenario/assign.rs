@@ -3,25 +3,20 @@
 use toml::{Table, Value};
 
 use super::check::unknown;
-use super::error::{Origin, Refusal, ScenarioError, echo};
+use super::error::{Origin, Refusal, echo};
 use super::hints;
 use super::schema::{self, Kind, Parameter};
 use super::values;
 
-/// Splits `KEY=VALUE`; `flag` stands before it in messages.
-pub(crate) fn split<'a>(text: &'a str, flag: &str) -> Result<(&'a str, &'a str), ScenarioError> {
+/// Splits `KEY=VALUE`, which stands at `place`.
+pub(crate) fn split<'a>(text: &'a str, place: &str) -> Result<(&'a str, &'a str), Refusal> {
     let halves = text
         .split_once('=')
         .map(|(key, value)| (key.trim(), value.trim()));
-    match halves {
-        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key, value)),
-        _ => Err(no_assignment(format_args!("{flag}{}", echo(text)))),
-    }
-}
-
-/// Refuses what stands at `place` as no assignment.
-pub(super) fn no_assignment(place: impl std::fmt::Display) -> ScenarioError {
-    Refusal::new(place, "must be KEY=VALUE, as in numerics.points=400").into()
+    let rule = "must be KEY=VALUE, as in numerics.points=400";
+    halves
+        .filter(|(key, value)| !key.is_empty() && !value.is_empty())
+        .ok_or_else(|| Refusal::new(place, rule))
 }
 
 /// Puts `value` at the dotted path `key`; `written` is how the user wrote it.
@@ -31,8 +26,8 @@ pub(super) fn assign(
     key: &str,
     value: &str,
     written: &str,
-) -> Result<(), ScenarioError> {
-    let refuse = |rule: String| ScenarioError::from(Refusal::new(written, rule));
+) -> Result<(), Refusal> {
+    let refuse = |rule: String| Refusal::new(written, rule);
     if key == "changes" || key.starts_with("changes.") {
         return Err(refuse("changes are recorded during a run, not set".into()));
     }

@@ -7,7 +7,7 @@
 use toml::{Table, Value};
 
 use super::check::show;
-use super::error::{Origin, ScenarioError, echo};
+use super::error::{Origin, Refusal, echo};
 use super::{Change, values};
 
 /// The tables whose keys a block may change.
@@ -15,7 +15,7 @@ const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
 
 /// Puts the `[[blocks]]` of `table` in place: the keys of the first, changes for the others, and the
 /// length of all together as `run.cycles` where none is given.
-pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), ScenarioError> {
+pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), Refusal> {
     let Some(blocks) = table.remove("blocks") else {
         return Ok(());
     };

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use super::error::{Origin, echo};
-use super::{Refusal, Scenario, ScenarioError, assign, schema, units, values};
+use super::{Refusal, Scenario, assign, schema, units, values};
 
 /// Maximum number of changes of a run. Each is checked by assembling the scenario that holds from
 /// it on.
@@ -50,16 +50,12 @@ pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]
 impl Scenario {
     /// The scenario that holds after `changes` of one cycle, which are only right together; it has no changes of its
     /// own. Applied to those of one cycle after the other, it gives the stages of a run.
-    pub fn after(&self, changes: &[Change]) -> Result<Self, ScenarioError> {
+    pub fn after(&self, changes: &[Change]) -> Result<Self, Refusal> {
         self.changed(changes, |at| echo(&changes[at].set))
     }
 
     /// Walks through the stages of a run, so that a change that cannot be made is found before it.
-    pub(super) fn check_changes(
-        &self,
-        changes: &[Change],
-        from: &Origin,
-    ) -> Result<(), ScenarioError> {
+    pub(super) fn check_changes(&self, changes: &[Change], from: &Origin) -> Result<(), Refusal> {
         for (k, pair) in changes.windows(2).enumerate() {
             let [before, cycle] = [&pair[0], &pair[1]].map(|change| change.at_cycle);
             if cycle < before {
@@ -84,16 +80,15 @@ impl Scenario {
         &self,
         changes: &[Change],
         place: impl Fn(usize) -> String,
-    ) -> Result<Self, ScenarioError> {
+    ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.with_changes(Vec::new()).whole();
         for (at, change) in changes.iter().enumerate() {
             let written = place(at);
-            let (key, value) =
-                assign::split(&change.set, "").map_err(|_| assign::no_assignment(&written))?;
+            let (key, value) = assign::split(&change.set, &written)?;
             if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
                 let rule = format!("{key} cannot change during a run: {because}");
-                return Err(Refusal::new(written, rule).into());
+                return Err(Refusal::new(written, rule));
             }
             assign::assign(&mut table, &mut origin, key, value, &written)?;
         }
@@ -108,7 +103,7 @@ impl Scenario {
         table: &Table,
         changes: &[Change],
         place: impl Fn(usize) -> String,
-    ) -> Result<(), ScenarioError> {
+    ) -> Result<(), Refusal> {
         let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
         for motion in ["motion.normal", "motion.tangential"] {
             let key = values::join(motion, "control");
@@ -123,7 +118,7 @@ impl Scenario {
                     let is_force = control.as_deref() == Some("force");
                     let unit = units::unit_of(schema::known(&path), is_force);
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
-                    return Err(Refusal::new(place(at), rule).into());
+                    return Err(Refusal::new(place(at), rule));
                 }
             }
         }

@@ -3,7 +3,7 @@
 
 use toml::{Table, Value};
 
-use super::error::{Faults, Origin, Refusal, ScenarioError, echo};
+use super::error::{Faults, Origin, Refusal, echo};
 use super::hints;
 use super::schema::{self, Parameter};
 use super::{units, values};
@@ -15,7 +15,7 @@ pub(super) fn keys(table: &mut Table, origin: &Origin, faults: &mut Faults) {
 }
 
 /// Refuses keys that exclude each other.
-pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), ScenarioError> {
+pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), Refusal> {
     // The first of each kind stands for the others.
     let given = |keys: &[&'static str]| {
         let given = |&key: &&'static str| Some((key, values::at(table, key)?));
@@ -105,7 +105,7 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
             .iter()
             .filter(|known| known.section() == "changes")
         {
-            if !table.contains_key(parameter.key()) && !faults.blames(parameter.path) {
+            if !table.contains_key(parameter.key()) && !faults.covers(parameter.path) {
                 let shown = values::join(&shown, parameter.key());
                 faults.note(&shown, origin.missing(&shown, parameter.described()));
             }
@@ -114,9 +114,9 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
 }
 
 /// The error for an unknown key, named at `place`.
-pub(super) fn unknown(place: &str, path: &str, shown: &str) -> ScenarioError {
+pub(super) fn unknown(place: &str, path: &str, shown: &str) -> Refusal {
     let rule = format!("unknown key {}; {}", echo(shown), hints::hint(path));
-    Refusal::new(place, rule).into()
+    Refusal::new(place, rule)
 }
 
 /// A length of a measured profile as an error tells it: in three digits.

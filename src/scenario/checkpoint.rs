@@ -110,17 +110,12 @@ pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, Refusal> 
     decode(BufReader::new(file), &name)
 }
 
-/// Reads a checkpoint from bytes that messages call `name`.
+/// Reads a checkpoint that messages call `name`.
 ///
 /// # Errors
 ///
 /// As [`read`].
-pub fn from_bytes<E: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<Checkpoint<E>, Refusal> {
-    decode(bytes, name)
-}
-
-/// Reads the two lines, checks that what follows is whole, and restores it.
-fn decode<E: DeserializeOwned>(
+pub fn decode<E: DeserializeOwned>(
     mut from: impl BufRead,
     name: &str,
 ) -> Result<Checkpoint<E>, Refusal> {

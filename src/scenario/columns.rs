@@ -7,7 +7,7 @@
 use std::fmt::Display;
 use std::path::Path;
 
-use super::error::{Refusal, ScenarioError, echo, printable};
+use super::error::{Refusal, echo, printable};
 use super::limited::{self, Unread};
 use super::units;
 
@@ -46,7 +46,7 @@ impl Columns {
     ///
     /// # Errors
     /// A file that cannot be read, is no table, or has rows of different lengths.
-    pub fn read(path: &Path) -> Result<Self, ScenarioError> {
+    pub fn read(path: &Path) -> Result<Self, Refusal> {
         let name = printable(&path.display().to_string());
         let text = limited::regular_text(path, LARGEST).map_err(|why| {
             let hint = match why {
@@ -62,7 +62,7 @@ impl Columns {
     ///
     /// # Errors
     /// As for [`read`](Self::read).
-    pub fn parse(text: &str, path: &str) -> Result<Self, ScenarioError> {
+    pub fn parse(text: &str, path: &str) -> Result<Self, Refusal> {
         let is_row = |line: &&str| !line.trim().is_empty() && !line.trim().starts_with('#');
         let head = text.lines().find(is_row).unwrap_or_default();
         let mut delimiters = [b',', b';', b'\t'].into_iter();
@@ -85,7 +85,7 @@ impl Columns {
             .collect();
         if names.iter().any(|name| name.parse::<f64>().is_ok()) {
             let rule = "the first line must name the columns, as in r_m,f_m";
-            return Err(Refusal::new(path, rule).into());
+            return Err(Refusal::new(path, rule));
         }
         let rows = reader.records().map(|row| {
             let row = row.map_err(refuse)?;
@@ -105,17 +105,6 @@ impl Columns {
         })
     }
 
-    /// The cycle that the header states.
-    pub fn stated_cycle(&self) -> Option<f64> {
-        let (_, cycle) = self.header.iter().find(|(key, _)| key == "cycle")?;
-        cycle.parse().ok()
-    }
-
-    /// The number of rows.
-    pub fn rows(&self) -> usize {
-        self.rows.len()
-    }
-
     /// The line of the file that holds `row`, counted from 1.
     pub fn line(&self, row: usize) -> u64 {
         self.rows.get(row).map_or(0, |(line, _)| *line)
@@ -130,7 +119,7 @@ impl Columns {
     ///
     /// # Errors
     /// If the column is missing, or one of its fields is empty or not a finite number.
-    pub fn column(&self, name: &str) -> Result<Vec<f64>, ScenarioError> {
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Refusal> {
         let Some((at, size)) = self.find(name) else {
             let named = self.named();
             return Err(self.refuse(format!(
@@ -180,8 +169,8 @@ impl Columns {
     }
 
     /// The error that the file has for `reason`.
-    pub fn refuse(&self, reason: impl Display) -> ScenarioError {
-        Refusal::new(&self.path, reason).into()
+    pub fn refuse(&self, reason: impl Display) -> Refusal {
+        Refusal::new(&self.path, reason)
     }
 
     fn find(&self, name: &str) -> Option<(usize, f64)> {
@@ -234,7 +223,7 @@ mod tests {
             ),
         ] {
             let columns = parsed(text);
-            assert_eq!(columns.rows(), 2);
+            assert_eq!(columns.rows.len(), 2);
             for (name, value) in ["r", "f"].into_iter().zip(expected) {
                 let column = columns.column(&format!("{name}_m")).expect("a column");
                 assert!((column[1] / value - 1.0).abs() < 1e-14, "{text}");

@@ -7,16 +7,12 @@ use toml::{Table, Value};
 
 use super::check::show;
 use super::columns::Columns;
-use super::error::{Origin, ScenarioError};
+use super::error::{Origin, Refusal};
 use super::{schema, values};
 
 /// Reads the files that `table` names, relative to the directory of the scenario's file, and puts
 /// their columns in their place. Values that are not paths stay, for the check of all keys to reject.
-pub(super) fn files(
-    table: &mut Table,
-    scenario: &str,
-    origin: &mut Origin,
-) -> Result<(), ScenarioError> {
+pub(super) fn files(table: &mut Table, scenario: &str, origin: &mut Origin) -> Result<(), Refusal> {
     for schema::Embedded { key, lists } in &schema::SCHEMA.files {
         let Some(value @ Value::String(file)) = values::at(table, key) else {
             continue;

@@ -10,82 +10,66 @@ const LONGEST_ECHO: usize = 60;
 /// The most errors that are told at once.
 const MOST_ERRORS: usize = 20;
 
-/// Wrong input of a user, in one line: where it stands, with its value, and what would be right.
+/// Wrong input of a user: where it stands, with its value, and what would be right, in one line; of a scenario all that
+/// is wrong with it, a line each.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct Refusal(String);
+#[error("{}", .0.join("\n"))]
+pub struct Refusal(Vec<String>);
 
 impl Refusal {
     /// Refuses what stands at `place`: a file, an option, a key.
     pub fn new(place: impl Display, rule: impl Display) -> Self {
-        Self(format!("{place}: {rule}"))
+        format!("{place}: {rule}").into()
     }
 
     /// Refuses `value` at `place`; a long one is cut.
     pub fn of_value(place: impl Display, value: impl Display, rule: impl Display) -> Self {
         let value = echo(&value.to_string());
-        Self(format!("{place} = {value}: {rule}"))
+        format!("{place} = {value}: {rule}").into()
+    }
+
+    /// The error that `origin` gives no value at `path`, which means `meaning`.
+    pub fn missing(origin: impl Display, path: &str, meaning: impl Display) -> Self {
+        Self::new(origin, format!("{path} is missing: {meaning}"))
     }
 
     /// The same with what else the user can do.
     #[must_use]
     pub fn or(self, hint: impl Display) -> Self {
-        Self(format!("{self}; {hint}"))
+        format!("{self}; {hint}").into()
+    }
+
+    /// Errors as one; `None` where there are none. Of a long list only the first are told.
+    pub(super) fn all(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let mut all: Vec<String> = errors.into_iter().flat_map(|error| error.0).collect();
+        if all.len() > MOST_ERRORS {
+            let more = all.split_off(MOST_ERRORS - 1).len();
+            all.push(format!("and {more} more errors"));
+        }
+        (!all.is_empty()).then_some(Self(all))
+    }
+
+    /// What is wrong, one by one.
+    pub fn lines(&self) -> &[String] {
+        &self.0
     }
 }
 
 /// A line that says place and rule already.
 impl From<String> for Refusal {
     fn from(line: String) -> Self {
-        Self(line)
-    }
-}
-
-/// A scenario that cannot be run: all that is wrong with it, a line each.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", .0.iter().map(Refusal::to_string).collect::<Vec<_>>().join("\n"))]
-pub struct ScenarioError(Vec<Refusal>);
-
-impl From<Refusal> for ScenarioError {
-    fn from(refusal: Refusal) -> Self {
-        Self(vec![refusal])
-    }
-}
-
-impl ScenarioError {
-    /// The error that `origin` gives no value at `path`, which means `meaning`.
-    pub fn missing(origin: impl Display, path: &str, meaning: impl Display) -> Self {
-        Refusal::new(origin, format!("{path} is missing: {meaning}")).into()
-    }
-
-    /// Errors as one; `None` where there are none. Of a long list only the first are told.
-    pub(super) fn all(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
-        let mut errors = errors.into_iter();
-        let mut all = errors.next()?;
-        for error in errors {
-            all.0.extend(error.0);
-        }
-        if all.0.len() > MOST_ERRORS {
-            let more = all.0.split_off(MOST_ERRORS - 1).len();
-            all.0.push(format!("and {more} more errors").into());
-        }
-        Some(all)
-    }
-
-    /// What is wrong, one by one.
-    pub fn refusals(&self) -> &[Refusal] {
-        &self.0
+        Self(vec![line])
     }
 }
 
 /// The keys of a scenario that errors blame, each with its error, unless one that is there already deals with it.
 #[derive(Debug, Default)]
-pub(super) struct Faults(Vec<(String, Option<ScenarioError>)>);
+pub(super) struct Faults(Vec<(String, Option<Refusal>)>);
 
 impl Faults {
     /// Notes an error that is due to the key at `path`. A key is blamed once.
-    pub fn note(&mut self, path: &str, error: ScenarioError) {
-        if !self.blames(path) {
+    pub fn note(&mut self, path: &str, error: Refusal) {
+        if self.paths().all(|blamed| blamed != path) {
             self.0.push((path.to_owned(), Some(error)));
         }
     }
@@ -93,11 +77,6 @@ impl Faults {
     /// Notes that the key at `path` is dealt with by an error that is there already.
     pub fn blame(&mut self, path: &str) {
         self.0.push((path.to_owned(), None));
-    }
-
-    /// Whether an error deals with the key at `path`.
-    pub fn blames(&self, path: &str) -> bool {
-        self.paths().any(|blamed| blamed == path)
     }
 
     /// Whether an error deals with the key at `path`, or with the whole table that it stands in.
@@ -112,8 +91,8 @@ impl Faults {
     }
 
     /// All errors as one; `None` where there are none.
-    pub fn into_error(self) -> Option<ScenarioError> {
-        ScenarioError::all(self.0.into_iter().filter_map(|(_, error)| error))
+    pub fn into_error(self) -> Option<Refusal> {
+        Refusal::all(self.0.into_iter().filter_map(|(_, error)| error))
     }
 }
 
@@ -180,13 +159,13 @@ impl Origin {
     }
 
     /// Refuses the value at `path`.
-    pub fn refuse(&self, path: &str, value: &str, rule: impl Display) -> ScenarioError {
-        Refusal::new(self.place(path, value), rule).into()
+    pub fn refuse(&self, path: &str, value: &str, rule: impl Display) -> Refusal {
+        Refusal::new(self.place(path, value), rule)
     }
 
     /// The error that there is no value at `path`, which means `meaning`.
-    pub fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
-        ScenarioError::missing(&self.name, path, meaning)
+    pub fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
+        Refusal::missing(&self.name, path, meaning)
     }
 }
 

@@ -7,10 +7,8 @@
 
 use std::path::Path;
 
-use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
-use crate::reading::fatigue::Limits;
 use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
@@ -37,12 +35,12 @@ pub mod session;
 pub mod typed;
 pub mod units;
 pub(crate) mod values;
-mod write;
+pub(crate) mod write;
 
 pub use changes::{Change, MOST_CHANGES};
 pub use complete::USUAL_ACCURACY;
 use error::{Faults, Origin, echo};
-pub use error::{Refusal, ScenarioError, printable};
+pub use error::{Refusal, printable};
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
@@ -72,7 +70,7 @@ impl PartialEq for Scenario {
 impl Scenario {
     /// Loads a preset by its name, or a file: what has a `/` or ends in `.toml` is a path. Each of
     /// `sets` is a `KEY=VALUE` that replaces what stands there.
-    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, ScenarioError> {
+    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Refusal> {
         if preset::is_path(name_or_path) {
             return Self::from_toml(&read::file(name_or_path)?, name_or_path, sets);
         }
@@ -80,29 +78,29 @@ impl Scenario {
             Some(preset) => Self::from_toml(preset.text, preset.name, sets),
             None => {
                 let rule = format!("no such preset; {}", preset::hint(name_or_path));
-                Err(Refusal::new(echo(name_or_path), rule).into())
+                Err(Refusal::new(echo(name_or_path), rule))
             }
         }
     }
 
     /// Reads a scenario from a text that messages call `origin`.
-    pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, ScenarioError> {
+    pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, Refusal> {
         let mut from = Origin::new(origin);
         let (mut table, commas) = read::table(text, &from)?;
         for set in sets {
-            let (key, value) = assign::split(set, "--set ")?;
             let written = format!("--set {}", echo(set));
+            let (key, value) = assign::split(set, &written)?;
             assign::assign(&mut table, &mut from, key, value, &written)?;
         }
         let built = Self::build(table, from, origin);
         let errors = commas.into_iter().chain(built.as_ref().err().cloned());
-        ScenarioError::all(errors).map_or(built, Err)
+        Refusal::all(errors).map_or(built, Err)
     }
 
     /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
     /// word. Changing `indenter.shape` drops the keys of the shape before. Where the scenario gives
     /// no `numerics.grid` and `numerics.scheme`, they go with the `numerics.method` it is changed to.
-    pub fn with(&self, key: &str, value: &str) -> Result<Self, ScenarioError> {
+    pub fn with(&self, key: &str, value: &str) -> Result<Self, Refusal> {
         self.with_all(&[(key, value)])
     }
 
@@ -111,7 +109,7 @@ impl Scenario {
     pub fn with_all(
         &self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
-    ) -> Result<Self, ScenarioError> {
+    ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
         let mut table = self.whole();
         let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
@@ -240,14 +238,6 @@ impl Scenario {
         schema::read(&self.table, "material.fatigue_limit")
     }
 
-    /// Both fatigue limits, where both are given.
-    pub fn fatigue_limits(&self) -> Option<Limits> {
-        Some(Limits {
-            tension: self.fatigue_limit()?,
-            shear: schema::read(&self.table, "material.shear_fatigue_limit")?,
-        })
-    }
-
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
         let value = |table: &Table| values::at(table, path).map(values::literal);
@@ -272,14 +262,14 @@ impl Scenario {
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.
-    fn build(mut table: Table, mut from: Origin, origin: &str) -> Result<Self, ScenarioError> {
+    fn build(mut table: Table, mut from: Origin, origin: &str) -> Result<Self, Refusal> {
         blocks::expand(&mut table, &from)?;
         embed::files(&mut table, origin, &mut from)?;
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
         let (complete, setup) = parts::setup(&mut table, from, faults)?;
-        let changes: Vec<Change> = part(&table, "changes");
+        let changes: Vec<Change> = schema::read(&table, "changes").unwrap_or_default();
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
@@ -295,7 +285,7 @@ impl Scenario {
             description: lines.join("\n"),
             table: complete,
             setup,
-            run: part(&table, "run"),
+            run: schema::read(&table, "run").unwrap_or_default(),
             changes: Vec::new(),
         };
         scenario.check_changes(&changes, from)?;
@@ -315,11 +305,4 @@ impl Scenario {
         table.extend([("run".into(), plan), ("changes".into(), changes)]);
         table
     }
-}
-
-/// A part of a checked table as a value of its own.
-fn part<T: DeserializeOwned + Default>(table: &Table, key: &str) -> T {
-    let part = table.get(key).cloned();
-    part.and_then(|part| part.try_into().ok())
-        .unwrap_or_default()
 }

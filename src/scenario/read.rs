@@ -4,7 +4,7 @@ use std::path::Path;
 
 use toml::Table;
 
-use super::error::{Origin, Refusal, ScenarioError, printable};
+use super::error::{Origin, Refusal, printable};
 use super::limited::{self, Unread};
 use super::units::with_decimal_point;
 
@@ -12,7 +12,7 @@ use super::units::with_decimal_point;
 const LARGEST_FILE: u64 = 1 << 20;
 
 /// Reads a file that can be a scenario: text, and not too long.
-pub(super) fn file(path: &str) -> Result<String, ScenarioError> {
+pub(super) fn file(path: &str) -> Result<String, Refusal> {
     limited::text(Path::new(path), LARGEST_FILE).map_err(|why| {
         let hint = match why {
             Unread::Missing => "; mdr-tui presets lists what ships",
@@ -20,16 +20,13 @@ pub(super) fn file(path: &str) -> Result<String, ScenarioError> {
             Unread::Io(_) => "",
             _ => "; a scenario is a TOML file",
         };
-        Refusal::new(printable(path), format_args!("{why}{hint}")).into()
+        Refusal::new(printable(path), format_args!("{why}{hint}"))
     })
 }
 
 /// The text as a TOML table, and the numbers in it that have a decimal comma: they are read as meant, so
 /// that the rest can be judged as well.
-pub(super) fn table(
-    text: &str,
-    origin: &Origin,
-) -> Result<(Table, Vec<ScenarioError>), ScenarioError> {
+pub(super) fn table(text: &str, origin: &Origin) -> Result<(Table, Vec<Refusal>), Refusal> {
     let mut text = text.to_owned();
     let mut commas = Vec::new();
     loop {
@@ -44,12 +41,12 @@ pub(super) fn table(
             let line = before.matches('\n').count() + 1;
             let column = text[start..end].chars().count() + 1;
             let rule = format_args!("line {line}, column {column}: {message}");
-            ScenarioError::from(Refusal::new(origin.name(), rule))
+            Refusal::new(origin.name(), rule)
         };
         let Some((comma, number)) = decimal_comma(&text[start..]) else {
             let message = printable(&error.message().replace('\n', "; "));
             commas.push(syntax(before.len(), message));
-            return Err(ScenarioError::all(commas).expect("one at least"));
+            return Err(Refusal::all(commas).expect("one at least"));
         };
         let comma = start + comma;
         let message = format!("a number has a decimal point: {number}");

@@ -2,12 +2,9 @@
 //!
 //! Every name is defined once, here, so that a column means the same in every file.
 
-use std::borrow::Cow;
 use std::cell::OnceCell;
 
-use serde::Serialize;
-
-use super::{nearest, printable};
+use super::{nearest, printable, schema};
 use crate::math::scan::largest;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
@@ -15,66 +12,18 @@ use crate::reading::{CycleFigures, Moment};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
-/// A scalar's value, or a cell of a table.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Value {
-    /// A number, in the unit that its name ends with.
-    Number(f64),
-    /// A count.
-    Count(u64),
-    /// Words.
-    Word(Cow<'static, str>),
-    /// Undefined at this moment.
-    Missing,
-}
+/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null where
+/// it is not defined at this moment.
+pub use serde_json::Value;
 
-impl From<f64> for Value {
-    fn from(value: f64) -> Self {
-        Self::Number(value)
-    }
-}
-
-impl From<u64> for Value {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<usize> for Value {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<&'static str> for Value {
-    fn from(word: &'static str) -> Self {
-        Self::Word(word.into())
-    }
-}
-
-impl From<String> for Value {
-    fn from(word: String) -> Self {
-        Self::Word(word.into())
-    }
-}
-
-impl<T: Into<Value>> From<Option<T>> for Value {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Self::Missing, T::into)
-    }
-}
-
-impl Value {
-    /// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
-    /// the same bits, nothing where the value is missing.
-    pub fn field(&self) -> String {
-        match self {
-            Self::Number(value) => number(*value),
-            Self::Count(count) => count.to_string(),
-            Self::Word(word) => word.to_string(),
-            Self::Missing => String::new(),
-        }
+/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
+/// the same bits, nothing where the value is missing.
+pub fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(word) => word.clone(),
+        value if value.is_f64() => number(value.as_f64().unwrap_or(f64::NAN)),
+        other => other.to_string(),
     }
 }
 
@@ -127,15 +76,12 @@ impl<'a> Reading<'a> {
 
     /// The scalar of this name; missing where there is none.
     pub fn value(&self, name: &str) -> Value {
-        find(name).map_or(Value::Missing, |scalar| scalar.read(self))
+        find(name).map_or(Value::Null, |scalar| scalar.read(self))
     }
 
     /// The same as a number; NaN where it is none at this moment.
     pub fn number(&self, name: &str) -> f64 {
-        match self.value(name) {
-            Value::Number(number) => number,
-            _ => f64::NAN,
-        }
+        self.value(name).as_f64().unwrap_or(f64::NAN)
     }
 
     /// p(r), Pa: one transform the first time.
@@ -161,7 +107,11 @@ impl<'a> Reading<'a> {
     }
 
     fn limits(&self) -> Option<Limits> {
-        self.session.scenario().fatigue_limits()
+        let scenario = self.session.scenario();
+        Some(Limits {
+            tension: scenario.fatigue_limit()?,
+            shear: schema::read(&scenario.table, "material.shear_fatigue_limit")?,
+        })
     }
 
     /// Where the Smith–Watson–Topper parameter is largest.

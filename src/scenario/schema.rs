@@ -199,9 +199,9 @@ pub(super) fn is_section(path: &str) -> bool {
     })
 }
 
-/// The value of a key in `table` as a `T`, where one of that type is given.
+/// The value of a key or a whole section in `table` as a `T`, where one of that type is given.
 pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
-    debug_assert!(find(path).is_some(), "{path} is a key of the table");
+    debug_assert!(find(path).is_some() || is_section(path), "{path} is known");
     at(table, path)?.clone().try_into().ok()
 }
 

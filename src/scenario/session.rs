@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use thiserror::Error;
 
 use super::changes::{Change, MOST_CHANGES};
-use super::{Refusal, RunPlan, Scenario, ScenarioError};
+use super::{Refusal, RunPlan, Scenario};
 use crate::reading::{Check, CycleFigures, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
 
@@ -17,7 +17,7 @@ use crate::simulation::{Breakdown, Domain, Simulation};
 pub enum SessionError {
     /// A value that is refused.
     #[error(transparent)]
-    Scenario(#[from] ScenarioError),
+    Scenario(#[from] Refusal),
     /// A contact that cannot continue.
     #[error(transparent)]
     Breakdown(#[from] Breakdown),
@@ -235,7 +235,7 @@ impl Session {
         made.extend(changes);
         if let Some(last) = made.last().filter(|_| made.len() > MOST_CHANGES) {
             let rule = format!("a run takes at most {MOST_CHANGES} changes");
-            return Err(ScenarioError::from(Refusal::new(&last.set, rule)).into());
+            return Err(Refusal::new(&last.set, rule).into());
         }
         let scenario = before.scenario.after(&made[before.changes.len()..])?;
         let mut simulation = before.simulation.clone();

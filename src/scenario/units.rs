@@ -190,9 +190,11 @@ fn number(text: &str) -> Option<(&str, i32, &str)> {
     Some((mantissa, exponent.parse().ok()?, rest))
 }
 
-/// The number that `text` stands for in `unit`: none if the text is no number with a unit, an error if
-/// its unit is unknown or of another dimension.
-fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
+/// The number that `text` stands for in `unit`; `None` if the text is no number with a unit.
+///
+/// # Errors
+/// The rule that a unit of another dimension, or an unknown one, breaks.
+pub fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     let text = text.trim();
     if let Some(pointed) = with_decimal_point(text) {
         let rule = format!("must be written with a point, {}", echo(&pointed));

@@ -1,7 +1,5 @@
 //! The values in the table of a scenario, by the dotted paths of their keys, and as TOML has them.
 
-use std::fmt::Write;
-
 use toml::{Table, Value};
 
 use super::error::printable;
@@ -26,18 +24,13 @@ pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
 /// Writes the value, making the tables on the way. Where something else stands in the way of a
 /// table, it stays, and the check of all keys will find it.
 pub(super) fn insert(table: &mut Table, path: &str, value: Value) {
-    match path.split_once('.') {
-        None => {
-            table.insert(path.to_owned(), value);
-        }
-        Some((first, rest)) => {
-            let entry = table
-                .entry(first)
-                .or_insert_with(|| Value::Table(Table::new()));
-            if let Value::Table(inner) = entry {
-                insert(inner, rest, value);
-            }
-        }
+    let Some((first, rest)) = path.split_once('.') else {
+        table.insert(path.to_owned(), value);
+        return;
+    };
+    let entry = table.entry(first).or_insert(Value::Table(Table::new()));
+    if let Value::Table(inner) = entry {
+        insert(inner, rest, value);
     }
 }
 
@@ -81,19 +74,14 @@ fn is_rude(c: char) -> bool {
     !matches!(c, '"' | '\'' | '\\') && printable(&String::from_iter(['a', c])).chars().count() > 2
 }
 
-/// A basic string on one line, all that is not plain escaped.
+/// A basic string on one line, all that is not plain escaped: TOML has the escapes of JSON.
 fn escaped(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            c if is_rude(c) => {
-                let _ = write!(quoted, "\\U{:08X}", u32::from(c));
-            }
-            c => quoted.push(c),
-        }
-    }
-    quoted + "\""
+    let escaped = |c| match is_rude(c) {
+        true => format!("\\U{:08X}", u32::from(c)),
+        false => c.to_string(),
+    };
+    let quoted = serde_json::Value::from(text).to_string();
+    quoted.chars().map(escaped).collect()
 }
 
 /// The shortest form that reads back to the same bits, and as a float.

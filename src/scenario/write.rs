@@ -4,39 +4,38 @@ use std::fmt::Write;
 
 use toml::{Table, Value};
 
-use super::schema::{Kind, parameters};
+use super::schema::{Kind, Parameter, parameters};
 use super::values::{at, literal};
+
+/// Writes keys in the order of the schema under the headings of their sections, each as `line` says, if it does.
+pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
+    let (mut text, mut open) = (String::new(), "");
+    for known in parameters() {
+        let Some(line) = line(known) else { continue };
+        if known.section() != open {
+            open = known.section();
+            text += &format!("\n[{open}]\n");
+        }
+        text += &(line + "\n");
+    }
+    text
+}
 
 /// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
 /// and a value, becomes a comment where the table does not give it, which ends with its `source`.
 pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) -> String {
-    let mut text = String::new();
-    let mut open = "";
-    for parameter in parameters()
-        .iter()
-        .filter(|known| known.section() != "changes")
-    {
-        let Some(value) = at(table, parameter.path) else {
-            let value = follows.iter().find(|(path, _)| *path == parameter.path);
-            if let (Some((_, value)), true) = (value, parameter.section() == open) {
-                let _ = writeln!(text, "# {} = {value}  # {source}", parameter.key());
-            }
-            continue;
+    let mut text = sections(|known| {
+        let Some(value) = at(table, known.path) else {
+            let (_, value) = follows.iter().find(|(path, _)| *path == known.path)?;
+            return Some(format!("# {} = {value}  # {source}", known.key()));
         };
-        if value.as_array().is_some_and(Vec::is_empty) {
-            continue;
-        }
-        if parameter.section() != open {
-            open = parameter.section();
-            let _ = writeln!(text, "\n[{open}]");
-        }
-        let comment = match (parameter.kind, parameter.unit) {
+        let comment = match (known.kind, known.unit) {
             (Kind::Number | Kind::Numbers, unit) if !unit.is_empty() => format!("  # {unit}"),
             _ => String::new(),
         };
-        let (key, value) = (parameter.key(), literal(value));
-        let _ = writeln!(text, "{key} = {value}{comment}");
-    }
+        let is_empty = value.as_array().is_some_and(Vec::is_empty);
+        (!is_empty).then(|| format!("{} = {}{comment}", known.key(), literal(value)))
+    });
     let changes = table.get("changes").and_then(Value::as_array);
     for change in changes.into_iter().flatten() {
         text.push_str("\n[[changes]]\n");

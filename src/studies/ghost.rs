@@ -5,7 +5,7 @@ use std::path::Path;
 use super::measured::{Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
 use crate::scenario::columns::Columns;
-use crate::scenario::{Refusal, ScenarioError, printable};
+use crate::scenario::{Refusal, printable};
 use crate::traces::{Axes, Loop, Table};
 
 /// The fewest rows of a history that show a loop.
@@ -79,7 +79,7 @@ impl Ghost {
     ///
     /// # Errors
     /// One line: what cannot be read, holds nothing that could be drawn, or is refused as measured data.
-    pub fn read(path: &Path) -> Result<Self, ScenarioError> {
+    pub fn read(path: &Path) -> Result<Self, Refusal> {
         let name = path.file_name().unwrap_or(path.as_os_str());
         let name = printable(&name.to_string_lossy());
         if !path.is_dir() {
@@ -97,7 +97,7 @@ impl Ghost {
         if ghost.tables.is_empty() {
             let path = printable(&path.display().to_string());
             let rule = "holds no state.csv and no history.csv of a run";
-            return Err(Refusal::new(path, rule).into());
+            return Err(Refusal::new(path, rule));
         }
         Ok(ghost)
     }
@@ -106,7 +106,7 @@ impl Ghost {
     ///
     /// # Errors
     /// Columns that make nothing that could be drawn; gaps and more in measured data.
-    pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, ScenarioError> {
+    pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, Refusal> {
         let mut ghost = Self::new(name);
         let has = |name| columns.has(name);
         if ["f0_m", "u_z_m", "scar_depth_m"].into_iter().any(has) {
@@ -215,7 +215,7 @@ impl Ghost {
 mod tests {
     use super::*;
 
-    fn ghost(text: &str) -> Result<Ghost, ScenarioError> {
+    fn ghost(text: &str) -> Result<Ghost, Refusal> {
         Ghost::of_columns("data.csv", &Columns::parse(text, "data.csv")?)
     }
 

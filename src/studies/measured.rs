@@ -1,8 +1,8 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 
 use crate::math::scan::{range, value_at};
+use crate::scenario::Refusal;
 use crate::scenario::columns::Columns;
-use crate::scenario::{Refusal, ScenarioError};
 use crate::traces::Axes;
 
 /// The fewest rows of a data set.
@@ -36,7 +36,7 @@ impl Measured {
     ///
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
-    pub fn scar(columns: &Columns) -> Result<Self, ScenarioError> {
+    pub fn scar(columns: &Columns) -> Result<Self, Refusal> {
         let axes = match columns.has(Axes::WEAR.y) {
             true => Axes::WEAR,
             false => Axes::PROFILE,
@@ -53,7 +53,7 @@ impl Measured {
     ///
     /// # Errors
     /// A file that is not such a table; fewer than 8 rows; a loop that does not close.
-    pub fn fretting_loop(columns: &Columns) -> Result<Self, ScenarioError> {
+    pub fn fretting_loop(columns: &Columns) -> Result<Self, Refusal> {
         let is_own = columns.has("u_x_m") && columns.has("F_x_N");
         let is_sensed = columns.column("rig_displacement_m").is_ok();
         let (shift, force) = match (is_own, is_sensed) {
@@ -93,7 +93,7 @@ impl Measured {
     ///
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows; negative cycles.
-    pub fn history(columns: &Columns) -> Result<Self, ScenarioError> {
+    pub fn history(columns: &Columns) -> Result<Self, Refusal> {
         let (axes, values) = match columns.has("depth_m") {
             true => (Axes::DEPTH, "depth_m"),
             false => (Axes::VOLUME, Axes::VOLUME.y),
@@ -107,9 +107,10 @@ impl Measured {
     }
 }
 
-fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measured, ScenarioError> {
+fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measured, Refusal> {
     let (_, unit) = values.rsplit_once('_').unwrap_or_default();
     let error = format!("error_{unit}");
+    let cycle = columns.header.iter().find(|(key, _)| key == "cycle");
     let measured = Measured {
         name: columns.path.clone(),
         axes,
@@ -119,7 +120,7 @@ fn read(columns: &Columns, axes: Axes, at: &str, values: &str) -> Result<Measure
             true => Some(columns.column(&error)?),
             false => None,
         },
-        cycle: columns.stated_cycle(),
+        cycle: cycle.and_then(|(_, cycle)| cycle.parse().ok()),
     };
     if measured.at.len() < FEWEST {
         return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));

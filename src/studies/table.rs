@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::scenario::scalars::Value;
+use crate::scenario::scalars::{self, Value};
 
 /// How a column is written as text; files always get every digit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,12 +19,10 @@ pub enum Format {
 
 impl Format {
     fn text(self, cell: &Value) -> String {
-        match (cell, self) {
-            (Value::Word(words), _) => words.to_string(),
-            (Value::Count(count), _) => count.to_string(),
-            (Value::Number(value), Self::Fixed) => format!("{value:.2}"),
-            (Value::Number(value), _) => format!("{value:.1e}"),
-            (Value::Missing, _) => String::new(),
+        match (self, cell.as_f64().filter(|_| cell.is_f64())) {
+            (Self::Fixed, Some(value)) => format!("{value:.2}"),
+            (_, Some(value)) => format!("{value:.1e}"),
+            (_, None) => scalars::cell(cell),
         }
     }
 
@@ -37,7 +35,7 @@ impl Format {
 
     /// Whether a cell goes across all columns of the group from here on: words among numbers.
     fn is_spanned_by(self, cell: &Value) -> bool {
-        self != Self::Words && matches!(cell, Value::Word(_))
+        self != Self::Words && cell.is_string()
     }
 }
 
@@ -49,7 +47,7 @@ pub type Column = (&'static str, &'static str, Format);
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     columns: Vec<Column>,
-    rows: Vec<Vec<Value>>,
+    pub(super) rows: Vec<Vec<Value>>,
 }
 
 impl Table {
@@ -66,16 +64,13 @@ impl Table {
         }
     }
 
-    /// Adds a row: cells that are not given are missing, cells beyond the columns are dropped. Words in a column of
+    /// Adds a row, a list or a tuple: cells that are not given are missing, cells beyond the columns are dropped. Words in a column of
     /// numbers go across all columns of its group from there on, whose own cells are then not shown.
-    pub fn push(&mut self, mut row: Vec<Value>) {
-        row.resize(self.columns.len(), Value::Missing);
+    pub fn push(&mut self, row: impl Serialize) {
+        let row = serde_json::to_value(row).expect("numbers and words");
+        let mut row = row.as_array().cloned().unwrap_or_default();
+        row.resize(self.columns.len(), Value::Null);
         self.rows.push(row);
-    }
-
-    /// The rows.
-    pub fn rows(&self) -> &[Vec<Value>] {
-        &self.rows
     }
 
     fn names(&self) -> Vec<&'static str> {
@@ -85,7 +80,7 @@ impl Table {
     /// Comma-separated values under a line of names.
     pub fn csv(&self) -> String {
         let rows = self.rows.iter();
-        let rows = rows.map(|row| csv_line(row.iter().map(Value::field)));
+        let rows = rows.map(|row| csv_line(row.iter().map(scalars::cell)));
         csv_line(self.names()) + &rows.collect::<String>()
     }
 
@@ -189,8 +184,8 @@ mod tests {
             ("g", "max", Format::Rough),
             ("g", "order", Format::Fixed),
         ]);
-        table.push(vec!["a".into(), Value::Count(50), (0.1 + 0.2).into()]);
-        table.push(vec!["x, \"y\"".into(), Value::Count(100), "stopped".into()]);
+        table.push(("a", 50, 0.1 + 0.2));
+        table.push(("x, \"y\"", 100, "stopped"));
         table
     }
 

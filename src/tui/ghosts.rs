@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::beside::Beside;
 use super::trend::Recorded;
 use crate::reading::Curves;
+use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Scenario, ScenarioError};
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
 
@@ -41,7 +41,7 @@ impl Source {
             });
         }
         let ghost = Ghost::read(path)?;
-        ghost.check_radii(reach).map_err(ScenarioError::from)?;
+        ghost.check_radii(reach)?;
         Ok(Self::still(ghost))
     }
 

@@ -128,7 +128,7 @@ fn what_was_changed_by_hand_is_replayed_to_the_bit() {
     let untouched = session.simulation().state().wear.clone();
     change(&mut session, "numerics.points", "30");
     let kept = checkpoint::encode::<()>(&session, None);
-    let kept = checkpoint::from_bytes::<()>(&kept, "kept").expect("a checkpoint");
+    let kept = checkpoint::decode::<()>(&kept[..], "kept").expect("a checkpoint");
     let mut resumed = kept.session;
     for session in [&mut session, &mut resumed] {
         change(session, "numerics.points", "100");

@@ -5,7 +5,7 @@ use std::path::Path;
 use ciborium::Value;
 use mdr_tui::export::history::History;
 use mdr_tui::export::state;
-use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
+use mdr_tui::scenario::checkpoint::{decode, encode, sealed};
 use mdr_tui::scenario::preset;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::Simulation;
@@ -20,7 +20,7 @@ fn session(preset: &str, sets: &[&str]) -> Session {
 /// Through a file's bytes and back.
 fn through_a_file(session: &Session) -> Session {
     let bytes = encode(session, None::<&()>);
-    let kept = from_bytes::<()>(&bytes, "a file").expect("a checkpoint");
+    let kept = decode::<()>(&bytes[..], "a file").expect("a checkpoint");
     // What has been taken up is put away alike.
     assert!(encode(&kept.session, None::<&()>) == bytes);
     kept.session
@@ -203,7 +203,7 @@ const FOREIGN: &str = "is not a checkpoint of mdr-tui";
 const TORN: &str = "is damaged: ";
 
 fn refusal(bytes: &[u8]) -> String {
-    let Err(error) = from_bytes::<()>(bytes, "x.checkpoint") else {
+    let Err(error) = decode::<()>(bytes, "x.checkpoint") else {
         panic!("no refusal");
     };
     let line = error.to_string();

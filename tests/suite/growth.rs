@@ -84,7 +84,7 @@ fn a_grown_run_is_taken_up_and_repeated() {
     let grown = whole.simulation().setup().grid.radius();
     assert!(grown > 1.5e-4, "{grown}");
     let bytes = checkpoint::encode::<()>(&whole, None);
-    let kept = checkpoint::from_bytes::<()>(&bytes, "it").expect("a checkpoint");
+    let kept = checkpoint::decode::<()>(&bytes[..], "it").expect("a checkpoint");
     let mut resumed = kept.session;
     for session in [&mut whole, &mut resumed] {
         change(session, "friction.coefficient", "0.5");

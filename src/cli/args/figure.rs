@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
 use super::Changes;
-use super::values::{CycleAsGiven, cycles, listed, named, within};
+use super::values::{CycleAsGiven, cycles, named, within};
 use crate::charts::{Recipe, field};
 use crate::cli::complete;
 use crate::figure::look::Style;
@@ -17,7 +17,6 @@ const FONT: &str = "a font has from 3 to 72 points, e.g. 8";
 
 /// Options of `figure`.
 #[derive(Debug, Args)]
-#[command(mut_args = listed)]
 #[command(after_help = include_str!("examples/figure.txt").trim_end())]
 pub struct Figure {
     /// A run's directory, a CSV file of one, the table of a sweep, a preset's name, or a path to a .toml file,

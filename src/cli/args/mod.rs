@@ -33,6 +33,7 @@ use values::{budget, cycles, interval, listed};
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     disable_help_subcommand = true,
+    mut_subcommands = |command| command.mut_args(listed),
     after_help = include_str!("examples/program.txt").trim_end()
 )]
 pub struct Arguments {
@@ -162,7 +163,6 @@ pub struct Screen {
 
 /// Options of `run`.
 #[derive(Debug, Args)]
-#[command(mut_args = listed)]
 #[command(
     override_usage = "mdr-tui run [OPTIONS] <SCENARIO>\n       mdr-tui run [OPTIONS] --resume <FILE>"
 )]

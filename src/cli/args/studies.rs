@@ -6,7 +6,7 @@ use clap::builder::{RangedI64ValueParser, TypedValueParser};
 use clap::{Arg, Args, ValueEnum};
 
 use super::Changes;
-use super::values::{cycles, listed, named, points, within};
+use super::values::{cycles, named, points, within};
 use crate::math::abel::AbelMethod;
 use crate::plot::Marker;
 use crate::studies::verify::{LADDER, Problem};
@@ -18,12 +18,10 @@ const ACCURACY: &str =
 
 /// Options of `verify`.
 #[derive(Debug, Args)]
-#[command(mut_args = listed)]
 #[command(after_help = include_str!("examples/verify.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("csv", "Write the error at every node to this file"),
     ("plot", "Draw the errors over r/a, on the finest grid of each method"),
-    ("json", "Print all rows as JSON"),
 ]))]
 pub struct Verify {
     /// Run only this problem and print its table; can be repeated.
@@ -49,7 +47,6 @@ pub struct Verify {
 
 /// Options of `trade`.
 #[derive(Debug, Args)]
-#[command(mut_args = listed)]
 #[command(after_help = include_str!("examples/trade.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("csv", "Write all settings to this file"),
@@ -92,7 +89,6 @@ pub struct Trade {
 
 /// Options of `stability`.
 #[derive(Debug, Args)]
-#[command(mut_args = listed)]
 #[command(after_help = include_str!("examples/stability.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("csv", "Write all runs to this file"),
@@ -130,7 +126,6 @@ pub struct Stability {
 
 /// Options of `fit`.
 #[derive(Debug, Args)]
-#[command(mut_args = listed)]
 #[command(after_help = include_str!("examples/fit.txt").trim_end())]
 #[command(mut_args = in_words(&[
     ("plot", "Draw measured minus simulated values, one plot per data set"),

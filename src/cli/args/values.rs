@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::abel::MOST_DENSE_CELLS;
 use crate::math::grid::MIN_CELLS;
-use crate::scenario::MOST_CYCLES;
+use crate::scenario::{MOST_CYCLES, units};
 
 /// Which moments `history.csv` records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -76,18 +76,10 @@ impl FromStr for CycleAsGiven {
 
 /// Seconds, as `60`, `60s`, `5min` or `1h`.
 pub(super) fn budget(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let unit = match &text[digits.len()..] {
-        "" | "s" => Some(1.0),
-        "m" | "min" => Some(60.0),
-        "h" => Some(3600.0),
-        _ => None,
-    };
-    match (digits.trim().parse::<f64>(), unit) {
-        (Ok(number), Some(unit)) if number >= 0.0 && number.is_finite() => Ok(number * unit),
-        _ => Err("a budget is a time of 0 or more, e.g. 60s, 5min or 1h".into()),
-    }
+    let with_unit = units::in_unit(text, "s").and_then(Result::ok);
+    let seconds = with_unit.or_else(|| text.trim().parse().ok());
+    let seconds = seconds.filter(|seconds| (0.0..f64::INFINITY).contains(seconds));
+    seconds.ok_or_else(|| "a budget is a time of 0 or more, e.g. 60s, 5min or 1h".into())
 }
 
 pub(super) fn cycles(text: &str) -> Result<f64, String> {

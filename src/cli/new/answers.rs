@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Value;
 
 use crate::scenario::schema::{self, Kind};
-use crate::scenario::{Scenario, ScenarioError, units, values};
+use crate::scenario::{Refusal, Scenario, units, values, write};
 
 /// What `questions.toml` says.
 #[derive(Deserialize)]
@@ -136,17 +136,14 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
     }
 }
 
-/// The scenario so far: its keys, by their places in the schema, each with its value and a note.
+/// The scenario so far: its keys, each with its value and a note.
 #[derive(Debug, Default)]
-pub struct Draft(BTreeMap<usize, (Value, String)>);
+pub struct Draft(BTreeMap<String, (Value, String)>);
 
 impl Draft {
     /// Sets a key, with a note beside it.
     pub fn set(&mut self, path: &str, value: impl Into<Value>, note: impl Into<String>) {
-        let mut known = schema::parameters().iter();
-        let place = known.position(|known| known.path == path);
-        let place = place.expect("a key of the table");
-        self.0.insert(place, (value.into(), note.into()));
+        self.0.insert(path.to_owned(), (value.into(), note.into()));
     }
 
     /// Sets the key of a question, and the one that goes with it.
@@ -181,26 +178,20 @@ impl Draft {
     ///
     /// # Errors
     /// Answers that make no contact together.
-    pub fn scenario(&self, origin: &str) -> Result<Scenario, ScenarioError> {
+    pub fn scenario(&self, origin: &str) -> Result<Scenario, Refusal> {
         Scenario::from_toml(&self.to_toml(), origin, &[])
     }
 
     /// The scenario as a commented file.
     pub fn to_toml(&self) -> String {
-        let (mut text, mut open) = (String::new(), "");
-        for (&place, (value, note)) in &self.0 {
-            let known = &schema::parameters()[place];
-            if known.section() != open {
-                open = known.section();
-                text += &format!("\n[{open}]\n");
-            }
+        write::sections(|known| {
+            let (value, note) = self.0.get(known.path)?;
             let row = format!("{} = {}", known.key(), values::literal(value));
-            text += &match note.is_empty() {
-                true => row + "\n",
-                false => format!("{row:38} # {note}\n"),
-            };
-        }
-        text
+            Some(match note.is_empty() {
+                true => row,
+                false => format!("{row:38} # {note}"),
+            })
+        })
     }
 }
 

@@ -1,83 +1,72 @@
 //! What closed forms say of a scenario before it is run: size and pressure of the unworn contact, and
 //! whether it will stick in the middle or slip as a whole.
 
+use std::f64::consts::TAU;
+
 use crate::contact::indenter::Indenter;
 use crate::plot::units::{format_value, plain};
 use crate::scenario::Scenario;
-use crate::simulation::Unworn;
-use crate::simulation::drive::Control;
+use crate::simulation::drive::{Control, Oscillation};
+use crate::simulation::{Setup, Unworn};
 
 /// Seconds of a day.
 const DAY: f64 = 86_400.0;
 
-/// The closed forms of a scenario.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Forecast {
-    /// d, m.
-    depth: f64,
-    /// a, m.
-    radius: f64,
-    /// F_z, N.
-    force: f64,
-    /// F_z/(π a²), Pa.
-    mean_pressure: f64,
-    is_ball: bool,
-    /// The amplitude from which the whole contact slips, m.
-    threshold: f64,
-    amplitude: f64,
-    /// Hz.
-    frequency: f64,
+/// The closed forms of a scenario whose tangential displacement is prescribed.
+pub struct Forecast<'a> {
+    setup: &'a Setup,
+    shift: &'a Oscillation,
 }
 
-impl Forecast {
+impl<'a> Forecast<'a> {
     /// What is known of a scenario; `None` where nothing is moved by a displacement.
-    pub fn of(scenario: &Scenario) -> Option<Self> {
+    pub fn of(scenario: &'a Scenario) -> Option<Self> {
         let setup = scenario.setup();
-        let Some(Control::Displacement(shift)) = setup.drive.tangential() else {
-            return None;
-        };
-        let unworn = Unworn::of(setup);
-        let depth = unworn.deepest();
-        Some(Self {
-            depth,
-            radius: unworn.radius(depth),
-            force: unworn.force(depth),
-            mean_pressure: unworn.mean_pressure(depth),
-            is_ball: matches!(setup.indenter, Indenter::Paraboloid { .. }),
-            // By Ciavarella and Jäger: u_t = (μ E*/G*) d, whatever the shape.
-            threshold: depth / setup.material.stick_ratio(),
-            amplitude: shift.amplitude(),
-            frequency: shift.angular_frequency() / std::f64::consts::TAU,
-        })
+        match setup.drive.tangential()? {
+            Control::Displacement(shift) => Some(Self { setup, shift }),
+            Control::Force(_) => None,
+        }
+    }
+
+    fn is_ball(&self) -> bool {
+        matches!(self.setup.indenter, Indenter::Paraboloid { .. })
+    }
+
+    /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
+    /// and Jäger.
+    fn threshold(&self) -> f64 {
+        Unworn::of(self.setup).deepest() / self.setup.material.stick_ratio()
     }
 
     /// Size and pressure of the unworn contact.
     pub fn contact(&self) -> String {
         let value = |value: f64, unit: &str| format_value(value, unit, 3);
-        let mean = self.mean_pressure;
-        let (what, pressure, place) = match self.is_ball {
+        let unworn = Unworn::of(self.setup);
+        let depth = unworn.deepest();
+        let mean = unworn.mean_pressure(depth);
+        let (what, pressure, place) = match self.is_ball() {
             // Hertz: p0 = 3/2 of the mean.
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
             false => ("mean pressure", mean, ""),
         };
         format!(
             "contact radius {}, depth {}, load {}, {what} {}{place}",
-            value(self.radius, "m"),
-            value(self.depth, "m"),
-            value(self.force, "N"),
+            value(unworn.radius(depth), "m"),
+            value(depth, "m"),
+            value(unworn.force(depth), "N"),
             value(pressure, "Pa"),
         )
     }
 
     /// The regime that the unworn contact is in.
     pub fn regime(&self) -> String {
-        let threshold = format_value(self.threshold, "m", 3);
-        let share = self.amplitude / self.threshold;
+        let share = self.shift.amplitude() / self.threshold();
+        let threshold = format_value(self.threshold(), "m", 3);
         if share >= 1.0 {
             return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
         }
         // c² = a² (1 − U/u_t) of Cattaneo and Mindlin's sphere; a punch slips nowhere or everywhere.
-        match self.is_ball {
+        match self.is_ball() {
             true => format!(
                 "partial slip: a ring outside {:.0} % of the contact radius; all slips from an amplitude of {threshold}",
                 100.0 * (1.0 - share).sqrt()
@@ -88,7 +77,8 @@ impl Forecast {
 
     /// How many cycles of the test a day takes.
     pub fn a_day(&self) -> String {
-        let (cycles, frequency) = (plain(self.frequency * DAY), plain(self.frequency));
+        let frequency = self.shift.angular_frequency() / TAU;
+        let (cycles, frequency) = (plain(frequency * DAY), plain(frequency));
         format!("a day on the rig is {cycles} cycles at {frequency} Hz")
     }
 }
@@ -98,29 +88,35 @@ mod tests {
     use super::*;
     use crate::scenario::Scenario;
 
-    fn forecast(sets: &[&str]) -> Forecast {
+    fn scenario(sets: &[&str]) -> Scenario {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let scenario = Scenario::load("li2019-fig3", &sets).expect("a scenario");
-        Forecast::of(&scenario).expect("a contact")
+        Scenario::load("li2019-fig3", &sets).expect("a scenario")
     }
 
     #[test]
     fn the_contact_is_that_of_hertz() {
-        let found = forecast(&["motion.normal.amplitude=0"]);
+        let scenario = scenario(&["motion.normal.amplitude=0"]);
+        let (unworn, depth) = (Unworn::of(scenario.setup()), 1e-6);
+        assert!((unworn.deepest() / depth - 1.0).abs() < 1e-12);
         // a = √(R d), F = 4/3 E* √R d^1.5, p0 = 2 E* √(d/R)/π.
-        assert!((found.radius / 1e-4 - 1.0).abs() < 1e-3);
+        assert!((unworn.radius(depth) / 1e-4 - 1.0).abs() < 1e-3);
         let peak = 2.0 * 2.3077e11 * 1e-2 / std::f64::consts::PI;
-        let found = 1.5 * found.mean_pressure;
+        let found = 1.5 * unworn.mean_pressure(depth);
         assert!((found / peak - 1.0).abs() < 2e-3, "{found}");
+        let told = Forecast::of(&scenario).expect("a contact").contact();
+        assert!(told.contains("Hertz pressure 1.47 GPa"), "{told}");
     }
 
     #[test]
     fn the_regime_turns_where_the_whole_contact_slips() {
-        let found = forecast(&["motion.normal.amplitude=0"]);
-        let more = |factor: f64| {
-            let amplitude = format!("motion.tangential.amplitude={}", factor * found.threshold);
-            forecast(&["motion.normal.amplitude=0", &amplitude]).regime()
+        let regime = |amplitude: f64| {
+            let amplitude = format!("motion.tangential.amplitude={amplitude}");
+            let scenario = scenario(&["motion.normal.amplitude=0", &amplitude]);
+            let found = Forecast::of(&scenario).expect("a contact");
+            (found.threshold(), found.regime())
         };
+        let (threshold, _) = regime(1e-7);
+        let more = |factor: f64| regime(factor * threshold).1;
         assert!(
             more(0.99).starts_with("partial slip: a ring outside 10 %"),
             "{}",

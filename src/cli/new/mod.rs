@@ -91,12 +91,12 @@ impl Interview {
         let on = self.body("against", &mut draft)?;
         let what = "What presses the bodies together?";
         let (_, press) = self.one_of(["load", "depth"], what, &mut draft)?;
-        self.tell(&draft, Forecast::contact)?;
+        self.tell(&draft, |of| of.contact())?;
         let stroke = self.number("stroke", &mut draft)?;
         self.number("friction", &mut draft)?;
-        self.tell(&draft, Forecast::regime)?;
+        self.tell(&draft, |of| of.regime())?;
         self.number("frequency", &mut draft)?;
-        self.tell(&draft, Forecast::a_day)?;
+        self.tell(&draft, |of| of.a_day())?;
         let wear = question("wear");
         let coefficient = self.ask(wear, |text| match text.trim() {
             "none" => Ok(None),

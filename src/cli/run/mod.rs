@@ -18,7 +18,7 @@ use super::job::RunJob;
 use super::progress::Progress;
 use super::{FAILED, accuracy, complain, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::{WriteError, shell_word};
+use crate::export::file::{WriteError, shell_word, write_whole_with};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, state};
@@ -312,10 +312,10 @@ impl Job<'_> {
     /// Writes the final files, as many as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
-        let rows = self.directory.rows();
-        let mut outcome = self
-            .directory
-            .write_with("history.csv", |out| job.history.write(session, &rows, out));
+        let (rows, history) = (self.directory.rows(), self.directory.path());
+        let mut outcome = write_whole_with(&history.join("history.csv"), |out| {
+            job.history.write(session, &rows, out)
+        });
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
         let last_loop = is_done.then(|| job.last_loop.table(session)).flatten();

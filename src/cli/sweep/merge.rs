@@ -23,7 +23,9 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     // Rows in a file without a name, where the merged table will stand.
     let beside = target.as_ref().map(|target| target.directory().to_owned());
     let beside = beside.unwrap_or_else(env::temp_dir);
-    let mut ledger = Ledger::unnamed(study, &beside)
+    let rows = tempfile::tempfile_in(&beside);
+    let mut ledger = rows
+        .and_then(|rows| Ledger::new(study, rows, &beside))
         .with_context(|| format!("{}: cannot make a temporary file", beside.display()))?;
     let mut arithmetic = Arithmetic::new();
     let (mut doubles, mut contradictions, mut count) = (Vec::new(), Vec::new(), 1);

@@ -18,7 +18,7 @@ use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
 use crate::export::file::shell_word;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, limited, printable};
-use crate::studies::sweep::engine::{self, Check};
+use crate::studies::sweep::engine;
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record};
 use crate::studies::sweep::{Shard, Study, Success};
@@ -102,31 +102,30 @@ fn print_point(study: &Study, point: usize) -> Result<()> {
     Ok(writeln!(io::stdout(), "# {name}\n{scenario}")?)
 }
 
-/// How long points are checked before the first one runs; the others are checked while they run.
+/// How long points are checked before the first one runs.
 const CHECKED_FIRST: Duration = Duration::from_secs(1);
 
-/// Refuses a study with an invalid point, unless invalid points are skipped. What is not checked within
-/// `patience` is left to be checked.
-fn refuse_invalid<'a>(
+/// Refuses a study with an invalid point, unless invalid points are skipped. What is not checked within `patience` is
+/// found invalid when its turn comes.
+fn refuse_invalid(
     options: &Sweep,
-    study: &'a Study,
+    study: &Study,
     shard: Shard,
     pool: &ThreadPool,
     patience: Duration,
-) -> Result<Option<Check<'a>>> {
+) -> Result<()> {
     if options.skip_invalid {
-        return Ok(None);
+        return Ok(());
     }
-    let mut check = Check::new(study, shard);
     let bar = progress::bar(study.points() as u64, progress::TIMES, options.quiet);
     bar.set_message("checking");
     let start = Instant::now();
-    let checked = check.advance(pool, |checked| {
+    let checked = engine::check(study, shard, pool, |checked| {
         bar.set_position((checked * shard.count) as u64);
         start.elapsed() < patience
     });
     bar.finish_and_clear();
-    Ok((!checked.map_err(invalid)?).then_some(check))
+    Ok(checked.map_err(invalid)?)
 }
 
 fn invalid(refusal: Refusal) -> Refusal {
@@ -139,7 +138,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let out = out.unwrap_or_else(|| default_out(path, shard));
     let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
-    let check = refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
+    refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
     let mut output = Output::open(&out, study, shard, options)?;
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
@@ -164,7 +163,11 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mut checked = Ok(());
     if outcome.is_ok() {
         let todo = output.ledger.missing(study, shard);
-        checked = engine::run(study, todo, check, &pool, &go_on, |point, row| {
+        engine::run(study, todo, &pool, &go_on, |point, row| {
+            if !options.skip_invalid && Success::of(&row) == Success::Invalid {
+                checked = engine::validated(study, point);
+                return false;
+            }
             let added = output.add(point, &row);
             let added = added.map_err(|error| anyhow!("{error}"));
             outcome = added.and_then(|()| print(&output.ledger));

@@ -45,7 +45,8 @@ impl Output {
         let ledger = if target.is_stdout() {
             // Sorted, they come out at the end.
             let directory = env::temp_dir();
-            let ledger = Ledger::unnamed(study, &directory);
+            let rows = tempfile::tempfile_in(&directory);
+            let ledger = rows.and_then(|rows| Ledger::new(study, rows, &directory));
             ledger.with_context(|| directory.display().to_string())?
         } else {
             write_with(path, |file| -> Result<Ledger> {

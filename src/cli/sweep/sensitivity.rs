@@ -13,11 +13,9 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let found = sensitivity::run(study, &pool, &go_on)?;
     let found = found.context("interrupted before all runs had finished: nothing was saved")?;
     let table = &found.table;
-    let lines = study.to_toml();
-    let mut lines = lines.lines().filter(|line| !line.is_empty());
-    let first = lines.next().unwrap_or_default();
-    let others: Vec<String> = lines.map(|line| format!("study: {line}")).collect();
-    results::write(target.as_ref(), first, &others, table)?;
+    if let Some(target) = &target {
+        target.write((record::header(study) + &table.csv()).as_bytes())?;
+    }
     let (cells, steps) = found.numerics;
     let numerics = || format!("N = {cells}, {steps} steps per cycle\n");
     if options.json || !options.quiet {

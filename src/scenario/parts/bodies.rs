@@ -9,7 +9,7 @@ const HALF_SPACE: &str = "material.half_space";
 
 impl Parts<'_> {
     /// The moduli and the coefficient of friction.
-    pub(super) fn material(&self) -> Result<Material, ScenarioError> {
+    pub(super) fn material(&self) -> Result<Material, Refusal> {
         let friction = match self.first("friction.coefficient", "friction") {
             None if self.has("motion.tangential") => {
                 let meaning = "coefficient of friction, which the tangential motion needs";
@@ -39,7 +39,7 @@ impl Parts<'_> {
     }
 
     /// One of two bodies, from its section of the scenario.
-    fn body(&self, section: &str) -> Result<Body, ScenarioError> {
+    fn body(&self, section: &str) -> Result<Body, Refusal> {
         if !self.has(section) {
             let meaning = "the second body: youngs_modulus and poisson, or rigid = true";
             return Err(self.missing(section, meaning));

@@ -13,7 +13,7 @@ use toml::{Table, Value};
 use super::check::{self, length, show};
 use super::complete;
 use super::derive;
-use super::error::{Faults, Origin, ScenarioError};
+use super::error::{Faults, Origin, Refusal};
 use super::schema::{self, Parameter};
 use super::values::{self, join};
 use crate::contact::indenter::Indenter;
@@ -44,7 +44,7 @@ pub(super) fn setup(
     table: &mut Table,
     origin: &Origin,
     faults: Faults,
-) -> Result<(Table, Setup), ScenarioError> {
+) -> Result<(Table, Setup), Refusal> {
     // Whatever is wrong, what is missing beside it can be told.
     for path in faults.paths() {
         let wrong = values::remove(table, path).and_then(|_| schema::find(path));
@@ -80,7 +80,7 @@ pub(super) struct Parts<'a> {
 
 impl Parts<'_> {
     /// All parts.
-    fn setup(&self) -> Result<Setup, ScenarioError> {
+    fn setup(&self) -> Result<Setup, Refusal> {
         check::conflicts(self.written, self.origin)?;
         let indenter = self.indenter()?;
         let drive = self.drive()?;
@@ -142,7 +142,7 @@ impl Parts<'_> {
     /// # Errors
     ///
     /// That it is missing, if it is a key without such a value.
-    fn require<T: DeserializeOwned>(&self, key: &str) -> Result<T, ScenarioError> {
+    fn require<T: DeserializeOwned>(&self, key: &str) -> Result<T, Refusal> {
         let known = schema::known(key);
         let default = || known.default.value()?.clone().try_into().ok();
         let value = self.get(key).or_else(default);
@@ -154,7 +154,7 @@ impl Parts<'_> {
     /// # Errors
     ///
     /// As [`require`](Self::require).
-    fn choice<T: FromStr>(&self, key: &str) -> Result<T, ScenarioError> {
+    fn choice<T: FromStr>(&self, key: &str) -> Result<T, Refusal> {
         let word: String = self.require(key)?;
         let unknown = |_| self.missing(key, schema::known(key).described());
         word.parse().map_err(unknown)
@@ -165,24 +165,20 @@ impl Parts<'_> {
     /// # Errors
     ///
     /// That the key of the file is missing, if there is no list.
-    fn list(&self, list: &str, file: &str) -> Result<Vec<f64>, ScenarioError> {
+    fn list(&self, list: &str, file: &str) -> Result<Vec<f64>, Refusal> {
         let missing = || self.missing(file, schema::known(file).described());
         self.get(list).ok_or_else(missing)
     }
 
     /// Notes that a key is missing, which means `meaning`, and returns any value of it.
-    fn any<T: DeserializeOwned>(
-        &self,
-        key: &str,
-        meaning: impl Display,
-    ) -> Result<T, ScenarioError> {
+    fn any<T: DeserializeOwned>(&self, key: &str, meaning: impl Display) -> Result<T, Refusal> {
         let missing = self.missing(key, meaning);
         let any = schema::known(key).any_value();
         any.and_then(|any| any.try_into().ok()).ok_or(missing)
     }
 
     /// Notes the error that there is no value at `path`, which means `meaning`, unless it is dealt with already.
-    fn missing(&self, path: &str, meaning: impl Display) -> ScenarioError {
+    fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();
         if !faults.covers(path) {
@@ -196,13 +192,13 @@ impl Parts<'_> {
     }
 
     /// Refuses the value that stands at `path`, if one was written.
-    fn refuse(&self, path: &str, rule: impl Display) -> ScenarioError {
+    fn refuse(&self, path: &str, rule: impl Display) -> Refusal {
         let written = values::at(self.written, path).map(show);
         self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
     /// Adds the table to what a constructor refused.
-    fn refused(&self, section: &str, invalid: Invalid) -> ScenarioError {
+    fn refused(&self, section: &str, invalid: Invalid) -> Refusal {
         let path = format!("{section}.{}", invalid.field);
         match self.has(&path) {
             true => self.refuse(&path, invalid.rule),
@@ -212,7 +208,7 @@ impl Parts<'_> {
 
     /// The law of wear. Keys of the power law are judged under either law, so that the law can be
     /// switched during a run.
-    fn wear(&self, contact: &Unworn) -> Result<Option<WearLaw>, ScenarioError> {
+    fn wear(&self, contact: &Unworn) -> Result<Option<WearLaw>, Refusal> {
         if !self.has("wear") {
             return Ok(None);
         }
@@ -245,7 +241,7 @@ impl Parts<'_> {
 
     /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
     /// begins with.
-    fn wear_coefficient(&self, material: &Material) -> Result<f64, ScenarioError> {
+    fn wear_coefficient(&self, material: &Material) -> Result<f64, Refusal> {
         let Some(per_load) = self.get::<f64>("wear.coefficient_per_load") else {
             let given = self.first("wear.coefficient", "wear");
             let key = "wear.coefficient";
@@ -266,7 +262,7 @@ impl Parts<'_> {
         method: AbelMethod,
         indenter: &Indenter,
         domain: Option<f64>,
-    ) -> Result<RadialGrid, ScenarioError> {
+    ) -> Result<RadialGrid, Refusal> {
         let points: usize = self.require("numerics.points")?;
         let most = method.most_cells();
         if points > most {
@@ -308,7 +304,7 @@ impl Parts<'_> {
     }
 
     /// Where the nodes lie: as the list says, if there is one.
-    fn spacing(&self, default: Spacing) -> Result<Spacing, ScenarioError> {
+    fn spacing(&self, default: Spacing) -> Result<Spacing, Refusal> {
         let has_nodes = self.has("numerics.nodes");
         let default = if has_nodes { Spacing::Given } else { default };
         let named = schema::named(self.table, "numerics.grid").unwrap_or(default);

@@ -15,7 +15,7 @@ const TANGENTIAL: &str = "motion.tangential";
 
 impl Parts<'_> {
     /// Both directions of the motion, on their rig.
-    pub(super) fn drive(&self) -> Result<Drive, ScenarioError> {
+    pub(super) fn drive(&self) -> Result<Drive, Refusal> {
         let normal = self.control(NORMAL, TANGENTIAL)?;
         if normal.oscillation().highest() <= 0.0 {
             let rule = "never touches; mean + amplitude must be greater than 0";
@@ -48,7 +48,7 @@ impl Parts<'_> {
     }
 
     /// The motion of waveform = "table"; the table alone says so as well.
-    fn tabled_motion(&self, motion: &str) -> Result<Option<Tabled>, ScenarioError> {
+    fn tabled_motion(&self, motion: &str) -> Result<Option<Tabled>, Refusal> {
         let word: Option<String> = self.get(&join(motion, "waveform"));
         let [times, values, file] = ["times", "values", "file"].map(|key| join(motion, key));
         let is_given = self.has(&times) || self.has(&values);
@@ -75,7 +75,7 @@ impl Parts<'_> {
     /// One direction of the motion. Where it stands still its frequency is that of the other
     /// direction, so that both share one period. A table brings its own mean, amplitude and frequency
     /// where the scenario gives none.
-    fn control(&self, motion: &str, other: &str) -> Result<Control, ScenarioError> {
+    fn control(&self, motion: &str, other: &str) -> Result<Control, Refusal> {
         let key = |key: &str| join(motion, key);
         let refused = |invalid| self.refused(motion, invalid);
         let tabled = self.tabled_motion(motion)?;

@@ -5,10 +5,7 @@ use crate::simulation::running_in::{Course, Over, RunningIn};
 
 impl Parts<'_> {
     /// The coefficients that run in; `None` if they are constant.
-    pub(super) fn running_in(
-        &self,
-        material: &Material,
-    ) -> Result<Option<RunningIn>, ScenarioError> {
+    pub(super) fn running_in(&self, material: &Material) -> Result<Option<RunningIn>, Refusal> {
         let mut all = RunningIn {
             friction: self.course("friction")?,
             wear: self.course("wear")?,
@@ -20,7 +17,16 @@ impl Parts<'_> {
         };
         if let Some(per_load) = self.get("wear.coefficient_per_load") {
             all.wear = None;
-            all.wear_per_load = self.over_friction(per_load, all.friction.as_ref())?;
+            all.wear_per_load = all.friction.as_ref().map(|_| per_load);
+            if all
+                .friction
+                .as_ref()
+                .is_some_and(|friction| friction.least() <= 0.0)
+            {
+                let rule = "needs friction greater than 0 at all times: per friction work it is \
+                            k = coefficient_per_load / friction";
+                return Err(self.refuse("wear.coefficient_per_load", rule));
+            }
         }
         // Behind the threshold the coefficient is what it is without one.
         if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
@@ -31,49 +37,28 @@ impl Parts<'_> {
         Ok((all != RunningIn::default()).then_some(all))
     }
 
-    /// A coefficient per load and distance, over friction that runs in; `None` where that is constant.
-    fn over_friction(
-        &self,
-        per_load: f64,
-        friction: Option<&Course>,
-    ) -> Result<Option<f64>, ScenarioError> {
-        let Some(friction) = friction else {
-            return Ok(None);
-        };
-        if friction.least() > 0.0 {
-            return Ok(Some(per_load));
-        }
-        let rule = "needs friction greater than 0 at all times: per friction work it is \
-                    k = coefficient_per_load / friction";
-        Err(self.refuse("wear.coefficient_per_load", rule))
-    }
-
     /// The coefficient of a section as it runs in; `None` if it is constant.
-    fn course(&self, section: &str) -> Result<Option<Course>, ScenarioError> {
+    fn course(&self, section: &str) -> Result<Option<Course>, Refusal> {
         let key = |key: &str| join(section, key);
-        let refused = |invalid| self.refused(section, invalid);
-        for (at, over) in [("at_cycle", Over::Cycles), ("at_energy", Over::Energy)] {
-            let Some(rows) = self.get::<Vec<f64>>(&key(at)) else {
+        let forms = [
+            ("at_cycle", "running_in_cycles", Over::Cycles),
+            ("at_energy", "running_in_energy", Over::Energy),
+        ];
+        for (rows, constant, over) in forms {
+            let course = if let Some(rows) = self.get::<Vec<f64>>(&key(rows)) {
+                Course::table(&rows, &self.require::<Vec<f64>>(&key("values"))?, over)
+            } else if let Some(constant) = self.get(&key(constant)) {
+                let first = self.require(&key("coefficient"))?;
+                Course::exponential(first, self.require(&key("settled"))?, constant, over)
+            } else {
                 continue;
             };
-            let values: Vec<f64> = self.require(&key("values"))?;
-            return Course::table(&rows, &values, over)
+            return course
                 .map(Some)
-                .map_err(refused);
-        }
-        let constants = ["running_in_cycles", "running_in_energy"].map(key);
-        for (constant, over) in constants.iter().zip([Over::Cycles, Over::Energy]) {
-            let Some(constant) = self.get(constant) else {
-                continue;
-            };
-            let (first, settled) = (
-                self.require(&key("coefficient"))?,
-                self.require(&key("settled"))?,
-            );
-            let course = Course::exponential(first, settled, constant, over);
-            return course.map(Some).map_err(refused);
+                .map_err(|invalid| self.refused(section, invalid));
         }
         if self.has(&key("settled")) {
+            let constants = forms.map(|(_, constant, _)| key(constant));
             let rule = format!("needs {}", constants.join(" or "));
             return Err(self.refuse(&key("settled"), rule));
         }

@@ -11,7 +11,7 @@ const CUT_OFF: f64 = 0.05;
 
 impl Parts<'_> {
     /// The scar that the run begins with; `None` without `wear.initial`.
-    pub(super) fn scar(&self) -> Result<Option<Scar>, ScenarioError> {
+    pub(super) fn scar(&self) -> Result<Option<Scar>, Refusal> {
         if !self.has(RADII) && !self.has(DEPTHS) {
             return Ok(None);
         }
@@ -29,39 +29,43 @@ impl Parts<'_> {
         scar: &Scar,
         indenter: &Indenter,
         domain: f64,
-    ) -> Result<(), ScenarioError> {
+    ) -> Result<(), Refusal> {
         let (edge, (last, depth_there)) = (scar.edge(), scar.end());
         // A punch has no flank, and may be worn as deep as its slopes stay small.
         let flank = match indenter.rim() {
             Some(rim) => rim / HARDLY_SAME,
             None => indenter.profile(domain),
         };
-        let [ends, reaches, deepest] = [last.min(edge), edge, scar.deepest()].map(length);
+        let shown = [
+            last.min(edge),
+            edge,
+            scar.deepest(),
+            domain,
+            flank,
+            last,
+            depth_there,
+        ];
+        let [ends, reaches, deepest, limit, depths, end, still] = shown.map(length);
         let (path, rule) = if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
             let rule = format!(
-                "the scar ends at r = {ends} m, where contact may reach {} m: is r in m? a column r_mm is converted",
-                length(domain)
+                "the scar ends at r = {ends} m, where contact may reach {limit} m: is r in m? a column r_mm is converted"
             );
             (RADII, rule)
         } else if scar.deepest() > HARDLY_SAME * flank {
             let rule = format!(
-                "the scar is {deepest} m deep, where a contact has depths of {} m: is the depth in m? a column \
-                 depth_um is converted",
-                length(flank)
+                "the scar is {deepest} m deep, where a contact has depths of {depths} m: is the depth in m? a column \
+                 depth_um is converted"
             );
             (DEPTHS, rule)
         } else if edge > domain * (1.0 + 1e-9) {
             let rule = format!(
-                "the scar reaches r = {reaches} m, beyond the domain's edge, {} m; a greater numerics.domain_radius \
-                 would hold it",
-                length(domain)
+                "the scar reaches r = {reaches} m, beyond the domain's edge, {limit} m; a greater \
+                 numerics.domain_radius would hold it"
             );
             (RADII, rule)
         } else if last < domain * (1.0 - 1e-9) && depth_there > CUT_OFF * scar.deepest() {
             let rule = format!(
-                "the table ends at r = {} m, where the scar is still {} m deep; a longer trace",
-                length(last),
-                length(depth_there)
+                "the table ends at r = {end} m, where the scar is still {still} m deep; a longer trace"
             );
             (DEPTHS, rule)
         } else {

@@ -13,7 +13,7 @@ const FEWEST_IN_CONTACT: usize = 4;
 
 impl Parts<'_> {
     /// The unworn shape.
-    pub(super) fn indenter(&self) -> Result<Indenter, ScenarioError> {
+    pub(super) fn indenter(&self) -> Result<Indenter, Refusal> {
         let shape: String = self.require("indenter.shape")?;
         self.refuse_keys_of_other_shapes(&shape)?;
         let of = |key: &str| self.require::<f64>(&join("indenter", key));
@@ -36,7 +36,7 @@ impl Parts<'_> {
         .map_err(|invalid| self.refused("indenter", invalid))
     }
 
-    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), ScenarioError> {
+    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Refusal> {
         let foreign = schema::parameters()
             .iter()
             .find(|key| self.has(key.path) && !key.is_of(shape));
@@ -60,12 +60,12 @@ impl Parts<'_> {
         &self,
         measured: &MeasuredProfile,
         domain: f64,
-    ) -> Result<(), ScenarioError> {
+    ) -> Result<(), Refusal> {
         let last = measured.last_radius();
         let points = measured.points_within(domain);
         let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);
         let unit = "are r and f in m? columns r_mm and f_um are converted";
-        let edge = length(domain);
+        let [edge, end] = [domain, last].map(length);
         let rule = if slope > STEEPEST {
             format!("a/R = {slope:.1e} at the contact's edge, where slopes must be small: {unit}")
         } else if domain > last {
@@ -74,10 +74,7 @@ impl Parts<'_> {
             } else {
                 "; a longer trace, or a smaller depth".into()
             };
-            format!(
-                "the table ends at r = {} m, but the contact can reach {edge} m{hint}",
-                length(last)
-            )
+            format!("the table ends at r = {end} m, but the contact can reach {edge} m{hint}")
         } else if points < FEWEST_IN_CONTACT || slope < SHALLOWEST {
             format!(
                 "only {points} points lie within {edge} m, where contact is possible, \

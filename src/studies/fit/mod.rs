@@ -18,7 +18,7 @@
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
 //! derivatives; `basin` minimises in general and gives no covariance.)
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -53,9 +53,11 @@ const OF_MEDIAN: f64 = 1.4826;
 #[derive(Debug)]
 pub struct Fit {
     scenario: Scenario,
-    data: Vec<Measured>,
+    /// The data sets.
+    pub data: Vec<Measured>,
     free: Vec<Free>,
-    cycles: f64,
+    /// The cycles of each run: loops that state no cycle are compared with the last one.
+    pub cycles: f64,
     robust: bool,
 }
 
@@ -76,35 +78,15 @@ pub struct Value {
     pub correlations: BTreeMap<String, f64>,
 }
 
-/// A data set beside what the fitted scenario gives for it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Compared {
-    /// As it was measured.
-    pub measured: Measured,
-    /// Measured less simulated.
-    pub residuals: Vec<f64>,
-}
-
-impl Compared {
-    /// The root of the mean square of the residuals.
-    pub fn rms(&self) -> f64 {
-        rms(&self.residuals)
-    }
-}
-
 /// What came of a fit.
 #[derive(Debug)]
 pub struct Fitted {
     /// The keys in the order in which they were asked for.
     pub values: Vec<Value>,
-    /// The data sets.
-    pub compared: Vec<Compared>,
+    /// Measured less simulated values of each data set.
+    pub residuals: Vec<Vec<f64>>,
     /// Where data do not determine a key, in a line each.
     pub remarks: Vec<String>,
-    /// How often the scenario was run.
-    pub runs: usize,
-    /// The cycles of each run: loops that state no cycle are compared with the last one.
-    pub cycles: f64,
     /// The scenario with the fitted values.
     pub scenario: Scenario,
 }
@@ -175,9 +157,8 @@ impl Fit {
     /// # Errors
     /// A scenario that cannot run with its start values, and a search that fails.
     pub fn run(&self, on_run: &mut dyn FnMut()) -> Result<Fitted> {
-        let (runs, on_run) = (Cell::new(0), RefCell::new(on_run));
+        let on_run = RefCell::new(on_run);
         let simulate = |theta: &[f64]| {
-            runs.update(|runs| runs + 1);
             on_run.borrow_mut()();
             model::simulate(&self.at(theta)?, &self.data, self.cycles)
         };
@@ -210,7 +191,7 @@ impl Fit {
             let uncertainty = Errors::new(&z, &derivatives, &estimated, self.robust);
             if round == rounds {
                 let scenario = self.at(&theta).context("no minimum was found")?;
-                return Ok(self.fitted(&theta, &uncertainty, simulated, scenario, runs.get()));
+                return Ok(self.fitted(&theta, &uncertainty, simulated, scenario));
             }
             self.update_errors(&simulated, &uncertainty.leverages, &mut errors);
             round += 1;
@@ -295,7 +276,6 @@ impl Fit {
         uncertainty: &Errors,
         simulated: Vec<Vec<f64>>,
         scenario: Scenario,
-        runs: usize,
     ) -> Fitted {
         let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
         let covariance = &uncertainty.covariance;
@@ -338,17 +318,13 @@ impl Fit {
             });
         }
         remarks.extend(alike);
-        let compared = self.data.iter().zip(&simulated);
-        let compared = compared.map(|(set, simulated)| Compared {
-            measured: set.clone(),
-            residuals: residuals(set, simulated),
-        });
+        let sets = self.data.iter().zip(&simulated);
         Fitted {
             values,
-            compared: compared.collect(),
+            residuals: sets
+                .map(|(set, simulated)| residuals(set, simulated))
+                .collect(),
             remarks,
-            runs,
-            cycles: self.cycles,
             scenario,
         }
     }
@@ -367,7 +343,8 @@ fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
     pairs.map(|(value, simulated)| value - simulated).collect()
 }
 
-fn rms(values: &[f64]) -> f64 {
+/// The root of the mean square.
+pub fn rms(values: &[f64]) -> f64 {
     let squares: f64 = values.iter().map(|value| value * value).sum();
     (squares / values.len().max(1) as f64).sqrt()
 }

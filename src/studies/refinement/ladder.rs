@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
+use super::placing;
 use super::rung::{Rung, Top, run};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
@@ -293,7 +294,7 @@ impl Ladder<'_> {
 
     /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar.
     fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
-        outcome.place(cells, self.placing()?)
+        placing::place(&outcome.grid, &outcome.wear, cells, self.placing()?)
     }
 
     /// The level after a rung: finer in what uses up more than its share, where all have equal ones.
@@ -370,9 +371,7 @@ mod tests {
         let tried = RefCell::new(Vec::new());
         let run = |scenario: &Scenario, _: f64, _: &dyn Fn() -> bool| {
             tried.borrow_mut().push(Level::of(scenario));
-            Err(SessionError::Scenario(
-                Refusal::from("broke".to_owned()).into(),
-            ))
+            Err(SessionError::Scenario(Refusal::from("broke".to_owned())))
         };
         let ladder = Ladder {
             scenario: &Scenario::load("li2019-fig3", &[]).expect("a scenario"),

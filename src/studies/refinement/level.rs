@@ -1,7 +1,7 @@
 //! How finely a scenario is computed: cells, steps and the tolerance of jumps.
 
 use crate::math::grid::{MAX_CELLS, MIN_CELLS, RadialGrid};
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Spacing};
 
 /// The fewest steps per cycle that are tried.
@@ -130,7 +130,7 @@ impl Level {
     ///
     /// # Errors
     /// If the scenario's method or shape does not allow this many cells.
-    pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, ScenarioError> {
+    pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, Refusal> {
         scenario.with_all(&self.keys())
     }
 }

@@ -1,8 +1,6 @@
 //! The quantities by which two runs of a scenario are compared: the scar, its volume, and forces
 //! and pressures at the end.
 
-use super::placing;
-use crate::contact::indenter::Indenter;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;
@@ -29,9 +27,9 @@ const HIGHEST_ORDER: f64 = 2.0;
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    grid: RadialGrid,
+    pub(super) grid: RadialGrid,
     /// Worn depth at the nodes, m.
-    wear: Vec<f64>,
+    pub(super) wear: Vec<f64>,
     /// V, m³.
     pub volume: f64,
     /// E_d, J.
@@ -154,11 +152,6 @@ impl Outcome {
             stick_radius: moment.stick_radius.unwrap_or(0.0),
             depth: setup.depth_scale(moment.depth),
         }
-    }
-
-    /// The grid of `cells` cells that suits this scar; `None` if there is none.
-    pub(super) fn place(&self, cells: usize, indenter: &Indenter) -> Option<RadialGrid> {
-        placing::place(&self.grid, &self.wear, cells, indenter)
     }
 
     /// The largest worn depth, m.

@@ -116,13 +116,13 @@ impl Study {
         Session::start(self.scenario.after(&changes)?)
     }
 
-    /// Runs one setting at one wear number.
+    /// Runs one setting at one wear number; `None` if `go_on` said no.
     fn run(
         &self,
         setting: Setting,
         wear_number: f64,
         go_on: &dyn Fn() -> bool,
-    ) -> Result<Outcome, SessionError> {
+    ) -> Result<Option<Outcome>, SessionError> {
         let mut session = self.start(setting, wear_number)?;
         let simulation = session.simulation();
         let depth = simulation.setup().depth_scale(simulation.moment().depth);
@@ -131,19 +131,20 @@ impl Study {
             let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
             match session.advance_while(end, |_| go_on()) {
                 Err(SessionError::Breakdown(breakdown)) => {
-                    return Ok(Outcome {
+                    return Ok(Some(Outcome {
                         sawtooth: None,
                         exploded: Some((breakdown.cycle, breakdown.cause.to_string())),
-                    });
+                    }));
                 }
+                Err(SessionError::Interrupted) => return Ok(None),
                 other => other?,
             }
             highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
         }
-        Ok(Outcome {
+        Ok(Some(Outcome {
             sawtooth: (highest > VISIBLE).then_some(highest),
             exploded: None,
-        })
+        }))
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.
@@ -156,7 +157,7 @@ impl Study {
         setting: Setting,
         wear_numbers: &[f64],
         go_on: &dyn Fn() -> bool,
-        on_run: impl FnMut(),
+        mut on_run: impl FnMut(),
     ) -> Result<Line, SessionError> {
         let mut line = Line {
             setting,
@@ -164,27 +165,16 @@ impl Study {
             predicted: predict(self, setting)?,
             seen: None,
         };
-        match self.climb(&mut line, wear_numbers, go_on, on_run) {
-            Err(SessionError::Interrupted) => Ok(line),
-            climbed => climbed.map(|()| line),
-        }
-    }
-
-    fn climb(
-        &self,
-        line: &mut Line,
-        wear_numbers: &[f64],
-        go_on: &dyn Fn() -> bool,
-        mut on_run: impl FnMut(),
-    ) -> Result<(), SessionError> {
         for &wear_number in wear_numbers {
-            let outcome = self.run(line.setting, wear_number, go_on)?;
+            let Some(outcome) = self.run(setting, wear_number, go_on)? else {
+                return Ok(line);
+            };
             line.outcomes.push((wear_number, outcome));
             on_run();
         }
         let tried = &line.outcomes;
         let Some(above) = tried.iter().position(|(_, outcome)| !outcome.is_stable()) else {
-            return Ok(());
+            return Ok(line);
         };
         let mut high = tried[above].0;
         // After a sawtooth on the lowest rung: the boundary lies below the ladder.
@@ -192,13 +182,14 @@ impl Study {
             let mut low = tried[above - 1].0;
             for _ in 0..HALVINGS {
                 let middle = (low * high).sqrt();
-                match self.run(line.setting, middle, go_on)?.is_stable() {
-                    true => low = middle,
-                    false => high = middle,
+                match self.run(setting, middle, go_on)? {
+                    None => return Ok(line),
+                    Some(outcome) if outcome.is_stable() => low = middle,
+                    Some(_) => high = middle,
                 }
             }
         }
         line.seen = Some(high);
-        Ok(())
+        Ok(line)
     }
 }

@@ -44,11 +44,11 @@ pub fn runs(lines: &[Line]) -> Table {
     for line in lines {
         for (wear_number, outcome) in &line.outcomes {
             let (cycle, reason) = outcome.exploded.clone().unzip();
-            let steps = Value::Count(line.setting.steps.into());
+            let steps = Value::from(line.setting.steps);
             let of_run = [steps, (*wear_number).into(), outcome.words().0.into()];
             let found = [cycle.into(), outcome.sawtooth.into(), line.predicted.into()];
             let row = key(line).into_iter().chain(of_run).chain(found);
-            table.push(row.chain([reason.into()]).collect());
+            table.push(row.chain([reason.into()]).collect::<Vec<_>>());
         }
     }
     table
@@ -64,7 +64,7 @@ pub fn boundaries(lines: &[Line]) -> Table {
     ]);
     for line in lines {
         let found = [line.predicted, line.seen, line.ratio()].map(Value::from);
-        table.push(key(line).into_iter().chain(found).collect());
+        table.push(key(line).into_iter().chain(found).collect::<Vec<_>>());
     }
     table
 }

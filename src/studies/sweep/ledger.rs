@@ -50,15 +50,6 @@ impl Ledger {
         })
     }
 
-    /// No rows yet, in a file without a name in `directory`: for rows that come out in another way.
-    ///
-    /// # Errors
-    ///
-    /// If no file can be made there.
-    pub fn unnamed(study: &Study, directory: &Path) -> io::Result<Self> {
-        Self::new(study, tempfile::tempfile_in(directory)?, directory)
-    }
-
     /// Adds the row of a point. On an error the file ends with the last whole row, or with part of
     /// one that a reader drops.
     ///

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{Stop, Study};
 use crate::math::scan::largest;
-use crate::scenario::scalars::Reading;
+use crate::scenario::scalars::{Reading, cell};
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, printable};
 use crate::studies::refinement;
@@ -82,7 +82,7 @@ pub(super) fn run_scenario(
         let ended = advance(&mut session, &study.stop, go_on);
         let reading = Reading::new(&session);
         let columns = study.columns.iter();
-        let fields = columns.map(|column| column.read(&reading).field());
+        let fields = columns.map(|column| cell(&column.read(&reading)));
         (ended, fields.collect::<Vec<_>>())
     }));
     let Ok((ended, mut row)) = ended else {

@@ -13,7 +13,7 @@ use super::study::{Stop, Study};
 use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
 use crate::scenario::scalars::{self, Scalar, number};
-use crate::scenario::{Refusal, Scenario, ScenarioError, printable, typed};
+use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{preset, schema, units, values};
 
 /// The columns of a study that names none.
@@ -92,13 +92,13 @@ impl Study {
     fn read_on(
         text: &str,
         origin: &str,
-        load: impl FnOnce(&str) -> std::result::Result<Scenario, ScenarioError>,
+        load: impl FnOnce(&str) -> Result<Scenario>,
     ) -> Result<Self> {
         let origin = printable(origin);
         let refused = |why: Refusal| Refusal::new(&origin, why);
         let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
-        let base = load(&given.base).map_err(|error| Refusal::from(error.to_string()))?;
+        let base = load(&given.base)?;
         given.study(base, written).map_err(refused)
     }
 }
@@ -111,7 +111,6 @@ impl Written {
         let varied = self.sensitivity.as_ref().map(sensitivity).transpose()?;
         let mut study = Study {
             title: self.title.as_deref().map(printable),
-            base_name: self.base,
             base,
             set: flat("set", &self.set)?.into_iter().collect(),
             axes: Vec::new(),
@@ -265,24 +264,12 @@ fn read_axis(
             None => {}
         }
     }
-    let sampled = samples.map(|(samples, seed)| {
-        let at = study.axes.len();
-        (samples, Spacing::of(study.design, at, seed))
-    });
-    let values = match (name, sampled) {
-        ("values", _) => Values::Listed(listed(&key, &named, list)?),
-        (_, None) => {
-            let ends = ends(&named, &list, spread, 3)?;
-            let count = list[2].as_integer();
-            let count = count.and_then(|count| usize::try_from(count).ok());
-            let Some(count) = count.filter(|count| (1..=MOST_POINTS).contains(count)) else {
-                let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
-                return refuse(&named, Value::from(list), rule);
-            };
-            Values::Between(ends, count, Spacing::Even)
-        }
-        (_, Some((samples, spacing))) => {
-            Values::Between(ends(&named, &list, spread, 2)?, samples, spacing)
+    let values = match name {
+        "values" => Values::Listed(listed(&key, &named, list)?),
+        _ => {
+            let at = study.axes.len();
+            let sampled = samples.map(|(count, seed)| (count, Spacing::of(study.design, at, seed)));
+            between(&named, &list, spread, sampled)?
         }
     };
     Ok(Axis {
@@ -310,22 +297,34 @@ fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
     Ok(list.into_iter().map(normal).collect())
 }
 
-/// The ends of a list [from, to, …] of `length`.
-fn ends(place: &str, list: &[Value], spread: Scale, length: usize) -> Result<[f64; 2]> {
-    let rule = match list {
-        _ if list.len() != length && length == 2 => "must be [from, to]; samples gives the number",
-        _ if list.len() != length => "must be [from, to, number]",
-        [from, to, ..]
-            if let (Some(from), Some(to)) = (values::number(from), values::number(to)) =>
-        {
-            if spread == Scale::Linear || from.min(to) > 0.0 {
-                return Ok([from, to]);
-            }
-            "must begin with two numbers greater than 0"
-        }
-        _ => "must begin with two finite numbers",
+/// The values that a list [from, to, number] tells, or [from, to] where they are sampled.
+fn between(
+    place: &str,
+    list: &[Value],
+    spread: Scale,
+    sampled: Option<(usize, Spacing)>,
+) -> Result<Values> {
+    let refuse = |rule: &str| refuse(place, Value::from(list.to_vec()), rule);
+    let (from, to, number) = match (list, sampled) {
+        ([from, to], Some(_)) => (from, to, None),
+        (_, Some(_)) => return refuse("must be [from, to]; samples gives the number"),
+        ([from, to, number], None) => (from, to, number.as_integer()),
+        (_, None) => return refuse("must be [from, to, number]"),
     };
-    refuse(place, Value::from(list.to_vec()), rule)
+    let (Some(from), Some(to)) = (values::number(from), values::number(to)) else {
+        return refuse("must begin with two finite numbers");
+    };
+    if spread == Scale::Log && from.min(to) <= 0.0 {
+        return refuse("must begin with two numbers greater than 0");
+    }
+    let number = number.and_then(|number| usize::try_from(number).ok());
+    let number = number.filter(|number| (1..=MOST_POINTS).contains(number));
+    match sampled.or(number.map(|number| (number, Spacing::Even))) {
+        Some((number, spacing)) => Ok(Values::Between([from, to], number, spacing)),
+        None => refuse(&format!(
+            "the third must be a whole number from 1 to {MOST_POINTS}"
+        )),
+    }
 }
 
 fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {

@@ -37,7 +37,7 @@ pub type Arithmetic = BTreeSet<String>;
 
 /// Returns the lines above the rows: the header and the names of the columns.
 pub fn head(study: &Study, shard: Shard, arithmetic: &Arithmetic) -> String {
-    let mut text = lines(study);
+    let mut text = header(study);
     if !arithmetic.is_empty() {
         let known: Vec<&str> = arithmetic.iter().map(String::as_str).collect();
         let _ = writeln!(text, "# arithmetic: {}", known.join("; "));
@@ -49,8 +49,8 @@ pub fn head(study: &Study, shard: Shard, arithmetic: &Arithmetic) -> String {
     text
 }
 
-/// The header without arithmetic and shard: equal for equal studies on equal bases.
-fn lines(study: &Study) -> String {
+/// Returns the header without arithmetic and shard: equal for equal studies on equal bases.
+pub fn header(study: &Study) -> String {
     let mut text = format!("# mdr-tui: {}\n", env!("CARGO_PKG_VERSION"));
     // TOML's escapes keep any text on one line.
     let mut push = |key: &str, toml: &str| {
@@ -76,7 +76,7 @@ pub(super) fn split(line: &str) -> Vec<String> {
 /// Returns a row as one JSON object: numbers as numbers, empty fields as null.
 pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) -> String {
     let value = |field: &String| match field.parse::<f64>() {
-        _ if field.is_empty() => Value::Missing,
+        _ if field.is_empty() => Value::Null,
         Ok(number) if number.is_finite() => number.into(),
         _ => field.clone().into(),
     };
@@ -180,7 +180,7 @@ impl Record {
     ///
     /// Names the first line of the headers that differs.
     pub fn expect(&self, study: &Study, origin: &str) -> Result<(), Refusal> {
-        let expected = lines(study);
+        let expected = header(study);
         if self.header == expected {
             return Ok(());
         }

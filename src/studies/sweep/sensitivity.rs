@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::Study;
 use super::point::{self, Success};
-use crate::scenario::scalars::{Value, number};
+use crate::scenario::scalars::number;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::Level;
 use crate::studies::table::{Format, Table};
@@ -48,7 +48,7 @@ pub struct Sensitivity {
     pub is_resolved: bool,
 }
 
-/// Finds the elasticities of the study's columns with respect to its [varied](Study::varied) keys, around its base with
+/// Finds the elasticities of the study's columns with respect to the keys that it asks for, or those of its axes, around its base with
 /// what it sets. None if `go_on` said no before the end.
 ///
 /// # Errors
@@ -59,9 +59,12 @@ pub fn run(
     pool: &ThreadPool,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Sensitivity>, Refusal> {
-    let middle = study.scenario_at(&[], None);
-    let middle = middle.map_err(|error| Refusal::from(error.to_string()))?;
-    let keys = study.varied();
+    let middle = study.scenario_at(&[], None)?;
+    let axes = study.axes.iter().map(|axis| (axis.key.clone(), 0.0));
+    let keys = match &study.sensitivity[..] {
+        [] => axes.collect(),
+        asked => asked.to_vec(),
+    };
     let valued = keys.iter().map(|(key, deviation)| {
         let deviation = Some(*deviation).filter(|known| *known > 0.0);
         let value = middle.value(key);
@@ -129,18 +132,12 @@ fn around(
         ("", "elasticity", Format::Fixed),
         ("", "error deviation relative_spread", Format::Rough),
     ]);
-    let row = |key: &str, value: Option<f64>, column: usize, found: [Option<f64>; 4]| {
-        let key = Value::from(key.to_owned());
-        let (name, result) = (study.columns[column].name, results[0][column]);
-        let row = [key, value.into(), name.into(), result.into()];
-        row.into_iter().chain(found.map(Value::from)).collect()
-    };
     let mut is_resolved = true;
     let has_deviation = keys.iter().any(|(_, deviation, _)| deviation.is_some());
     // The relative spread of each column, unless an elasticity that adds to it is not known.
     let mut spreads = vec![has_deviation.then_some(0.0); study.columns.len()];
     for (&(key, deviation, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
-        for column in 0..study.columns.len() {
+        for (column, known) in study.columns.iter().enumerate() {
             let around: Option<Vec<f64>> = around.iter().map(|run| run[column]).collect();
             let found = around.as_deref().and_then(difference);
             let good = |[found, error]: [f64; 2]| error <= WANTED.0.max(WANTED.1 * found.abs());
@@ -152,13 +149,16 @@ fn around(
                 let both = spreads[column].zip(spread);
                 spreads[column] = both.map(|(sum, spread)| f64::hypot(sum, spread));
             }
-            let found = [elasticity, error, deviation, spread];
-            table.push(row(key, Some(value), column, found));
+            let (name, result) = (known.name, results[0][column]);
+            table.push((
+                key, value, name, result, elasticity, error, deviation, spread,
+            ));
         }
     }
     for (column, spread) in spreads.into_iter().enumerate() {
         if spread.is_some() {
-            table.push(row("all", None, column, [None, None, None, spread]));
+            let (name, result) = (study.columns[column].name, results[0][column]);
+            table.push(("all", (), name, result, (), (), (), spread));
         }
     }
     let setup = fixed.setup();

@@ -9,7 +9,7 @@ use super::Design;
 use super::axis::{self, Axis, known_key};
 use crate::scenario::scalars::Scalar;
 use crate::scenario::values::literal;
-use crate::scenario::{Refusal, Scenario, ScenarioError, printable};
+use crate::scenario::{Refusal, Scenario, printable};
 use crate::scenario::{assign, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
@@ -31,8 +31,6 @@ pub struct Stop {
 pub struct Study {
     /// The `title`, if there is one.
     pub title: Option<String>,
-    /// The base as the study names it: a preset, or a path relative to the study.
-    pub base_name: String,
     /// The base.
     pub base: Scenario,
     /// What is set for all points, as `--set` takes it.
@@ -101,7 +99,7 @@ impl Study {
     /// # Errors
     ///
     /// Refuses values that make no valid scenario, and one without an end.
-    pub fn scenario(&self, point: usize) -> Result<Scenario, ScenarioError> {
+    pub fn scenario(&self, point: usize) -> Result<Scenario, Refusal> {
         self.scenario_at(&self.places(point), None)
     }
 
@@ -114,7 +112,7 @@ impl Study {
         &self,
         places: &[usize],
         other: Option<(usize, f64)>,
-    ) -> Result<Scenario, ScenarioError> {
+    ) -> Result<Scenario, Refusal> {
         let set = self.set.iter();
         let set = set.map(|(key, value)| (key.as_str(), axis::text(value)));
         let axes = self.axes.iter().zip(places).enumerate();
@@ -127,20 +125,11 @@ impl Study {
         let all: Vec<(&str, String)> = set.chain(axes).collect();
         let scenario = self.base.with_all(&all)?;
         if scenario.run().cycles.is_none() {
-            let (name, key) = (&self.base_name, "run.cycles");
+            let (name, key) = (self.base.origin(), "run.cycles");
             let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
-            return Err(ScenarioError::missing(name, key, meaning));
+            return Err(Refusal::missing(name, key, meaning));
         }
         Ok(scenario)
-    }
-
-    /// The keys whose sensitivities are asked for: those in `[sensitivity]`, or the axes' keys.
-    pub fn varied(&self) -> Vec<(String, f64)> {
-        if !self.sensitivity.is_empty() {
-            return self.sensitivity.clone();
-        }
-        let axes = self.axes.iter().map(|axis| (axis.key.clone(), 0.0));
-        axes.collect()
     }
 
     /// The unit of an axis.
@@ -168,14 +157,14 @@ impl Study {
     /// # Errors
     ///
     /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
-    pub fn assign(&mut self, set: &str) -> Result<(), ScenarioError> {
-        let (key, value) = assign::split(set, "--set ")?;
+    pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
         let place = format!("--set {}", printable(set));
+        let (key, value) = assign::split(set, &place)?;
         known_key(key, &place)?;
         let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {
             let rule = format!("{key} is varied by an axis of the study");
-            return Err(Refusal::new(place, rule).into());
+            return Err(Refusal::new(place, rule));
         }
         let value: Value = value.parse().unwrap_or_else(|_| value.into());
         self.set.insert(key.to_owned(), value);

@@ -87,15 +87,6 @@ impl Problem {
     pub fn is_long(self, points: usize) -> bool {
         self == Self::Limit && points > 200
     }
-
-    /// How long one task takes, roughly, in any unit: for a progress bar.
-    pub fn effort(self, points: usize) -> u64 {
-        let square = (points * points) as u64;
-        match self {
-            Self::Limit => 400 * square,
-            _ => square,
-        }
-    }
 }
 
 #[cfg(test)]

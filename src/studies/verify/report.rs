@@ -61,7 +61,7 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
         ],
         Err(stop) => {
             let mut cells = vec![format!("stopped at cycle {:.2}", stop.cycle).into()];
-            cells.resize(4, Value::Missing);
+            cells.resize(4, Value::Null);
             cells
         }
     }
@@ -110,7 +110,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
                     row.push(errors[at].left_out.len().into());
                 }
                 Err(stop) => {
-                    row.resize(row.len() + 6, Value::Missing);
+                    row.resize(row.len() + 6, Value::Null);
                     row.push(stop.cycle.into());
                     row.push(stop.to_string().into());
                 }
@@ -179,6 +179,6 @@ mod tests {
         let json = serde_json::to_value(all_rows(&outcomes)).expect("JSON");
         assert_eq!(json[1]["stopped_at_cycle"], 12.5);
         assert!(json[1]["max"].is_null());
-        assert_eq!(all_nodes(&outcomes).rows().len(), 0);
+        assert_eq!(all_nodes(&outcomes).rows.len(), 0);
     }
 }

@@ -14,7 +14,7 @@ use super::view::View;
 use crate::panics::locked;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::sweep::Shard;
-use crate::studies::sweep::engine::{self, Check};
+use crate::studies::sweep::engine;
 use crate::studies::sweep::record::Record;
 
 /// How often a table is looked at.
@@ -92,7 +92,7 @@ impl Live {
         let pool = ThreadPoolBuilder::new()
             .build()
             .map_err(|error| Refusal::from(error.to_string()))?;
-        Check::new(&study, Shard::WHOLE).advance(&pool, |_| true)?;
+        engine::check(&study, Shard::WHOLE, &pool, |_| true)?;
         let live = Self {
             view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
             halt: Arc::default(),
@@ -104,7 +104,7 @@ impl Live {
             let todo = 0..study.points();
             // Every point is checked already.
             let go_on = || !shared.halt.load(Ordering::Relaxed);
-            let _ = engine::run(&study, todo, None, &pool, &go_on, |point, row| {
+            engine::run(&study, todo, &pool, &go_on, |point, row| {
                 shared.with(|view| view.slice.rows[point] = Some(row));
                 tell();
                 true

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use mdr_tui::plot::Marker;
 use mdr_tui::plot::theme::{Look, Theme};
-use mdr_tui::scenario::checkpoint::{encode, from_bytes, sealed};
+use mdr_tui::scenario::checkpoint::{decode, encode, sealed};
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
@@ -177,10 +177,10 @@ pub fn checkpoint(bytes: &[u8]) {
 }
 
 fn read(bytes: &[u8]) {
-    match from_bytes::<()>(bytes, "fuzz.checkpoint") {
+    match decode::<()>(bytes, "fuzz.checkpoint") {
         Ok(checkpoint) => {
             let again = encode(&checkpoint.session, None::<&()>);
-            let twice = from_bytes::<()>(&again, "again").expect("what was written is read");
+            let twice = decode::<()>(&again[..], "again").expect("what was written is read");
             assert!(encode(&twice.session, None::<&()>) == again);
             if checkpoint.session.simulation().setup().grid.cells() <= CELLS {
                 step(checkpoint.session);

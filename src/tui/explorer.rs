@@ -62,7 +62,8 @@ pub struct Explorer {
     pub next: Next,
     /// What the worker computes.
     computed: Curves,
-    orders: Orders,
+    /// The way to the worker.
+    pub(super) orders: Orders,
 }
 
 impl Explorer {

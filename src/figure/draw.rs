@@ -90,7 +90,8 @@ impl Chart {
         }
         let mut drawn: Vec<[[f64; 2]; 2]> = Vec::new();
         if self.map.is_some() {
-            let parts = self.curves.iter().flat_map(|curve| frame.clipped(curve));
+            let parts = self.curves.iter();
+            let parts = parts.flat_map(|curve| frame.clipped(curve.points()));
             for part in parts {
                 canvas.line(part, WHITE, CURVE + 2.0 * HALO, &[]);
             }
@@ -100,7 +101,7 @@ impl Chart {
         let curves = self.curves.iter();
         for curve in curves.clone().filter(whole).chain(curves.filter(dashed)) {
             let dashes = look.dashes(curve.role, curve.dashed);
-            let parts = frame.clipped(curve);
+            let parts = frame.clipped(curve.points());
             for part in parts.into_iter().filter(|_| curve.has_line) {
                 drawn.extend(part.windows(2).map(|pair| [pair[0], pair[1]]));
                 canvas.line(part, look.color(curve.role), CURVE, dashes);

@@ -65,13 +65,8 @@ fn element(shape: &Shape) -> String {
     }
 }
 
-/// A resolution of one micrometre on paper is enough.
+/// A resolution of one micrometre on paper is enough. Adding zero makes one of -0.
 fn length(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".into()
-    } else {
-        text.into()
-    }
+    let rounded = (1e3 * value).round() / 1e3;
+    (rounded + 0.0).to_string()
 }

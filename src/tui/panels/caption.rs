@@ -134,7 +134,7 @@ fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
 
 /// Draws the words on the picture and below it.
 pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
-    let (frame, area) = (section.frame, canvas.area);
+    let (frame, area) = (section.of.frame, canvas.area);
     // Nobody reads numbers ten times a second.
     let seen = section.of.calm;
     let calm = &seen.observation.moment;

@@ -173,11 +173,6 @@ fn clip_spikes(values: &mut [f64]) {
     }
 }
 
-/// The radius of the outermost node, m.
-fn edge(frame: &Frame) -> f64 {
-    frame.observation.radii.last().copied().unwrap_or(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -171,10 +171,8 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
         true => view.column(),
         false => &quantity.label,
     };
-    let mut line = Line::from(Span::styled(
-        theme.printable(name),
-        theme.style(Role::Focus),
-    ));
+    let name = Span::styled(theme.printable(name), theme.style(Role::Focus));
+    let mut line = Line::from(name);
     if view.is_regime() {
         for ((sign, role), (_, title)) in SWATCHES.into_iter().zip(REGIMES) {
             line.push_span("  ");

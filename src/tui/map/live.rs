@@ -43,7 +43,9 @@ impl Live {
     ///
     /// One line: a file that cannot be read, or is no table of a study.
     pub fn of_file(file: &Path) -> Result<Self, Refusal> {
-        let view = View::new(Record::of_file(file)?, &file.display().to_string())?;
+        let (record, name) = (Record::of_file(file)?, file.display().to_string());
+        let mut view = View::new(record.study()?, &name)?;
+        view.slice.renew(record, &name)?;
         Ok(Self {
             view: Arc::new(Mutex::new(view)),
             halt: Arc::default(),
@@ -68,7 +70,8 @@ impl Live {
                 }
                 seen = now;
                 // A file that is being replaced is read again the next time.
-                let _ = Record::of_file(&file).map(|rows| shared.with(|view| view.renew(rows)));
+                let _ = Record::of_file(&file)
+                    .map(|rows| shared.with(|view| view.slice.renew(rows, &view.name)));
                 if !tell() {
                     return;
                 }
@@ -94,7 +97,7 @@ impl Live {
             .map_err(|error| Refusal::from(error.to_string()))?;
         Check::new(&study, Shard::WHOLE).advance(&pool, |_| true)?;
         let live = Self {
-            view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
+            view: Arc::new(Mutex::new(View::new(study.clone(), &title)?)),
             halt: Arc::default(),
             done: Arc::default(),
             file: None,

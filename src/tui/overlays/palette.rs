@@ -23,10 +23,7 @@ fn completions(typed: &str, frame: &Frame) -> Vec<(Completion, Option<Command>)>
         ) {
             continue;
         }
-        let key = row
-            .keys
-            .first()
-            .map_or_else(String::new, ToString::to_string);
+        let key = row.key_names().into_iter().next().unwrap_or_default();
         let (line, command) = match row.act {
             Act::Argument(complete) => {
                 let argument = typed.strip_prefix(row.name);
@@ -142,11 +139,8 @@ impl Palette {
         let typed = self.line.text();
         let key = typed.rfind('=').map_or("", |at| &typed[..=at]);
         let name = |of: &Completion| of.line.strip_prefix(key).unwrap_or(&of.line).to_owned();
-        let longest = found
-            .iter()
-            .map(|(of, _)| name(of).len())
-            .max()
-            .unwrap_or(0);
+        let lengths = found.iter().map(|(of, _)| name(of).len());
+        let longest = lengths.max().unwrap_or(0);
         let line = |(completion, _): &(Completion, Option<Command>)| {
             let name = format!(" {:1$} ", name(completion), longest.min(22));
             let name = Span::raw(name);

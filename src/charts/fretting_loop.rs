@@ -47,12 +47,10 @@ fn loops(run: &Run) -> Vec<Curve> {
     let fewest = run.pick(1, SHORTEST);
     let mut curves = Vec::new();
     for (k, end) in ends.into_iter().enumerate() {
-        let Some(one) = run.loop_at(end) else {
+        let one = run.loop_at(end);
+        let Some(one) = one.filter(|one| one.shifts.len() >= fewest) else {
             continue;
         };
-        if one.shifts.len() < fewest {
-            continue;
-        }
         let sensed = one.sensed.iter().zip(&one.forces);
         let sensed = sensed.filter(|(u, _)| u.is_finite());
         let (sensed, forces): (Vec<f64>, Vec<f64>) = sensed.unzip();

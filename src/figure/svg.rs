@@ -51,14 +51,14 @@ fn element(shape: &Shape) -> String {
         }
         Shape::Text(text) => {
             let [x, y] = text.at.map(length);
-            let anchor: &str = text.anchor.into();
             let turned = match text.upwards {
                 true => format!(" transform=\"rotate(-90 {x} {y})\""),
                 false => String::new(),
             };
             format!(
-                "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{turned}>{}</text>",
+                "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{}\"{turned}>{}</text>",
                 length(text.size),
+                text.anchor,
                 escaped(&text.words),
             )
         }

@@ -69,9 +69,7 @@ pub fn look_of(zone: Zone) -> (Role, char) {
 }
 
 /// Which colours.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::IntoStaticStr, serde::Deserialize,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::Display, serde::Deserialize)]
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum Look {
@@ -84,11 +82,6 @@ pub enum Look {
 }
 
 impl Look {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-
     /// The one for a background of this red, green and blue.
     pub fn on(background: [u8; 3]) -> Self {
         // Against a luminance of 0.18, black and white have the same contrast.

@@ -1,6 +1,7 @@
 //! `--present`, for a projector: the contact and one chart, large words, and a pace that begins slowly and rises by
 //! itself.
 
+use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::prelude::*;
 
 use super::canvas::Canvas;
@@ -26,13 +27,12 @@ const TALL: u16 = 22;
 /// The contact, the chart, and the large words.
 pub fn areas(area: Rect) -> [Rect; 3] {
     let words = if area.height >= TALL { WORDS } else { 0 };
-    let [above, words] =
-        Layout::vertical([Constraint::Min(0), Constraint::Length(words)]).areas(area);
+    let [above, words] = Layout::vertical([Min(0), Length(words)]).areas(area);
     let [contact, chart] = match area.width >= WIDE {
-        true => Layout::horizontal([Constraint::Fill(5), Constraint::Fill(3)])
+        true => Layout::horizontal([Fill(5), Fill(3)])
             .spacing(1)
             .areas(above),
-        false => Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(above),
+        false => Layout::vertical([Fill(3), Fill(2)]).areas(above),
     };
     [contact, chart, words]
 }

@@ -1,7 +1,8 @@
 //! Which panels are on the screen, and how large: the focus and its page, one panel zoomed, the contact, a projector's
 //! two, or those that a tour leads to.
 
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::Constraint::{Fill, Length, Min};
+use ratatui::layout::{Layout, Rect};
 
 use super::layout;
 use super::panels::Panel;
@@ -51,7 +52,7 @@ impl Stage {
         if self.tour.is_none() || area.height < LEAST + TOUR {
             return (area, None);
         }
-        let rows = [Constraint::Min(0), Constraint::Length(TOUR)];
+        let rows = [Min(0), Length(TOUR)];
         let [above, below] = Layout::vertical(rows).areas(area);
         (above, Some(below))
     }
@@ -74,10 +75,10 @@ impl Stage {
             .min(shown.len())
             .max(1);
         let rows = shown.len().div_ceil(columns);
-        let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
+        let bands = Layout::vertical(vec![Fill(1); rows]).split(area);
         let mut places = Vec::with_capacity(shown.len());
         for (band, row) in bands.iter().zip(shown.chunks(columns)) {
-            let cells = Layout::horizontal(vec![Constraint::Fill(1); row.len()])
+            let cells = Layout::horizontal(vec![Fill(1); row.len()])
                 .spacing(1)
                 .split(*band);
             places.extend(row.iter().copied().zip(cells.iter().copied()));

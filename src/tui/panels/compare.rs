@@ -28,9 +28,9 @@ pub static RECIPE: Recipe = Recipe {
 
 /// Draws the comparison over the whole area of the panels, with a cursor at a radius, m, if there is one.
 pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut canvas: Canvas) {
-    let parts = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]);
+    let parts = Layout::vertical([Fill(3), Fill(2)]);
     let [top, bottom] = parts.areas(canvas.area);
-    let halves = Layout::horizontal([Constraint::Fill(1); 2]);
+    let halves = Layout::horizontal([Fill(1); 2]);
     let [left, right] = halves.spacing(1).areas(top);
     let (seen, other) = (&frame.observation, &comparison.observation);
     let run = &frame.run;
@@ -51,7 +51,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     // The numbers must not be cut; the difference gets the rest, if that is wide enough.
     let table = 17 + 2 * column as u16;
     let left_over = bottom.width.saturating_sub(table + 1);
-    let columns = Layout::horizontal([Constraint::Fill(1), Constraint::Length(table)]);
+    let columns = Layout::horizontal([Fill(1), Length(table)]);
     let [below, numbers] = match left_over < NARROWEST {
         true => [Rect::ZERO, bottom],
         false => columns.spacing(1).areas(bottom),

@@ -1,7 +1,7 @@
 //! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
 //! imported here; each of them begins with `use super::*`.
 
-use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::prelude::*;
 
 use super::canvas::Canvas;

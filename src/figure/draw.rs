@@ -97,9 +97,9 @@ impl Chart {
             }
         }
         // Dashes lie on top: of two curves in one place both are seen.
-        let [dashed, whole] = [true, false].map(|is| move |curve: &&Curve| curve.dashed == is);
-        let curves = self.curves.iter();
-        for curve in curves.clone().filter(whole).chain(curves.filter(dashed)) {
+        let mut curves: Vec<&Curve> = self.curves.iter().collect();
+        curves.sort_by_key(|curve| curve.dashed);
+        for curve in curves {
             let dashes = look.dashes(curve.role, curve.dashed);
             let parts = frame.clipped(curve.points());
             for part in parts.into_iter().filter(|_| curve.has_line) {

@@ -76,15 +76,12 @@ impl Palette {
 
     /// The words of a setting, the present one selected, or those that begin with what was typed.
     pub fn choosing(setting: &Setting, typed: Option<char>) -> Self {
-        let line = format!("set {}=", setting.parameter.path);
-        if let Some(typed) = typed {
-            return Self::begun(&format!("{line}{typed}"));
-        }
+        let begun = String::from_iter(typed);
         let mut words = setting.words().unwrap_or_default().into_iter();
         let now = words.position(|word| setting.value.as_deref() == Some(word));
         Self {
-            at: now.unwrap_or(0),
-            ..Self::begun(&line)
+            at: now.filter(|_| typed.is_none()).unwrap_or(0),
+            ..Self::begun(&format!("set {}={begun}", setting.parameter.path))
         }
     }
 

@@ -212,9 +212,7 @@ impl<'p> Frame<'p> {
                     let value = map.values[halves[half] * xs.len() + x];
                     map.look(value, range, theme)
                 };
-                let Some(cell) = buf.cell_mut(place) else {
-                    continue;
-                };
+                let cell = &mut buf[place];
                 match parts {
                     1 => _ = cell.set_char(seen(0).1),
                     _ => paint_halves(cell, [seen(1).0, seen(0).0]),

@@ -7,7 +7,7 @@ use ratatui::layout::{Layout, Rect};
 use super::layout;
 use super::panels::Panel;
 use super::present;
-use super::tour::{FIRST, Tour};
+use super::tour::{Caption, FIRST, Tour};
 
 /// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
 const CONTACT_FROM: u16 = 100;
@@ -217,8 +217,8 @@ impl Stage {
 
     /// The panel that the caption is about gets the focus; the contact is shown large where there is room.
     fn follow_tour(&mut self) {
-        let caption = self.tour.as_ref().and_then(Tour::caption);
-        let Some(panel) = caption.and_then(|caption| caption.panel()) else {
+        let caption = self.tour.as_ref().map(Tour::caption);
+        let Some(panel) = caption.and_then(Caption::panel) else {
             return;
         };
         self.leave_contact();

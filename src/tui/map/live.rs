@@ -46,12 +46,16 @@ impl Live {
         let (record, name) = (Record::of_file(file)?, file.display().to_string());
         let mut view = View::new(record.study()?, &name)?;
         view.slice.renew(record, &name)?;
-        Ok(Self {
+        Ok(Self::new(view, Some(file.into())))
+    }
+
+    fn new(view: View, file: Option<Arc<Path>>) -> Self {
+        Self {
             view: Arc::new(Mutex::new(view)),
             halt: Arc::default(),
-            done: Arc::new(true.into()),
-            file: Some(file.into()),
-        })
+            done: Arc::new(file.is_some().into()),
+            file,
+        }
     }
 
     /// Reads the table again whenever it has grown, and tells that there is something new to see, until nobody hears it.
@@ -96,12 +100,7 @@ impl Live {
             .build()
             .map_err(|error| Refusal::from(error.to_string()))?;
         Check::new(&study, Shard::WHOLE).advance(&pool, |_| true)?;
-        let live = Self {
-            view: Arc::new(Mutex::new(View::new(study.clone(), &title)?)),
-            halt: Arc::default(),
-            done: Arc::default(),
-            file: None,
-        };
+        let live = Self::new(View::new(study.clone(), &title)?, None);
         let shared = live.clone();
         thread::spawn(move || {
             let todo = 0..study.points();

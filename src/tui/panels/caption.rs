@@ -246,7 +246,7 @@ fn stress_key(section: &Section, width: u16) -> Line<'static> {
     ];
     let mut keys = words.into_iter().map(|[from, to]| {
         let mut key = Line::raw(from);
-        key.extend(shades::key(theme, stress.colors(), shades::sign));
+        key.extend(shades::key(theme, stress.colors(), shades::SIGNS));
         key.push_span(to);
         key
     });

@@ -47,7 +47,7 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
     let depth = interpolate(&seen.radii, &seen.wear, r);
     let shade = shades::shade(depth, [0.0, deepest]);
     let color = shades::color(theme, ColorMap::Sequential, shade);
-    (color, shades::sign(shade))
+    (color, shades::SIGNS[shade])
 }
 
 /// The depths that the colours span, m.
@@ -119,7 +119,7 @@ fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
         Some(_) => "slip ←",
     };
     let mut depths = Line::raw(" worn 0 ");
-    depths.extend(shades::key(&theme, ColorMap::Sequential, shades::sign));
+    depths.extend(shades::key(&theme, ColorMap::Sequential, shades::SIGNS));
     depths.push_span(theme.printable(&format!(" {}", value(deepest))));
     let mut row = Rect::new(area.x, area.bottom() - 1, area.width, 1);
     for part in [format!(" {bar} {} ", value(reach)), format!(" {slip} ")] {

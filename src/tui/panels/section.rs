@@ -197,7 +197,7 @@ impl Section<'_> {
             _ => upper,
         };
         if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
-            return (shades::sign(shade), Style::new());
+            return (shades::SIGNS[shade], Style::new());
         }
         if theme.ascii() || upper == lower {
             let (role, signs) = shown.look();

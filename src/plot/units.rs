@@ -147,13 +147,15 @@ fn round_to(value: f64, digits: usize) -> f64 {
 
 /// Signs common in units and labels, and how each of them is spelled in ASCII.
 #[rustfmt::skip]
-const SPELLED: [(&str, &str); 34] = [
+const SPELLED: [(&str, &str); 38] = [
     // The prefix micro, and the letter of friction.
     ("\u{b5}", "u"), ("\u{3bc}", "mu"),
     ("⁰₀", "0"), ("¹₁", "1"), ("²₂", "2"), ("³₃", "3"), ("⁻−–—─━", "-"), ("│├┤", "|"), ("┊", ":"), ("→", "->"),
     ("←", "<-"), ("⏸", "="), ("■", "#"), ("·", "*"), ("×", "x"), ("∞", "inf"), ("τ", "tau"), ("σ", "sigma"),
     ("ω", "omega"), ("φ", "phi"), ("ν", "nu"), ("ρ", "rho"), ("ε", "eps"), ("δΔ", "d"), ("°", "deg"), ("∝", "~"),
     ("≤", "<="), ("≥", ">="), ("±", "+-"), ("●◆", "o"), ("╳", "X"), ("▶", ">"), ("◀◂", "<"), ("▲", "^"),
+    // The dashes of a legend.
+    ("╌", "="), ("┈", "."), ("┄", "~"), ("╴", "_"),
 ];
 
 /// `text` with the signs common in units and labels spelled in ASCII (`µm` as `um`, `τ` as

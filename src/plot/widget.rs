@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::buffer::Cell;
 use ratatui::layout::{self, Rect, Size};
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 use ratatui::widgets::Widget;
 
 use super::Plot;
@@ -315,8 +315,7 @@ impl<'p> Frame<'p> {
             let Some(&first) = painted.first() else {
                 continue;
             };
-            let coloured = style.fg.is_some_and(|colour| colour != Color::Reset);
-            let sign = match coloured && !theme.ascii() {
+            let sign = match style.fg.is_some() && !theme.ascii() {
                 true => '▀',
                 false => letter,
             };

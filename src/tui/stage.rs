@@ -8,6 +8,7 @@ use super::layout;
 use super::panels::Panel;
 use super::present;
 use super::tour::{Caption, FIRST, Tour};
+use crate::math::scan::shifted;
 
 /// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
 const CONTACT_FROM: u16 = 100;
@@ -62,18 +63,20 @@ impl Stage {
         let (columns, rows) = layout::grid(area);
         let (area, _) = self.with_tour(area);
         if self.presents {
-            let [contact, chart, _] = present::areas(area);
-            return vec![(Panel::Section, contact), (self.presented(), chart)];
+            let [contact, beside, _] = present::areas(area);
+            let chart = match self.focus {
+                Panel::Section => present::CHART,
+                panel => panel,
+            };
+            return vec![(Panel::Section, contact), (chart, beside)];
         }
         if self.zoomed {
             return vec![(self.focus, area)];
         }
         let shown = self.page(columns * rows);
         // The last page may hold fewer panels, which are then larger; its last row leaves no hole.
-        let columns = columns
-            .min(shown.len().div_ceil(rows).max(2))
-            .min(shown.len())
-            .max(1);
+        let needed = shown.len().div_ceil(rows).max(2).min(shown.len());
+        let columns = columns.min(needed).max(1);
         let rows = shown.len().div_ceil(columns);
         let bands = Layout::vertical(vec![Fill(1); rows]).split(area);
         let mut places = Vec::with_capacity(shown.len());
@@ -102,7 +105,7 @@ impl Stage {
 
     /// The panel this many places on gets the focus.
     pub fn shift_focus(&mut self, places: isize) {
-        self.focus = self.focus.shifted(places);
+        self.focus = shifted(&Panel::ALL, self.focus, places);
     }
 
     /// A click on a panel gives it the focus, or else zooms unless it has `moved` the cursor; the second one of a
@@ -165,14 +168,6 @@ impl Stage {
     pub fn present(&mut self) {
         self.presents = true;
         self.focus = present::CHART;
-    }
-
-    /// The chart beside the contact.
-    pub fn presented(&self) -> Panel {
-        match self.focus {
-            Panel::Section => present::CHART,
-            panel => panel,
-        }
     }
 
     /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.

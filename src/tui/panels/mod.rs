@@ -8,7 +8,7 @@ use super::canvas::Canvas;
 use super::frame::Frame;
 use crate::charts::{self, Recipe};
 use crate::math::grid::interpolate;
-use crate::math::scan::{largest, shifted};
+use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::shades::{self, has_blocks};
 use crate::plot::theme::{Depth, Look, Role, Theme};
@@ -108,11 +108,6 @@ panels! {
 }
 
 impl Panel {
-    /// The panel this many places on.
-    pub fn shifted(self, places: isize) -> Self {
-        shifted(&Self::ALL, self, places)
-    }
-
     /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
     pub fn extent(self, frame: &Frame, chart: Option<&Chart>) -> Option<[f64; 2]> {
         match self.picture() {

@@ -11,9 +11,9 @@ use super::*;
 pub static RECIPE: Recipe = Recipe {
     title: "running-condition map",
     needs: Curves::SPRINGS,
-    text: "Load and displacement amplitude of the cycles so far. Right of the border the \
-             whole contact slips in each cycle; left of it the middle sticks. The border is \
-             dashed for the unworn shape, solid for the present one.",
+    text: "Load and displacement amplitude of the cycles so far. Right of the border the whole contact slips \
+           in each cycle; left of it the middle sticks. The border is dashed for the unworn shape, solid for \
+           the present one.",
     symbols: &[("F_z", "mean normal force of a cycle")],
     ..Recipe::new(make)
 };

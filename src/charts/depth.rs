@@ -9,26 +9,25 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     needs: Curves::PROFILE,
     overlays: &[Axes::WEAR, Axes::PROFILE],
-    text: "How much has worn off, against the radius. Inside the permanent stick zone it is \
-             zero; the \
-             ring outside it grows towards the limiting shape (t) if the depth is held.",
+    text: "How much has worn off, against the radius. Inside the permanent stick zone it is zero; the ring \
+           outside it grows towards the limiting shape (t) if the depth is held.",
     symbols: &[("f - f0", "worn depth"), A, C, BAND],
     ..Recipe::new(make)
 };
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
-    // Without a base on a log axis, the area would reach for minus infinity.
-    let fill = match (&run.live, view.scale) {
-        (Some(_), Scale::Linear) => Fill::To(0.0),
-        _ => Fill::None,
-    };
-    let worn = of_states(run, "wear_m", run.pick("worn", ""), Role::Profile);
+    let mut worn = of_states(run, "wear_m", run.pick("worn", ""), Role::Profile);
     let mut chart = over_r(run, "r", (run.pick("f - f0", "worn depth"), "m"));
     chart.band = run.zones();
     chart.y.expects = run.expected_wear();
+    if run.live.is_some() {
+        chart.y.holds = Some(0.0);
+        let shade = |curve: &mut Curve| curve.fill = vec![0.0; curve.xs.len()];
+        worn.iter_mut().for_each(shade);
+    }
     Ok(chart
         .curves(limit(run, view.theory(run), None))
         .curves(ghosts::worn(run, None))
-        .curves(worn.into_iter().map(|curve| curve.filled(fill.clone()))))
+        .curves(worn))
 }

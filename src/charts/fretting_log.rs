@@ -8,8 +8,8 @@ use crate::math::scan::range;
 pub static RECIPE: Recipe = Recipe {
     title: "fretting log",
     is_calm: true,
-    text: "The fretting loops of earlier cycles behind the last one. The axes belong to the \
-             last loop; older loops are shifted to the right and up.",
+    text: "The fretting loops of earlier cycles behind the last one. The axes belong to the last loop; older \
+           loops are shifted to the right and up.",
     symbols: &[U_X, F_X],
     ..Recipe::new(make)
 };
@@ -26,10 +26,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let every = log.len().div_ceil(MOST).max(1);
     let mut loops: Vec<&Loop> = log.iter().rev().step_by(every).map(AsRef::as_ref).collect();
     loops.reverse();
-    let ends = loops.first().zip(loops.last());
-    let (first, last) = ends
-        .map(|(first, last)| (first.end, last.end))
-        .ok_or(NO_CYCLE)?;
+    let (first, last) = loops.first().zip(loops.last()).ok_or(NO_CYCLE)?;
     let extent = |of: fn(&Loop) -> &Vec<f64>| {
         let values = loops.iter().flat_map(|one| of(one)).copied();
         range(values).map_or(0.0, |[low, high]| high - low)
@@ -37,7 +34,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let size = [extent(|one| &one.shifts), extent(|one| &one.forces)];
     let newest = loops.len() - 1;
     let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"));
-    chart.note = format!("cycles {first:.0} (back) to {last:.0}");
+    chart.note = format!("cycles {:.0} (back) to {:.0}", first.end, last.end);
     // The newest is drawn last, over the others.
     Ok(chart.curves(loops.iter().enumerate().map(|(k, one)| {
         let step = (newest - k) as f64 / newest.max(1) as f64;

@@ -10,10 +10,9 @@ pub static RECIPE: Recipe = Recipe {
     title: "fretting loop",
     keeps_abscissa: true,
     overlays: &[Axes::LOOP],
-    text: "Tangential force against tangential displacement in the last cycle. The area \
-             inside is the energy lost to friction. A line means full stick, a thin loop \
-             partial slip, a parallelogram with flat ends gross slip. The arrow marks the \
-             present moment.",
+    text: "Tangential force against tangential displacement in the last cycle. The area inside is the energy \
+           lost to friction. A line means full stick, a thin loop partial slip, a parallelogram with flat ends \
+           gross slip. The arrow marks the present moment.",
     symbols: &[U_X, F_X],
     ..Recipe::new(make)
 };
@@ -48,23 +47,20 @@ fn loops(run: &Run) -> Vec<Curve> {
     let fewest = run.pick(1, SHORTEST);
     let mut curves = Vec::new();
     for (k, end) in ends.into_iter().enumerate() {
-        let Some(one) = run.loop_at(end) else {
+        let one = run.loop_at(end);
+        let Some(one) = one.filter(|one| one.shifts.len() >= fewest) else {
             continue;
         };
-        if one.shifts.len() < fewest {
-            continue;
-        }
         let sensed = one.sensed.iter().zip(&one.forces);
         let sensed = sensed.filter(|(u, _)| u.is_finite());
         let (sensed, forces): (Vec<f64>, Vec<f64>) = sensed.unzip();
         let is_sensed = sensed.len() >= fewest;
         let (name, sensor, roles) = match count {
-            1 if is_sensed => (
-                "contact".into(),
-                "rig's sensor".into(),
-                [Role::Shear, Role::Unworn],
-            ),
-            1 => (String::new(), String::new(), [Role::Shear, Role::Unworn]),
+            1 => {
+                let name = if is_sensed { "contact" } else { "" };
+                let roles = [Role::Shear, Role::Unworn];
+                (name.to_owned(), "rig's sensor".to_owned(), roles)
+            }
             _ => {
                 let name = format!("{end} cycles");
                 let sensor = format!("{name} (rig's sensor)");

@@ -4,7 +4,7 @@
 use super::*;
 
 /// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any.
-type Points = (Vec<f64>, Vec<f64>, Option<Vec<f64>>);
+type Points = (Vec<f64>, Vec<f64>, Vec<f64>);
 
 /// The curves of all ghosts that `of` finds points in.
 fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
@@ -13,7 +13,7 @@ fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
         let (xs, ys, errors) = of(ghost)?;
         let curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
         Some(match ghost.is_measured {
-            true => curve.scattered(errors.unwrap_or_default()),
+            true => curve.scattered(errors),
             false => curve.dashed(),
         })
     });
@@ -25,8 +25,8 @@ fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
 pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
     curves(run, |ghost| {
         let trace = ghost.trace(axes)?;
-        let errors = trace.errors.map(<[f64]>::to_vec);
-        Some((trace.xs.to_vec(), trace.ys.to_vec(), errors))
+        let errors = trace.errors.unwrap_or_default();
+        Some((trace.xs.to_vec(), trace.ys.to_vec(), errors.to_vec()))
     })
 }
 
@@ -53,8 +53,7 @@ pub fn worn(run: &Run, times: Option<f64>) -> Vec<Curve> {
         let ys = drawn.map(|(f0, wear)| times.map_or(*wear, |times| f0 + times * wear));
         let ys = ys.collect();
         let scaled = |error: f64| times.unwrap_or(1.0) * error;
-        let errors = worn.errors;
-        let errors = errors.map(|errors| errors.into_iter().map(scaled).collect());
+        let errors = worn.errors.into_iter().flatten().map(scaled).collect();
         Some((worn.radii, ys, errors))
     })
 }

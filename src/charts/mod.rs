@@ -7,8 +7,8 @@ use crate::plot::colormap::ColorMap;
 use crate::plot::step::Step;
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
-use crate::plot::{self, Axis, Chart, Curve, Fill, Map, Mark, Point, Scale};
-use crate::reading::{Curves, Zone};
+use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
+use crate::reading::Curves;
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
@@ -150,6 +150,14 @@ impl Recipe {
     }
 }
 
+/// The charts of a run that nobody chose others for, as far as there are data for them.
+pub static USUAL: [&Recipe; 4] = [
+    &profile::RECIPE,
+    &springs::RECIPE,
+    &stresses::RECIPE,
+    &fretting_loop::RECIPE,
+];
+
 /// How a chart is looked at; as it is by default on paper.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct View {
@@ -180,20 +188,14 @@ fn of_states(run: &Run, column: &str, alone: &str, role: Role) -> Vec<Curve> {
     let count = run.states.len();
     let states = run.states.iter().enumerate();
     let curves = states.filter_map(|(k, state)| {
-        let (name, role) = match count {
-            1 => (alone.to_owned(), role),
-            // The last state has the same, the darkest ink, however many there are.
-            _ => (
-                format!("{} cycles", state.cycle()),
-                Role::Series(count - 1 - k),
-            ),
-        };
-        Some(Curve::new(
-            name,
-            state.column("r_m")?,
-            state.column(column)?,
-            role,
-        ))
+        let (radii, values) = (state.column("r_m")?, state.column(column)?);
+        if count == 1 {
+            return Some(Curve::new(alone, radii, values, role));
+        }
+        let name = format!("{} cycles", state.cycle());
+        // The last state has the same, the darkest ink, however many there are.
+        let role = Role::Series(count - 1 - k);
+        Some(Curve::new(name, radii, values, role))
     });
     curves.collect()
 }
@@ -210,12 +212,8 @@ fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve
         Some(1.0) => *f,
         Some(times) => f0 + times * (f - f0),
     });
-    let worn: Vec<f64> = worn.collect();
-    Some(
-        Curve::new("limit", radii, worn, Role::Limit)
-            .dashed()
-            .theory(),
-    )
+    let curve = Curve::new("limit", radii, worn.collect::<Vec<_>>(), Role::Limit);
+    Some(curve.dashed().theory())
 }
 
 /// A chart over cycles: on a screen over all that are planned, from the first one on.
@@ -290,39 +288,6 @@ impl Live {
         marks.extend(now.filter(is_more).map(|now| mark(now, "", Role::Faint)));
         marks.extend(permanent.map(|c| mark(c, "c", Role::Stick)));
         marks
-    }
-
-    /// Stick, slip and open along the radius.
-    fn zones(&self, edge: f64) -> Vec<plot::Zone> {
-        let contact = self.moment.contact_radius;
-        let stick = self.moment.stick_radius.unwrap_or(contact).min(contact);
-        let zones = [
-            (0.0, stick, Zone::Stick),
-            (stick, contact, Zone::Slip),
-            (contact, edge, Zone::Open),
-        ];
-        let zones = zones.into_iter().filter(|(from, to, _)| to > from);
-        let seen = zones.map(|(from, to, zone)| {
-            let (role, glyph) = look_of(zone);
-            let name = zone.name();
-            plot::Zone {
-                from,
-                to,
-                role,
-                glyph,
-                name,
-            }
-        });
-        seen.collect()
-    }
-}
-
-/// The colour of a zone, and the letter that stands for it where there are no colours.
-pub fn look_of(zone: Zone) -> (Role, char) {
-    match zone {
-        Zone::Stick => (Role::Stick, 's'),
-        Zone::Slip => (Role::Slip, '~'),
-        Zone::Open => (Role::Open, '.'),
     }
 }
 

@@ -11,10 +11,10 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     needs: Curves::PROFILE,
     overlays: &[Axes::WEAR, Axes::PROFILE],
-    text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a \
-             line is drawn magnified, by one factor for the whole run that the title tells. It begins \
-             where surfaces slide under pressure: in the ring between c and a. A faint line ends what \
-             sticks at the moment: all, whenever the motion reverses.",
+    text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a line is drawn \
+           magnified, by one factor for the whole run that the title tells. It begins where surfaces slide \
+           under pressure: in the ring between c and a. A faint line ends what sticks at the moment: all, \
+           whenever the motion reverses.",
     symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
     ..Recipe::new(make)
 };
@@ -59,7 +59,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
-            vec![worn.filled(Fill::From(unworn.to_vec()))]
+            vec![worn.filled(unworn)]
         }
         None => {
             // What a page hides in the profile: wear that is seen there would lie under its inset.

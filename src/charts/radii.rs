@@ -8,9 +8,8 @@ pub static RECIPE: Recipe = Recipe {
     title: "radii over cycles",
     is_calm: true,
     overlays: &[Axes::CONTACT, Axes::STICK],
-    text: "The largest contact radius and the smallest stick radius of each cycle. As the \
-             ring wears, a grows; c settles, because what has stuck through a whole cycle \
-             keeps sticking.",
+    text: "The largest contact radius and the smallest stick radius of each cycle. As the ring wears, a grows; \
+           c settles, because what has stuck through a whole cycle keeps sticking.",
     symbols: &[
         ("a", "contact radius"),
         ("c", "stick radius: the smallest of the cycle"),

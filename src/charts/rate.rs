@@ -10,8 +10,8 @@ pub static RECIPE: Recipe = Recipe {
     has_spikes: true,
     is_calm: true,
     overlays: &[Axes::VOLUME],
-    text: "The wear volume of each cycle. It falls as the ring wears free of load, and \
-             stays up if a force keeps pressing the indenter in.",
+    text: "The wear volume of each cycle. It falls as the ring wears free of load, and stays up if a force \
+           keeps pressing the indenter in.",
     symbols: &[("V per cycle", "wear volume of one cycle")],
     ..Recipe::new(make)
 };

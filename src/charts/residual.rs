@@ -9,7 +9,7 @@ pub static RECIPE: Recipe = Recipe {
     has_spikes: true,
     is_calm: true,
     text: "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
-             difference shows how consistent the numerics are.",
+           difference shows how consistent the numerics are.",
     symbols: &[V, ("k", "wear coefficient"), E_D],
     ..Recipe::new(make)
 };

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use crate::contact::indenter::Indenter;
-use crate::plot::Zone;
-use crate::reading::Moment;
+use crate::reading::{Moment, Zone};
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
@@ -157,9 +156,19 @@ impl Run {
     }
 
     /// Stick, slip and open along the radius, on a screen.
-    pub(super) fn zones(&self) -> Vec<Zone> {
-        let live = self.live.as_ref();
-        live.map_or_else(Vec::new, |live| live.zones(self.edge()))
+    pub(super) fn zones(&self) -> Vec<([f64; 2], Zone)> {
+        let Some(live) = &self.live else {
+            return Vec::new();
+        };
+        let contact = live.moment.contact_radius;
+        let stick = live.moment.stick_radius.unwrap_or(contact).min(contact);
+        let mut zones = vec![
+            ([0.0, stick], Zone::Stick),
+            ([stick, contact], Zone::Slip),
+            ([contact, self.edge()], Zone::Open),
+        ];
+        zones.retain(|([from, to], _)| to > from);
+        zones
     }
 
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:

@@ -10,8 +10,8 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     is_calm: true,
     overlays: &[Axes::DEPTH],
-    text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point of \
-             the scar. Measured depths lie over it with --overlay.",
+    text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point \
+           of the scar. Measured depths lie over it with --overlay.",
     symbols: &[("depth", "largest f - f0 over the radius")],
     ..Recipe::new(make)
 };

@@ -8,9 +8,9 @@ pub static RECIPE: Recipe = Recipe {
     title: "1D profile",
     needs: Curves::PROFILE_1D,
     overlays: &[Axes::SPRINGS],
-    text: "The method replaces the 3D contact with a row of independent springs, and the \
-             shape f with its 1D image g. A spring at x touches where g(x) is below the depth \
-             d. The contact force is exactly the sum of the spring forces.",
+    text: "The method replaces the 3D contact with a row of independent springs, and the shape f with its 1D \
+           image g. A spring at x touches where g(x) is below the depth d. The contact force is exactly the \
+           sum of the spring forces.",
     symbols: &[("g", "1D profile"), ("d", "indentation depth"), A, C],
     ..Recipe::new(make)
 };
@@ -21,13 +21,9 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         let (ends, depth) = ([0.0, run.edge()], [live.moment.depth; 2]);
         Curve::new("depth d", ends, depth, Role::Contact).dashed()
     });
+    let springs = of_states(run, "g_m", run.pick("g", ""), Role::Profile);
     Ok(over_r(run, "x", ("g", "m"))
         .curves(depth)
         .curves(ghosts::on(run, Axes::SPRINGS))
-        .curves(of_states(
-            run,
-            "g_m",
-            run.pick("g", ""),
-            run.pick(Role::Profile1d, Role::Profile),
-        )))
+        .curves(springs))
 }

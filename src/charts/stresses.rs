@@ -10,10 +10,9 @@ pub static RECIPE: Recipe = Recipe {
     needs: Curves::PRESSURE.union(Curves::SHEAR),
     has_spikes: true,
     overlays: &[Axes::PRESSURE, Axes::SHEAR],
-    text: "Pressure p and shear stress against the radius. The shear stress is divided by \
-             μ, so it lies on p or -p where the contact slips and between them where it \
-             sticks. The unworn p is Hertz's half-ellipse; wear moves the load into the stick \
-             zone.",
+    text: "Pressure p and shear stress against the radius. The shear stress is divided by μ, so it lies on p \
+           or -p where the contact slips and between them where it sticks. The unworn p is Hertz's \
+           half-ellipse; wear moves the load into the stick zone.",
     symbols: &[
         ("p", "pressure"),
         ("τ/μ", "shear stress over the friction coefficient"),
@@ -50,11 +49,8 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let shear = state.column("tau_Pa").filter(|_| divisor.is_some());
     let is_seen = |shear: &&[f64]| run.live.is_some() || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
-        let shear = curve(
-            name,
-            shear.iter().copied().map(scaled).collect(),
-            Role::Shear,
-        );
+        let shear = shear.iter().copied().map(scaled).collect();
+        let shear = curve(name, shear, Role::Shear);
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
         chart = chart.curve(shear.dashed_if(run.live.is_some()));
     }

@@ -18,17 +18,11 @@ pub static RECIPE: Recipe = Recipe {
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
     let volume = series(run, "wear_volume_m3", "", Role::Profile)?;
-    let mut chart = over_cycles(
-        run,
-        Axis::new("V", "m³")
-            .from_zero()
-            .expecting(run.expected_volume()),
-    );
+    let ordinate = Axis::new("V", "m³").from_zero();
+    let mut chart = over_cycles(run, ordinate.expecting(run.expected_volume()));
     if let Some(live) = &run.live {
-        chart.note = format!(
-            "E_d {}",
-            format_value(live.moment.dissipated_energy, "J", 4)
-        );
+        let work = format_value(live.moment.dissipated_energy, "J", 4);
+        chart.note = format!("E_d {work}");
     }
     Ok(chart.curves(ghosts::on(run, Axes::VOLUME)).curve(volume))
 }

@@ -25,7 +25,12 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let screen = &options.screen;
     let strokes = Stroke::script(screen.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
-    let color = screen.color.or(config.color);
+    let (marker, look) = (
+        screen.marker.or(config.marker),
+        screen.theme.or(config.theme),
+    );
+    let colored = screen.color.or(config.color);
+    let colored = colored.and_then(ColorChoice::is_colored);
     command::bind(config.keys);
     let directory = Path::new(&options.scenario);
     let run = match &options.resume {
@@ -63,9 +68,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         keep_in: autosave::state_directory(),
         keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
         fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
-        marker: screen.marker.or(config.marker),
-        colored: color.and_then(ColorChoice::is_colored),
-        look: screen.theme.or(config.theme),
+        theme: tui::theme_of(marker, colored, look),
         present: options.present,
         mouse: screen.mouse || config.mouse == Some(true),
         script: screen.print.map(|size| Script {

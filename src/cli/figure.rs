@@ -9,8 +9,7 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, job};
-use crate::charts::{Recipe, Run};
-use crate::charts::{depth, fretting_loop, profile, scar_depth, springs, stresses, volume};
+use crate::charts::{Recipe, Run, USUAL, depth, scar_depth, volume};
 use crate::export::target::Target;
 use crate::figure::look::Look;
 use crate::figure::{Format, Sheet, paper, study as figure_of_study};
@@ -31,14 +30,6 @@ const OF_THE_PAPER: &str = "li2019-fig3";
 
 /// Millimetres per point.
 const POINT: f64 = 25.4 / 72.0;
-
-/// The default charts, drawn if there are data for them.
-const USUAL: [&Recipe; 4] = [
-    &profile::RECIPE,
-    &springs::RECIPE,
-    &stresses::RECIPE,
-    &fretting_loop::RECIPE,
-];
 
 /// Draws the figure and writes it, with its data beside it.
 pub fn figure(options: &Figure) -> Result<()> {

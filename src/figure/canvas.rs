@@ -10,7 +10,7 @@ pub const BLACK: Rgb = [0, 0, 0];
 pub const WHITE: Rgb = [255; 3];
 
 /// Where a text stands about its point, with the name that SVG has for it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Anchor {
     /// It begins there.

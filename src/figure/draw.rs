@@ -90,17 +90,18 @@ impl Chart {
         }
         let mut drawn: Vec<[[f64; 2]; 2]> = Vec::new();
         if self.map.is_some() {
-            let parts = self.curves.iter().flat_map(|curve| frame.clipped(curve));
+            let parts = self.curves.iter();
+            let parts = parts.flat_map(|curve| frame.clipped(curve.points()));
             for part in parts {
                 canvas.line(part, WHITE, CURVE + 2.0 * HALO, &[]);
             }
         }
         // Dashes lie on top: of two curves in one place both are seen.
-        let [dashed, whole] = [true, false].map(|is| move |curve: &&Curve| curve.dashed == is);
-        let curves = self.curves.iter();
-        for curve in curves.clone().filter(whole).chain(curves.filter(dashed)) {
+        let mut curves: Vec<&Curve> = self.curves.iter().collect();
+        curves.sort_by_key(|curve| curve.dashed);
+        for curve in curves {
             let dashes = look.dashes(curve.role, curve.dashed);
-            let parts = frame.clipped(curve);
+            let parts = frame.clipped(curve.points());
             for part in parts.into_iter().filter(|_| curve.has_line) {
                 drawn.extend(part.windows(2).map(|pair| [pair[0], pair[1]]));
                 canvas.line(part, look.color(curve.role), CURVE, dashes);

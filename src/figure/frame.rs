@@ -31,10 +31,8 @@ impl Frame {
 
     /// Where a point lies, mm; `None` where it has no place.
     pub fn place(&self, x: f64, y: f64) -> Option<[f64; 2]> {
-        let (across, up) = (
-            self.rulers[0].window.share(x)?,
-            self.rulers[1].window.share(y)?,
-        );
+        let across = self.rulers[0].window.share(x)?;
+        let up = self.rulers[1].window.share(y)?;
         Some([self.left + across * self.size[0], self.height_of(up)])
     }
 
@@ -52,32 +50,27 @@ impl Frame {
 
     /// Draws the points of a curve that lie inside, with their error bars, and returns them.
     pub fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
-        let ink = look.color(curve.role);
-        let mut drawn = Vec::new();
-        for (k, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
-            if let Some(error) = curve.errors.get(k).filter(|error| error.is_finite()) {
-                let lowest = self.rulers[1].window.bounds[0];
-                let low = self.place(x, y - error).or(self.place(x, lowest));
-                if let (Some(low), Some(high)) = (low, self.place(x, y + error))
-                    && let Some(bar) = self.inside(low, high)
-                {
-                    canvas.line(bar.to_vec(), ink, BAR, &[]);
-                }
-            }
-            let place = self.place(x, y);
-            if let Some(at) = place.filter(|at| self.inside(*at, *at).is_some()) {
-                canvas.line(symbol(curve.role, at), ink, BAR, &[]);
-                drawn.push(at);
-            }
+        let (ink, lowest) = (look.color(curve.role), self.rulers[1].window.bounds[0]);
+        // Not below the frame: a logarithmic axis has no place for what is not positive.
+        let cut = |y: f64| if y < lowest { lowest } else { y };
+        for bar in self.clipped(curve.bars().map(|(x, y)| (x, cut(y)))) {
+            canvas.line(bar, ink, BAR, &[]);
+        }
+        let places = curve.points().filter_map(|(x, y)| self.place(x, y));
+        let drawn: Vec<[f64; 2]> = places
+            .filter(|at| self.inside(*at, *at).is_some())
+            .collect();
+        for at in &drawn {
+            canvas.line(symbol(curve.role, *at), ink, BAR, &[]);
         }
         drawn
     }
 
     /// The parts of a line that lie inside.
-    pub fn clipped(&self, curve: &Curve) -> Vec<Vec<[f64; 2]>> {
+    pub fn clipped(&self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<[f64; 2]>> {
         let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
         let mut before: Option<[f64; 2]> = None;
-        for (&x, &y) in curve.xs.iter().zip(&curve.ys) {
+        for (x, y) in points {
             let here = self.place(x, y);
             if let (Some(from), Some(to)) = (before, here)
                 && let Some([start, end]) = self.inside(from, to)

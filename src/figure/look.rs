@@ -87,7 +87,6 @@ impl Look {
         match role {
             Role::Unworn => [130, 130, 130],
             Role::Profile => [20, 60, 200],
-            Role::Profile1d => [60, 110, 230],
             Role::Pressure | Role::Contact => [0, 130, 150],
             Role::Shear => [170, 0, 150],
             Role::Stick => [0, 140, 60],

@@ -70,9 +70,9 @@ impl<'a> Key<'a> {
     pub fn fill(&self, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, look: &Look) {
         let map = self.map;
         let range = map.range();
+        let is_there = |value: &f64| value.is_finite();
         let color = |value: f64| {
-            let shown = value.is_finite();
-            shown.then(|| match map.words.is_empty() {
+            is_there(&value).then(|| match map.words.is_empty() {
                 true => look.mapped(map.colors, map.share(value, range)),
                 false => look.regime(value as usize),
             })
@@ -80,29 +80,21 @@ impl<'a> Key<'a> {
         let within = |k: usize| {
             let [low, high] = frame.rulers[k].window.bounds;
             let edges = axes[k].edges(&map.places[k]).into_iter();
-            edges
-                .map(|edge| edge.clamp(low.min(high), low.max(high)))
-                .collect::<Vec<f64>>()
+            let edges = edges.map(|edge| edge.clamp(low, high));
+            edges.collect::<Vec<f64>>()
         };
         let (across, down) = (within(0), within(1));
         let width = map.places[0].len();
         let rows: Vec<&[f64]> = map.values.chunks(width).collect();
         for (row, values) in rows.iter().enumerate() {
-            let mut start = 0;
-            for end in 1..=width {
-                let ink = color(values[start]);
-                if end < width && color(values[end]) == ink {
-                    continue;
-                }
-                let right = match values.get(end) {
-                    Some(next) if next.is_finite() => end + 1,
-                    _ => end,
-                };
-                let next = rows.get(row + 1).map(|below| &below[start..right]);
-                let bottom = match next {
-                    Some(below) if below.iter().all(|value| value.is_finite()) => row + 2,
-                    _ => row + 1,
-                };
+            let mut end = 0;
+            for same in values.chunk_by(|a, b| color(*a) == color(*b)) {
+                let (start, ink) = (end, color(same[0]));
+                end += same.len();
+                let right = end + usize::from(values.get(end).is_some_and(is_there));
+                let below = rows.get(row + 1).map(|below| &below[start..right]);
+                let is_whole = below.is_some_and(|below| below.iter().all(is_there));
+                let bottom = row + 1 + usize::from(is_whole);
                 let corners = [
                     frame.place(across[start], down[row]),
                     frame.place(across[right], down[bottom]),
@@ -112,7 +104,6 @@ impl<'a> Key<'a> {
                     let size = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
                     canvas.area(at, size, ink);
                 }
-                start = end;
             }
         }
     }

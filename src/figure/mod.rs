@@ -193,7 +193,7 @@ impl Sheet {
             let curves = chart.curves.iter().map(|curve| ("", curve));
             for (part, curve) in curves.chain(inset) {
                 let (place, name) = (format!("{panel}{part}"), &curve.name);
-                for (i, (&x, &y)) in curve.xs.iter().zip(&curve.ys).enumerate() {
+                for (i, (x, y)) in curve.points().enumerate() {
                     let error = field(curve.errors.get(i).copied().unwrap_or(f64::NAN));
                     let [x, y] = [x, y].map(number);
                     text += &csv_line([&place, name, &x, &y, "", &error]);

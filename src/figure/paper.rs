@@ -35,17 +35,15 @@ pub fn errors(points: usize) -> Result<Sheet, Breakdown> {
             chart.curves.push(curve.dashed_if(k > 0));
         }
     }
+    let facts = [
+        ("problem", "Hertz"),
+        ("methods", "a, b"),
+        ("points", &points.to_string()),
+        ("error", "|result - theory|/theory at every node"),
+    ];
     Ok(Sheet {
         title: "Errors on a Hertzian contact (Fig. 2 of Li, Forsbach & Benad 2019)".into(),
-        facts: vec![
-            ("problem".into(), "Hertz".into()),
-            ("methods".into(), "a, b".into()),
-            ("points".into(), points.to_string()),
-            (
-                "error".into(),
-                "|result - theory|/theory at every node".into(),
-            ),
-        ],
+        facts: facts.map(|(key, value)| (key.into(), value.into())).into(),
         charts: charts.into(),
     })
 }
@@ -60,10 +58,8 @@ pub fn fretting(run: &Run) -> Result<Sheet, Refusal> {
         springs::RECIPE.on_paper(run)?,
     ];
     // A run without states has none of the others.
-    for state in [run.states.first(), run.states.last()]
-        .into_iter()
-        .flatten()
-    {
+    let ends = [run.states.first(), run.states.last()];
+    for state in ends.into_iter().flatten() {
         let one = Run {
             states: vec![state.clone()],
             ..Run::default()

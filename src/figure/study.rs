@@ -1,5 +1,7 @@
 //! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
 
+use std::iter;
+
 use super::Sheet;
 use crate::math::scan::range;
 use crate::plot::colormap::ColorMap;
@@ -18,6 +20,9 @@ const DECADES: f64 = 100.0;
 
 /// How much of the data's extent is left free beside curves with symbols.
 const MARGIN: f64 = 0.04;
+
+/// What interrupts a line.
+const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 /// The column of the words.
 const REGIME: &str = "regime";
@@ -197,9 +202,8 @@ fn map(
     let criteria = criteria.into_iter().enumerate();
     let criteria = criteria.map(|(k, line)| (3 + k, line));
     for (k, line) in borders.into_iter().enumerate().chain(criteria) {
-        let gap = [(f64::NAN, f64::NAN)];
         let parts = line.parts().map(|part| part.iter().map(|&at| spot(at)));
-        let points = parts.flat_map(|part| gap.into_iter().chain(part)).skip(1);
+        let points = parts.flat_map(|part| iter::once(GAP).chain(part)).skip(1);
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.unzip();
         let end = line.at.last().map(|&end| spot(end));
         chart.points.extend(end.map(|(x, y)| Point {
@@ -221,23 +225,19 @@ fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
     let [wide, high] = slice.size();
     let regime = |x: usize, y: usize| slice.regime(slice.point_at(x, y));
     let differ = |a: Option<usize>, b: Option<usize>| a.zip(b).is_some_and(|(a, b)| a != b);
-    let mut border = [Vec::new(), Vec::new()];
-    let mut add = |from: [f64; 2], to: [f64; 2]| {
-        for k in 0..2 {
-            border[k].extend([from[k], to[k], f64::NAN]);
-        }
-    };
+    let mut border = Vec::new();
     for y in 0..high {
         for x in 0..wide {
+            let corner = (across[x + 1], up[y + 1]);
             if x + 1 < wide && differ(regime(x, y), regime(x + 1, y)) {
-                add([across[x + 1], up[y]], [across[x + 1], up[y + 1]]);
+                border.extend([(across[x + 1], up[y]), corner, GAP]);
             }
             if y + 1 < high && differ(regime(x, y), regime(x, y + 1)) {
-                add([across[x], up[y + 1]], [across[x + 1], up[y + 1]]);
+                border.extend([(across[x], up[y + 1]), corner, GAP]);
             }
         }
     }
-    let [xs, ys] = border;
+    let (xs, ys): (Vec<f64>, Vec<f64>) = border.into_iter().unzip();
     let name = "running condition changes";
     (!xs.is_empty()).then(|| Curve::new(name, xs, ys, Role::Border(2)))
 }

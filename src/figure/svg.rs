@@ -51,27 +51,22 @@ fn element(shape: &Shape) -> String {
         }
         Shape::Text(text) => {
             let [x, y] = text.at.map(length);
-            let anchor: &str = text.anchor.into();
             let turned = match text.upwards {
                 true => format!(" transform=\"rotate(-90 {x} {y})\""),
                 false => String::new(),
             };
             format!(
-                "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{turned}>{}</text>",
+                "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{}\"{turned}>{}</text>",
                 length(text.size),
+                text.anchor,
                 escaped(&text.words),
             )
         }
     }
 }
 
-/// A resolution of one micrometre on paper is enough.
+/// A resolution of one micrometre on paper is enough. Adding zero makes one of -0.
 fn length(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".into()
-    } else {
-        text.into()
-    }
+    let rounded = (1e3 * value).round() / 1e3;
+    (rounded + 0.0).to_string()
 }

@@ -6,6 +6,7 @@ use super::map::Map;
 use super::stroke::Stroke;
 use super::theme::Role;
 use crate::math::scan::{range, value_at};
+use crate::reading::Zone;
 
 /// The dashes of curves of other sources in a terminal, by their number.
 const GHOSTS: [Stroke; 4] = [
@@ -14,18 +15,6 @@ const GHOSTS: [Stroke; 4] = [
     Stroke::LongDashed,
     Stroke::Dashed,
 ];
-
-/// What lies between a curve and the area that is shaded below or above it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub enum Fill {
-    /// Nothing is shaded.
-    #[default]
-    None,
-    /// One ordinate, in the y axis' unit.
-    To(f64),
-    /// An ordinate for each point.
-    From(Vec<f64>),
-}
 
 /// A line through points; where one is not finite, or not positive on a logarithmic axis, is a gap.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -40,8 +29,8 @@ pub struct Curve {
     pub role: Role,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// The shaded area, in a terminal.
-    pub fill: Fill,
+    /// Ordinates of the other side of the shaded area, in a terminal; empty where nothing is shaded.
+    pub fill: Vec<f64>,
     /// Standard errors of the ordinates; empty where they are not known.
     pub errors: Vec<f64>,
     /// Whether its points are measured: on paper each has a symbol.
@@ -83,9 +72,10 @@ impl Curve {
         Self { dashed, ..self }
     }
 
-    /// The same curve, with this area shaded.
+    /// The same curve, with the area between it and these ordinates shaded.
     #[must_use]
-    pub fn filled(self, fill: Fill) -> Self {
+    pub fn filled(self, fill: impl Into<Vec<f64>>) -> Self {
+        let fill = fill.into();
         Self { fill, ..self }
     }
 
@@ -117,12 +107,12 @@ impl Curve {
     }
 
     /// The points of the curve, gaps included.
-    pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
 
     /// The ends of the error bars, a gap after each bar.
-    pub(super) fn bars(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub fn bars(&self) -> impl Iterator<Item = (f64, f64)> {
         let points = self.points().zip(&self.errors);
         points.flat_map(|((x, y), error)| [(x, y - error), (x, y + error), (f64::NAN, f64::NAN)])
     }
@@ -135,24 +125,6 @@ impl Curve {
             _ => Stroke::Solid,
         }
     }
-}
-
-/// A range of x in the band under the plot area: where the contact sticks, slips, is open.
-///
-/// In a terminal, cells take the zone at their middle; a zone narrower than a cell still gets one. Of
-/// overlapping zones the last is seen.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Zone {
-    /// Where the zone begins, in the x axis' unit.
-    pub from: f64,
-    /// Where it ends.
-    pub to: f64,
-    /// What it is; where that has no colour, the letter is shown instead.
-    pub role: Role,
-    /// The letter that stands for it in mono and ASCII, as in `s`, `~`, `.`.
-    pub glyph: char,
-    /// Its name, written into it where it is wide enough; may be empty.
-    pub name: &'static str,
 }
 
 /// A thin dotted vertical line with a short label above it.
@@ -190,8 +162,11 @@ pub struct Chart {
     pub curves: Vec<Curve>,
     /// Single places, in a terminal.
     pub points: Vec<Point>,
-    /// The zones of the band, in a terminal; none without a band.
-    pub band: Vec<Zone>,
+    /// The zones of the band under the plot area, each from one x to another, in a terminal; none without a band.
+    ///
+    /// Cells take the zone at their middle; a zone narrower than a cell still gets one. Of overlapping zones the last
+    /// is seen.
+    pub band: Vec<([f64; 2], Zone)>,
     /// Vertical dotted lines.
     pub marks: Vec<Mark>,
     /// A remark at the right end of the title row, in a terminal.
@@ -230,8 +205,7 @@ impl Chart {
     }
 
     /// The ranges of abscissae and ordinates that will be seen: those of points and error bars with a place on
-    /// both axes, and within x bounds that are given; of the places of a map, of bases of fills, and of what
-    /// the axes always hold. Curves that are not `counted` are left out.
+    /// both axes, and within x bounds that are given; of the places of a map, and of what the axes always hold. Curves that are not `counted` are left out.
     pub fn extent(&self, counted: impl Fn(&Curve) -> bool) -> [Option<[f64; 2]>; 2] {
         let limits = self.x.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
         let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);
@@ -241,12 +215,8 @@ impl Chart {
             let axis = [&self.x, &self.y][k];
             let points = curves().flat_map(|curve| curve.points().chain(curve.bars()));
             let points = points.filter(|at| across.has(at.0) && up.has(at.1) && seen(at.0));
-            let bases = curves().filter_map(|curve| match curve.fill {
-                Fill::To(base) if k == 1 => Some(base),
-                _ => None,
-            });
             let places = self.map.iter().flat_map(|map| &map.places[k]);
-            let places = bases.chain(places.chain(&axis.holds).copied());
+            let places = places.chain(&axis.holds).copied();
             let places = places.filter(|place| axis.scale.has(*place));
             range(points.map(|at| [at.0, at.1][k]).chain(places))
         })

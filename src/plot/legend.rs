@@ -121,7 +121,7 @@ fn lines(plot: &Plot<'_>, [x_unit, y_unit]: [&AxisUnit; 2], reading: Reading) ->
     });
     let named = chart.curves.iter().filter(|curve| !curve.name.is_empty());
     let curves = named.map(|curve| {
-        let swatch = curve.stroke().swatch(theme.ascii());
+        let swatch = theme.printable(&curve.stroke().swatch().to_string());
         let name = theme.printable(&curve.name);
         let name: String = name.chars().take(LONGEST_NAME).collect();
         let read = match x.map(|x| curve.value_at(x)) {

@@ -12,7 +12,7 @@ use crate::math::scan::range;
 pub const WORDS: usize = 4;
 
 /// Characters from low to high, in a terminal without colours: the lowest value is told from a blank.
-const SIGNS: [char; SHADES] = ['.', ':', '-', '=', '+', 'c', 'o', 'x', '*', '%', '#', '@'];
+pub const SIGNS: [char; SHADES] = ['.', ':', '-', '=', '+', 'c', 'o', 'x', '*', '%', '#', '@'];
 
 /// The characters and roles of words in a terminal. Of running conditions, stick and slip have the colours that they
 /// have in all panels, and any kind of colour vision tells the one between them from both.
@@ -72,16 +72,11 @@ impl Map {
         }
         if self.words.is_empty() {
             let shade = shades::shade(self.share(value, range), [0.0, 1.0]);
-            return (shades::color(theme, self.colors, shade), sign(shade));
+            return (shades::color(theme, self.colors, shade), SIGNS[shade]);
         }
         let (sign, role) = SWATCHES[value as usize % WORDS];
         (theme.style(role).fg, sign)
     }
-}
-
-/// The character of a shade without colours.
-pub fn sign(shade: usize) -> char {
-    SIGNS[shade.min(SHADES - 1)]
 }
 
 /// The colour of signs on a ground: the dark blues of the cube, with which maps begin, hide what is black.

@@ -30,7 +30,7 @@ impl Marker {
     }
 
     /// The character of a cell with these dots of curves.
-    pub(super) fn glyph(self, dots: u8) -> char {
+    pub fn glyph(self, dots: u8) -> char {
         match (self, dots) {
             (Marker::Braille, _) => BRAILLE[usize::from(dots)],
             (Marker::HalfBlock, 1) => '▀',

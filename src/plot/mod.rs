@@ -47,7 +47,7 @@ mod dot_tests;
 mod tests;
 
 pub use axis::{Axis, Scale, nice_bounds, sticky_bounds};
-pub use chart::{Chart, Curve, Fill, Mark, Point, Zone};
+pub use chart::{Chart, Curve, Mark, Point};
 pub use map::Map;
 pub use marker::Marker;
 use ratatui::layout::Rect;

@@ -152,8 +152,6 @@ impl Drawing {
             '▀' => self.area(color, (x, y), 0.5 * h),
             '▄' => self.area(color, (x, y + 0.5 * h), 0.5 * h),
             '░' => self.area(look.mixed(0.25), (x, y), h),
-            '▒' => self.area(look.mixed(0.5), (x, y), h),
-            '▓' => self.area(look.mixed(0.75), (x, y), h),
             _ => {
                 let Some([left, right, up, down]) = arms(sign) else {
                     return false;
@@ -240,10 +238,8 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
         for at in row.positions() {
             let (cell, column) = (&buffer[at], f64::from(at.x - buffer.area.x));
             let look = Look::of(cell, ground);
-            let (x, y) = (
-                MARGIN + column * w,
-                MARGIN + f64::from(at.y - buffer.area.y) * h,
-            );
+            let x = MARGIN + column * w;
+            let y = MARGIN + f64::from(at.y - buffer.area.y) * h;
             if look.back != ground.back {
                 backs.area(look.back, (x, y), h);
             }

@@ -11,7 +11,7 @@ use super::theme::{Depth, Look, Theme};
 pub const SHADES: usize = 12;
 
 /// Signs from low to high: of values that begin with nothing.
-const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
+pub const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
 
 /// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest:
 /// blues, so that the colours of stick, slip and wear stand out, and any kind of colour vision tells them apart.
@@ -42,7 +42,6 @@ pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
 
 /// The colour of a shade; `None` where the terminal has none.
 pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
-    let shade = shade.min(SHADES - 1);
     let is_light = theme.look == Look::Light;
     let number = match (theme.depth, map) {
         (Depth::Sixteen, ColorMap::Sequential) => SIXTEEN[shade],
@@ -59,16 +58,11 @@ pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     has_blocks(theme).then_some(color)
 }
 
-/// The sign of a shade.
-pub fn sign(shade: usize) -> char {
-    SIGNS[shade.min(SHADES - 1)]
-}
-
-/// All shades for a key, or what `sign` gives for them where there are no colours.
-pub fn key(theme: &Theme, map: ColorMap, sign: fn(usize) -> char) -> [Span<'static>; SHADES] {
+/// All shades for a key, or the `signs` that stand for them where there are no colours.
+pub fn key(theme: &Theme, map: ColorMap, signs: [char; SHADES]) -> [Span<'static>; SHADES] {
     std::array::from_fn(|shade| match color(theme, map, shade) {
         Some(color) => Span::styled(" ", Style::new().bg(color)),
-        None => Span::raw(sign(shade).to_string()),
+        None => Span::raw(signs[shade].to_string()),
     })
 }
 

@@ -39,15 +39,14 @@ impl Stroke {
     }
 
     /// The sign that stands for it in a legend.
-    pub(super) fn swatch(self, ascii: bool) -> char {
-        let (line, in_ascii) = match self {
-            Self::Solid => ('─', '-'),
-            Self::Dashed => ('╌', '='),
-            Self::Dotted => ('┈', '.'),
-            Self::DashDotted => ('┄', '~'),
-            Self::LongDashed => ('╴', '_'),
-        };
-        if ascii { in_ascii } else { line }
+    pub(super) fn swatch(self) -> char {
+        match self {
+            Self::Solid => '─',
+            Self::Dashed => '╌',
+            Self::Dotted => '┈',
+            Self::DashDotted => '┄',
+            Self::LongDashed => '╴',
+        }
     }
 }
 

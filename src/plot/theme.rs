@@ -12,6 +12,7 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::Marker;
 use super::units::to_ascii;
+use crate::reading::Zone;
 
 /// Quantities and parts of the screen that have a style of their own: the same quantity has the same colour in
 /// every chart.
@@ -27,10 +28,8 @@ pub enum Role {
     Border(usize),
     /// Closed forms.
     Limit,
-    /// The worn profile f.
+    /// The worn profile f, and its 1D image g.
     Profile,
-    /// The 1D profile g.
-    Profile1d,
     /// Pressure p and normal loads.
     Pressure,
     /// Shear stress τ and tangential loads.
@@ -60,10 +59,17 @@ pub enum Role {
     Alarm,
 }
 
+/// The colour of a zone, and the letter that stands for it where there are no colours.
+pub fn look_of(zone: Zone) -> (Role, char) {
+    match zone {
+        Zone::Stick => (Role::Stick, 's'),
+        Zone::Slip => (Role::Slip, '~'),
+        Zone::Open => (Role::Open, '.'),
+    }
+}
+
 /// Which colours.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::IntoStaticStr, serde::Deserialize,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::Display, serde::Deserialize)]
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
 pub enum Look {
@@ -76,11 +82,6 @@ pub enum Look {
 }
 
 impl Look {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-
     /// The one for a background of this red, green and blue.
     pub fn on(background: [u8; 3]) -> Self {
         // Against a luminance of 0.18, black and white have the same contrast.
@@ -141,8 +142,8 @@ pub struct Theme {
     pub follows_background: bool,
 }
 
-/// A colour of the palette in the cube of 256, for a dark and for a light background.
-type Pair = [u8; 2];
+/// A colour of the cube of 256, for a dark and for a light background.
+pub type Pair = [u8; 2];
 
 /// The palette after Okabe and Ito. On white their yellow and their sky blue are too pale for a line;
 /// their orange and purple are darkened.
@@ -197,23 +198,31 @@ impl Theme {
         }
     }
 
+    /// The colour of the cube of 256 for the terminal's background; `None` where there are only sixteen.
+    pub fn indexed(&self, [dark, light]: Pair) -> Option<Color> {
+        let number = if self.look == Look::Light {
+            light
+        } else {
+            dark
+        };
+        (self.depth == Depth::Indexed).then_some(Color::Indexed(number))
+    }
+
     /// The style of a role.
     pub fn style(&self, role: Role) -> Style {
         let plain = Style::new();
         // Only plain colours of the sixteen: in some palettes the bright ones are greys.
-        let with = |pair: Pair, dark: Color, light: Color| match (self.look, self.depth) {
-            (Look::Mono, _) => plain,
-            (Look::Dark, Depth::Sixteen) => plain.fg(dark),
-            (Look::Light, Depth::Sixteen) => plain.fg(light),
-            (Look::Dark, Depth::Indexed) => plain.fg(Color::Indexed(pair[0])),
-            (Look::Light, Depth::Indexed) => plain.fg(Color::Indexed(pair[1])),
+        let with = |pair: Pair, dark: Color, light: Color| match self.look {
+            Look::Mono => plain,
+            Look::Dark => plain.fg(self.indexed(pair).unwrap_or(dark)),
+            Look::Light => plain.fg(self.indexed(pair).unwrap_or(light)),
         };
         match role {
             Role::Unworn | Role::Quiet => plain,
             Role::Ghost(_) | Role::Series(_) | Role::Border(_) => plain,
             Role::Open | Role::Faint => plain.add_modifier(Modifier::DIM),
             Role::Limit => with(YELLOW, Color::Blue, Color::Cyan),
-            Role::Profile | Role::Profile1d => with(ORANGE, Color::Yellow, Color::Blue),
+            Role::Profile => with(ORANGE, Color::Yellow, Color::Blue),
             Role::Pressure | Role::Contact => with(SKY, Color::Cyan, Color::Magenta),
             Role::Shear => with(PURPLE, Color::Magenta, Color::Red),
             Role::Stick => with(GREEN, Color::Green, Color::Green),
@@ -234,7 +243,7 @@ mod tests {
 
     #[test]
     fn no_two_curves_of_a_plot_share_a_colour() {
-        use Role::{Contact, Limit, Pressure, Profile, Profile1d, Shear, Slip, Stick, Unworn};
+        use Role::{Contact, Limit, Pressure, Profile, Shear, Slip, Stick, Unworn};
         for (look, depth) in [Look::Dark, Look::Light]
             .into_iter()
             .flat_map(|look| DEPTHS.map(|depth| (look, depth)))
@@ -243,7 +252,7 @@ mod tests {
             for plot in [
                 &[Unworn, Profile, Limit, Contact, Stick, Slip][..],
                 &[Pressure, Shear, Limit, Unworn, Stick],
-                &[Profile1d, Contact, Stick],
+                &[Profile, Contact, Stick],
                 &[Profile, Shear],
             ] {
                 let mut colors: Vec<_> = plot.iter().map(|role| theme.style(*role).fg).collect();
@@ -269,7 +278,7 @@ mod tests {
     #[test]
     fn what_explains_has_the_foreground_and_no_colour_is_a_bright_one() {
         use Color::{Blue, Cyan, Green, Magenta, Red, Yellow};
-        use Role::{Alarm, Contact, Limit, Notice, Open, Pressure, Profile, Profile1d, Quiet};
+        use Role::{Alarm, Contact, Limit, Notice, Open, Pressure, Profile, Quiet};
         use Role::{Shear, Slip, Stick, Title, Unworn};
         for look in [Look::Dark, Look::Light] {
             let theme = Theme::new(look, Marker::Braille);
@@ -279,8 +288,7 @@ mod tests {
                 assert!(!style.add_modifier.contains(Modifier::DIM), "{role:?}");
             }
             for role in [
-                Limit, Profile, Profile1d, Pressure, Contact, Shear, Stick, Slip, Open, Notice,
-                Alarm,
+                Limit, Profile, Pressure, Contact, Shear, Stick, Slip, Open, Notice, Alarm,
             ] {
                 if let Some(color) = theme.style(role).fg {
                     let plain = [Red, Green, Yellow, Blue, Magenta, Cyan];

@@ -117,14 +117,12 @@ impl Ruler {
 /// close, at least two where there is room for two. `factor` is the axis' unit in the
 /// data's unit (1e-6 for µm), a power of ten on a log axis.
 fn ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
-    if window.cells == 0 {
-        return Vec::new();
+    let linear = || linear_ticks(window, factor, labels);
+    match window.scale {
+        _ if window.cells == 0 => Vec::new(),
+        Scale::Linear => linear(),
+        Scale::Log => log_ticks(window, factor, labels).unwrap_or_else(linear),
     }
-    let log = match window.scale {
-        Scale::Linear => None,
-        Scale::Log => log_ticks(window, factor, labels),
-    };
-    log.unwrap_or_else(|| linear_ticks(window, factor, labels))
 }
 
 fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {

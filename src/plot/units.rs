@@ -145,6 +145,19 @@ fn round_to(value: f64, digits: usize) -> f64 {
     }
 }
 
+/// Signs common in units and labels, and how each of them is spelled in ASCII.
+#[rustfmt::skip]
+const SPELLED: [(&str, &str); 38] = [
+    // The prefix micro, and the letter of friction.
+    ("\u{b5}", "u"), ("\u{3bc}", "mu"),
+    ("⁰₀", "0"), ("¹₁", "1"), ("²₂", "2"), ("³₃", "3"), ("⁻−–—─━", "-"), ("│├┤", "|"), ("┊", ":"), ("→", "->"),
+    ("←", "<-"), ("⏸", "="), ("■", "#"), ("·", "*"), ("×", "x"), ("∞", "inf"), ("τ", "tau"), ("σ", "sigma"),
+    ("ω", "omega"), ("φ", "phi"), ("ν", "nu"), ("ρ", "rho"), ("ε", "eps"), ("δΔ", "d"), ("°", "deg"), ("∝", "~"),
+    ("≤", "<="), ("≥", ">="), ("±", "+-"), ("●◆", "o"), ("╳", "X"), ("▶", ">"), ("◀◂", "<"), ("▲", "^"),
+    // The dashes of a legend.
+    ("╌", "="), ("┈", "."), ("┄", "~"), ("╴", "_"),
+];
+
 /// `text` with the signs common in units and labels spelled in ASCII (`µm` as `um`, `τ` as
 /// `tau`); any other character becomes `?`.
 pub fn to_ascii(text: &str) -> Cow<'_, str> {
@@ -153,43 +166,10 @@ pub fn to_ascii(text: &str) -> Cow<'_, str> {
     }
     let mut folded = String::with_capacity(text.len());
     for c in text.chars() {
-        match c {
-            c if c.is_ascii() => folded.push(c),
-            // The prefix micro, and the letter of friction.
-            '\u{b5}' => folded.push('u'),
-            '\u{3bc}' => folded.push_str("mu"),
-            '⁰' | '₀' => folded.push('0'),
-            '¹' | '₁' => folded.push('1'),
-            '²' | '₂' => folded.push('2'),
-            '³' | '₃' => folded.push('3'),
-            '⁻' | '−' | '–' | '—' | '─' | '━' => folded.push('-'),
-            '│' | '├' | '┤' => folded.push('|'),
-            '┊' => folded.push(':'),
-            '→' => folded.push_str("->"),
-            '←' => folded.push_str("<-"),
-            '⏸' => folded.push('='),
-            '■' => folded.push('#'),
-            '·' => folded.push('*'),
-            '×' => folded.push('x'),
-            '∞' => folded.push_str("inf"),
-            'τ' => folded.push_str("tau"),
-            'σ' => folded.push_str("sigma"),
-            'ω' => folded.push_str("omega"),
-            'φ' => folded.push_str("phi"),
-            'ν' => folded.push_str("nu"),
-            'ρ' => folded.push_str("rho"),
-            'ε' => folded.push_str("eps"),
-            'δ' | 'Δ' => folded.push('d'),
-            '°' => folded.push_str("deg"),
-            '∝' => folded.push('~'),
-            '≤' => folded.push_str("<="),
-            '≥' => folded.push_str(">="),
-            '±' => folded.push_str("+-"),
-            '●' => folded.push('o'),
-            '▶' => folded.push('>'),
-            '◀' | '◂' => folded.push('<'),
-            '▲' => folded.push('^'),
-            _ => folded.push('?'),
+        match SPELLED.iter().find(|(signs, _)| signs.contains(c)) {
+            _ if c.is_ascii() => folded.push(c),
+            Some((_, spelled)) => folded.push_str(spelled),
+            None => folded.push('?'),
         }
     }
     Cow::Owned(folded)

@@ -3,19 +3,18 @@
 use ratatui::buffer::Buffer;
 use ratatui::buffer::Cell;
 use ratatui::layout::{self, Rect, Size};
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 use ratatui::widgets::Widget;
 
 use super::Plot;
 use super::axis::Axis;
-use super::chart::Fill;
 use super::legend::cells;
 use super::map::{Map, ink_on};
 use super::marker::Under;
 use super::raster::{Position, Raster};
 use super::shades::{has_blocks, paint_halves};
 use super::stroke::Stroke;
-use super::theme::Role;
+use super::theme::{Role, look_of};
 use super::ticks::{Labels, Ruler};
 use super::window::Window;
 
@@ -104,10 +103,8 @@ impl<'p> Frame<'p> {
     fn new(plot: &'p Plot<'p>, area: Rect) -> Self {
         let (chart, bare) = (plot.chart, is_bare(area));
         let [x_data, y_data] = chart.extent(|_| true);
-        let (x_bounds, y_bounds) = (
-            chart.x.resolve(x_data, false),
-            chart.y.resolve(y_data, true),
-        );
+        let x_bounds = chart.x.resolve(x_data, false);
+        let y_bounds = chart.y.resolve(y_data, true);
         let (across, down) = plot.theme.marker.dots();
 
         // Rows, from the bottom up: labels, axis line, band, plot; the title on top.
@@ -160,19 +157,9 @@ impl<'p> Frame<'p> {
         let place = |(a, b): (f64, f64)| -> Position { Some([x.position(a)?, y.position(b)?]) };
         for curve in curves {
             let (points, style) = (curve.points(), theme.style(curve.role));
-            match &curve.fill {
-                Fill::None => {}
-                Fill::To(base) => {
-                    // A base without a place (zero on a log axis) lies below everything.
-                    let base = y.position(*base).unwrap_or(-1.0);
-                    raster.fill(points.map(|point| (place(point), Some(base))), style);
-                }
-                Fill::From(bases) => {
-                    let between = points.zip(bases);
-                    let between = between.map(|(at, &base)| (place(at), y.position(base)));
-                    raster.fill(between, style);
-                }
-            }
+            let between = points.zip(&curve.fill);
+            let between = between.map(|(at, &base)| (place(at), y.position(base)));
+            raster.fill(between, style);
         }
         let zero = |window: Window| {
             let [lo, hi] = window.bounds;
@@ -225,9 +212,7 @@ impl<'p> Frame<'p> {
                     let value = map.values[halves[half] * xs.len() + x];
                     map.look(value, range, theme)
                 };
-                let Some(cell) = buf.cell_mut(place) else {
-                    continue;
-                };
+                let cell = &mut buf[place];
                 match parts {
                     1 => _ = cell.set_char(seen(0).1),
                     _ => paint_halves(cell, [seen(1).0, seen(0).0]),
@@ -313,10 +298,12 @@ impl<'p> Frame<'p> {
     fn band(&self, buf: &mut Buffer) {
         let (theme, window) = (self.plot.theme, self.x.window);
         let Some(y) = self.band_row else { return };
-        for zone in &self.plot.chart.band {
-            let style = theme.style(zone.role);
-            let ends = [zone.from, zone.to].map(|x| window.position(x));
-            let [Some(a), Some(b)] = ends else { continue };
+        for (ends, zone) in &self.plot.chart.band {
+            let (role, letter) = look_of(*zone);
+            let style = theme.style(role);
+            let [Some(a), Some(b)] = ends.map(|x| window.position(x)) else {
+                continue;
+            };
             let (from, to) = (a.min(b), a.max(b));
             let inside = |cell: &u16| (from..=to).contains(&window.cell_middle(*cell));
             let mut painted: Vec<u16> = (0..window.cells).filter(inside).collect();
@@ -328,17 +315,16 @@ impl<'p> Frame<'p> {
             let Some(&first) = painted.first() else {
                 continue;
             };
-            let coloured = style.fg.is_some_and(|colour| colour != Color::Reset);
-            let sign = match coloured && !theme.ascii() {
+            let sign = match style.fg.is_some() && !theme.ascii() {
                 true => '▀',
-                false => self.sign(zone.glyph),
+                false => letter,
             };
             let width = painted.len() as u16;
             for cell in painted {
                 glyph(buf, (self.inner.x + cell, y), sign, style);
             }
-            let name = format!(" {} ", theme.printable(zone.name));
-            if !zone.name.is_empty() && cells(&name) <= width {
+            let name = format!(" {} ", zone.name());
+            if cells(&name) <= width {
                 let start = name_start(first, width, cells(&name), window.cells);
                 self.write(buf, self.inner.x + start, y, &name, style);
             }

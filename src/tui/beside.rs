@@ -27,22 +27,15 @@ pub(super) struct Beside {
 }
 
 impl Beside {
-    /// A run that begins where `run` stands.
-    pub fn new(run: Recorded) -> Self {
+    /// A run that begins where `run` stands, and again with `start`, if there is one, wherever the first run goes back
+    /// in time.
+    pub fn new(run: impl Into<Recorded>, start: Option<Session>) -> Self {
         Self {
-            run,
-            start: None,
+            run: run.into(),
+            start,
             busy: Duration::ZERO,
             steps: 0,
             stopped: None,
-        }
-    }
-
-    /// A run that begins with `session`, and again wherever the first run goes back in time.
-    pub fn from_start(session: Session) -> Self {
-        Self {
-            start: Some(session.clone()),
-            ..Self::new(session.into())
         }
     }
 
@@ -68,7 +61,7 @@ impl Beside {
         if self.must_restart(cycle)
             && let Some(start) = self.start.take()
         {
-            *self = Self::from_start(start);
+            *self = Self::new(start.clone(), Some(start));
         }
         let (start, before) = (Instant::now(), self.run.simulation().steps());
         while self.lags(cycle) {
@@ -130,7 +123,7 @@ impl ComparisonRun {
             }
         };
         Ok(Self {
-            beside: Beside::new(session.into()),
+            beside: Beside::new(session, None),
             choice,
             from,
         })
@@ -200,7 +193,7 @@ impl Twin {
     pub fn of(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
-            beside: Beside::new(refinement::twin(session)?.ok()?.into()),
+            beside: Beside::new(refinement::twin(session)?.ok()?, None),
             due: 1.0,
             run: None,
             told: None,

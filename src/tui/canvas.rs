@@ -1,7 +1,6 @@
 //! A part of the screen to draw on, in the colours and signs of the terminal: what panels and overlays write their texts,
 //! rules, boxes, lists and plots with.
 
-use ratatui::buffer::Cell;
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
 use ratatui::symbols::border;
@@ -59,12 +58,6 @@ impl<'a> Canvas<'a> {
     /// A text as this terminal can show it.
     pub fn printable(&self, text: &str) -> String {
         self.theme.printable(text)
-    }
-
-    /// A cell, counted from the upper left corner.
-    pub fn cell(&mut self, column: u16, row: u16) -> Option<&mut Cell> {
-        let place = (self.area.x + column, self.area.y + row);
-        self.buffer.cell_mut(place)
     }
 
     /// Draws a widget on all of it.

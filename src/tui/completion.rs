@@ -82,16 +82,10 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
 
 /// `KEY`, or `KEY FROM..TO`.
 pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
-    let numbers = frame
-        .facts
-        .settings
-        .iter()
-        .filter(|setting| matches!(setting.parameter.kind, Kind::Number | Kind::Whole));
-    let units = numbers.clone();
-    let units: Vec<_> = units
-        .map(|setting| (setting.parameter.path, setting.unit))
-        .collect();
-    if let Some(range) = Range::parse(typed, &units) {
+    let is_number = |of: &&Setting| matches!(of.parameter.kind, Kind::Number | Kind::Whole);
+    let numbers = frame.facts.settings.iter().filter(is_number);
+    let units = numbers.clone().map(|of| (of.parameter.path, of.unit));
+    if let Some(range) = Range::parse(typed, &units.collect::<Vec<_>>()) {
         let help = format!("runs {POINTS} values on all cores and shows the curve");
         let sweep = Completion::new(format!("sweep {typed}"), help)
             .doing(move |explorer| explorer.order(move |run| run.sweep(&range)));

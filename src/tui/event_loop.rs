@@ -90,16 +90,11 @@ fn handle_events(
     let mut held = Vec::new();
     loop {
         let wait = match screen.flow.when(Instant::now()) {
-            _ if !held.is_empty() => Some(Duration::ZERO),
-            Some(then) if is_due && !is_away => {
-                Some(then.saturating_duration_since(Instant::now()))
-            }
-            _ => None,
+            _ if !held.is_empty() => Duration::ZERO,
+            Some(then) if is_due && !is_away => then.saturating_duration_since(Instant::now()),
+            _ => Duration::MAX,
         };
-        let first = match wait.map_or_else(
-            || inbox.recv().map_err(RecvTimeoutError::from),
-            |wait| inbox.recv_timeout(wait),
-        ) {
+        let first = match inbox.recv_timeout(wait) {
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
             event => event.ok(),
         };

@@ -62,7 +62,8 @@ pub struct Explorer {
     pub next: Next,
     /// What the worker computes.
     computed: Curves,
-    orders: Orders,
+    /// The way to the worker.
+    pub(super) orders: Orders,
 }
 
 impl Explorer {
@@ -158,7 +159,7 @@ impl Explorer {
     pub(super) fn change_theme(&mut self) {
         self.theme.follows_background = false;
         self.theme.look = self.theme.look.next();
-        self.notice = Some(format!("theme {}", self.theme.look.name()));
+        self.notice = Some(format!("theme {}", self.theme.look));
     }
 
     /// Changes the stress in the half-space.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::trend::Recorded;
-use crate::charts::{self, fretting_loop, profile, springs, stresses};
+use crate::charts;
 use crate::export::target::Target;
 use crate::figure::look::{Look, Style};
 use crate::figure::{Format, Sheet};
@@ -29,15 +29,8 @@ pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let mut run = charts::Run::default().of(scenario);
     run.take_state(&of.session);
     run.loops.push(of.trend.loops.last(of.cycle()));
-    let recipes = [
-        &profile::RECIPE,
-        &springs::RECIPE,
-        &stresses::RECIPE,
-        &fretting_loop::RECIPE,
-    ];
-    let charts = recipes
-        .iter()
-        .filter_map(|recipe| recipe.on_paper(&run).ok());
+    let charts = charts::USUAL.iter();
+    let charts = charts.filter_map(|recipe| recipe.on_paper(&run).ok());
     let sheet = Sheet {
         title: scenario.title().to_owned(),
         facts: run.facts(),

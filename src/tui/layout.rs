@@ -3,7 +3,8 @@
 //! Four readable panels on a small screen, nine or twelve on a large one; the others are on further
 //! pages.
 
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::Constraint::{Length, Min};
+use ratatui::layout::{Layout, Rect};
 
 /// Three panels fit side by side from this width on.
 const WIDE: u16 = 110;
@@ -28,11 +29,7 @@ pub fn bands(screen: Rect) -> Option<[Rect; 3]> {
     if screen.width < SMALLEST.0 || screen.height < SMALLEST.1 {
         return None;
     }
-    let lines = [
-        Constraint::Length(1),
-        Constraint::Min(0),
-        Constraint::Length(1),
-    ];
+    let lines = [Length(1), Min(0), Length(1)];
     Some(Layout::vertical(lines).areas(screen))
 }
 
@@ -41,7 +38,7 @@ pub fn timeline(middle: Rect) -> (Option<Rect>, Rect) {
     if middle.height < WITH_TIMELINE {
         return (None, middle);
     }
-    let rows = [Constraint::Length(1), Constraint::Min(0)];
+    let rows = [Length(1), Min(0)];
     let [line, rest] = Layout::vertical(rows).areas(middle);
     (Some(line), rest)
 }

@@ -189,10 +189,8 @@ impl Calm {
         };
         let kept = self.0.take();
         let kept = kept.filter(|(calm, lasted)| may_stay(calm, *lasted) && may_last(calm, newest));
-        self.0 = Some(kept.map_or_else(
-            || (Arc::clone(newest), 1),
-            |(calm, lasted)| (calm, lasted + 1),
-        ));
+        let (calm, lasted) = kept.unwrap_or_else(|| (Arc::clone(newest), 0));
+        self.0 = Some((calm, lasted + 1));
     }
 
     /// What a calm panel shows where the others show `frame`.

@@ -1,4 +1,4 @@
-//! The command table as text: groups of the help, README table and manual page.
+//! The command table as text: groups of the help, and the manual page.
 
 use super::command::{COMMANDS, Row};
 
@@ -8,19 +8,6 @@ pub fn groups() -> impl Iterator<Item = (&'static str, &'static [Row])> {
     groups
         .filter(|rows| rows.iter().all(|row| !row.keys.is_empty()))
         .map(|rows| (rows[0].group, rows))
-}
-
-/// The table of keys for the README.
-pub fn markdown() -> String {
-    let rows = groups().flat_map(|(group, rows)| {
-        rows.iter().enumerate().map(move |(i, row)| {
-            let keys: Vec<String> = row.keys.iter().map(|key| format!("`{key}`")).collect();
-            let group = if i == 0 { group } else { "" };
-            format!("| {group} | {} | {} |\n", keys.join(" "), row.help)
-        })
-    });
-    let rows: String = rows.collect();
-    format!("| | key | does |\n|---|---|---|\n{rows}")
 }
 
 /// The section on keys of the manual page, in roff.
@@ -58,10 +45,9 @@ mod tests {
     }
 
     #[test]
-    fn every_key_stands_in_every_text() {
-        let (markdown, roff) = (markdown(), roff());
+    fn every_key_stands_in_the_manual_page() {
+        let roff = roff();
         for key in COMMANDS.iter().flat_map(Row::key_names) {
-            assert!(markdown.contains(&format!("`{key}`")), "{key}");
             let key = key.replace('-', "\\-");
             assert!(roff.contains(&format!("\\fB{key}\\fR")), "{key}");
         }

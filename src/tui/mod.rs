@@ -65,15 +65,14 @@ mod undo;
 pub mod worker;
 
 use crate::panics::catch;
-use crate::plot::Marker;
-use crate::plot::theme::{Depth, Look, Theme};
+use crate::plot::theme::{Depth, Theme};
 use app::App;
 pub use appearance::theme_of;
 use autosave::ScreenAutosave;
 use event::Event;
 pub use event_loop::NoTerminal;
 use explorer::Next;
-pub use script::{Format, Script, Stroke, parse_size, rehearse};
+pub use script::{Format, Script, Stroke, parse_size, press, text};
 use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
 
@@ -91,12 +90,8 @@ pub struct Options {
     pub keep_every: Option<Duration>,
     /// Maximum frame rate per second.
     pub fps: u16,
-    /// Characters for curves; by default from the locale.
-    pub marker: Option<Marker>,
-    /// Whether to use colour; by default from NO_COLOR.
-    pub colored: Option<bool>,
-    /// The colours; by default from the background that the terminal reports.
-    pub look: Option<Look>,
+    /// The look of the terminal, as [`theme_of`] finds it.
+    pub theme: Theme,
     /// The map of a study to begin with.
     pub map: Option<map::live::Live>,
     /// Whether it is for a projector.
@@ -122,7 +117,10 @@ pub fn run(options: Options) -> Result<Farewell> {
     if is_live {
         event_loop::require_terminal()?;
     }
-    let theme = theme(&options);
+    let theme = match &options.script {
+        Some(script) if script.format == Format::Svg => options.theme.with_depth(Depth::Indexed),
+        _ => options.theme,
+    };
     let is_first = is_first_time(&options);
     let origin = options.run.session.loaded().origin().to_owned();
     let (orders, to_worker) = Orders::channel();
@@ -147,9 +145,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     crate::panics::capture();
     let worker = WorkerThread::start(worker, orders.clone(), to_worker, autosave)?;
     let outcome = match options.script {
-        Some(script) => {
-            catch(|| script::play(&mut app, &script, &orders, &from_threads).map(|()| None))
-        }
+        Some(script) => catch(|| script::play(&mut app, &script, &from_threads).map(|()| None)),
         None => {
             let end = || worker.end();
             let shown = event_loop::run(&mut app, options.mouse, &events, &from_threads, end);
@@ -190,12 +186,4 @@ fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
     let mut size = terminal::size()?;
     size.height = size.height.saturating_sub(1);
     Ok(Some(script::text(app, size)))
-}
-
-fn theme(options: &Options) -> Theme {
-    let theme = theme_of(options.marker, options.colored, options.look);
-    match &options.script {
-        Some(script) if script.format == Format::Svg => theme.with_depth(Depth::Indexed),
-        _ => theme,
-    }
 }

@@ -1,11 +1,13 @@
 //! `--present`, for a projector: the contact and one chart, large words, and a pace that begins slowly and rises by
 //! itself.
 
+use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::prelude::*;
 
 use super::canvas::Canvas;
 use super::frame::{Activity, Frame};
 use super::panels::{Panel, contact_state};
+use crate::plot::Marker;
 use crate::plot::theme::Role;
 
 /// The chart at first.
@@ -25,13 +27,12 @@ const TALL: u16 = 22;
 /// The contact, the chart, and the large words.
 pub fn areas(area: Rect) -> [Rect; 3] {
     let words = if area.height >= TALL { WORDS } else { 0 };
-    let [above, words] =
-        Layout::vertical([Constraint::Min(0), Constraint::Length(words)]).areas(area);
+    let [above, words] = Layout::vertical([Min(0), Length(words)]).areas(area);
     let [contact, chart] = match area.width >= WIDE {
-        true => Layout::horizontal([Constraint::Fill(5), Constraint::Fill(3)])
+        true => Layout::horizontal([Fill(5), Fill(3)])
             .spacing(1)
             .areas(above),
-        false => Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]).areas(above),
+        false => Layout::vertical([Fill(3), Fill(2)]).areas(above),
     };
     [contact, chart, words]
 }
@@ -91,21 +92,17 @@ fn has_dot(letter: char, column: u16, row: u16) -> bool {
 }
 
 /// Writes `words` in letters that are four cells wide and three high; returns the cells that they take.
-fn large(words: &str, role: Role, mut canvas: Canvas) -> u16 {
-    let (mut x, style) = (0, canvas.style(role));
+fn large(words: &str, role: Role, canvas: Canvas) -> u16 {
+    let (mut x, area, style) = (0, canvas.area, canvas.style(role));
     for letter in words.chars() {
-        if x + 4 > canvas.area.width + 1 {
+        if x + 4 > area.width + 1 {
             break;
         }
         for (column, row) in (0..3).flat_map(|column| (0..3).map(move |row| (column, row))) {
             let halves = [2 * row, 2 * row + 1].map(|row| has_dot(letter, column, row));
-            let sign = match halves {
-                [false, false] => continue,
-                [true, true] => '█',
-                [true, false] => '▀',
-                [false, true] => '▄',
-            };
-            if let Some(cell) = canvas.cell(x + column, row) {
+            let sign = Marker::HalfBlock.glyph(u8::from(halves[0]) | u8::from(halves[1]) << 1);
+            let cell = canvas.buffer.cell_mut((area.x + x + column, area.y + row));
+            if let Some(cell) = cell.filter(|_| halves.contains(&true)) {
                 cell.set_char(sign).set_style(style);
             }
         }

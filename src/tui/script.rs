@@ -1,8 +1,7 @@
 //! `--keys SCRIPT --print SIZE`: the explorer without a terminal, for scripts, tests and pictures.
 
 use std::io::{self, Write};
-use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
+use std::sync::mpsc::Receiver;
 
 use anyhow::{Context, Result, anyhow};
 use ratatui::buffer::Cell;
@@ -13,10 +12,8 @@ use super::event::Event;
 use super::explorer::Next;
 use super::keys::{self, Key};
 use super::screen;
-use super::worker::{Orders, Worker};
 use crate::plot::screen_svg::{self, Ground};
-use crate::plot::theme::{Look, Theme};
-use crate::scenario::session::Session;
+use crate::plot::theme::Look;
 
 /// Reads a size of the screen, `COLUMNSxROWS`.
 ///
@@ -74,41 +71,12 @@ impl Stroke {
     }
 }
 
-/// Plays a script to a separate explorer and returns its last screen. A panic in it continues here.
-///
-/// # Errors
-///
-/// If the explorer cannot be started or ends too soon.
-pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> Result<String> {
-    let (orders, to_worker) = Orders::channel();
-    let (events, inbox) = channel();
-    let mut worker = Worker::new(session, events, Duration::MAX, false);
-    let thread = std::thread::spawn(move || worker.serve(&to_worker));
-    let played = || {
-        let first = orders.frame().context("the simulation has ended")?;
-        let mut app = App::new(theme, orders.clone(), first);
-        let size = press(&mut app, strokes, size, &orders, &inbox)?;
-        Ok(text(&app, size))
-    };
-    let outcome = played();
-    orders.send(Worker::quit);
-    if let Err(panic) = thread.join() {
-        std::panic::resume_unwind(panic);
-    }
-    outcome
-}
-
 /// Presses the keys one by one, each after the simulation has answered the one before, and prints
 /// the last screen.
-pub fn play(
-    app: &mut App,
-    script: &Script,
-    orders: &Orders,
-    events: &Receiver<Event>,
-) -> Result<()> {
+pub fn play(app: &mut App, script: &Script, events: &Receiver<Event>) -> Result<()> {
     #[cfg(debug_assertions)]
     crate::failpoint::hit("script");
-    let size = press(app, &script.strokes, script.size, orders, events)?;
+    let size = press(app, &script.strokes, script.size, events)?;
     let screen = match script.format {
         Format::Text => text(app, size),
         Format::Svg => {
@@ -128,15 +96,18 @@ pub fn play(
 
 /// Does what the script says, draws the screen after each stroke as a terminal would have it, and
 /// returns the size that it has in the end.
-fn press(
+///
+/// # Errors
+///
+/// If the simulation has ended.
+pub fn press(
     app: &mut App,
     strokes: &[Stroke],
     mut size: Size,
-    orders: &Orders,
     events: &Receiver<Event>,
 ) -> Result<Size> {
     app.explorer.resize(size);
-    catch_up(app, orders, events)?;
+    catch_up(app, events)?;
     for stroke in strokes {
         match stroke {
             Stroke::Key(key) => app.press(*key),
@@ -146,7 +117,7 @@ fn press(
                 app.explorer.resize(size);
             }
         }
-        catch_up(app, orders, events)?;
+        catch_up(app, events)?;
         if matches!(app.explorer.next, Next::Leave | Next::LeaveScreen) {
             break;
         }
@@ -155,9 +126,10 @@ fn press(
     Ok(size)
 }
 
-fn catch_up(app: &mut App, orders: &Orders, events: &Receiver<Event>) -> Result<()> {
-    app.explorer
-        .take_frame(orders.frame().context("the simulation has ended")?);
+fn catch_up(app: &mut App, events: &Receiver<Event>) -> Result<()> {
+    let frame = app.explorer.orders.frame();
+    let frame = frame.context("the simulation has ended")?;
+    app.explorer.take_frame(frame);
     while let Ok(event) = events.try_recv() {
         // A script sees all points; the frame that it sees is the one that it has waited for.
         match &event {

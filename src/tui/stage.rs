@@ -1,12 +1,14 @@
 //! Which panels are on the screen, and how large: the focus and its page, one panel zoomed, the contact, a projector's
 //! two, or those that a tour leads to.
 
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::Constraint::{Fill, Length, Min};
+use ratatui::layout::{Layout, Rect};
 
 use super::layout;
 use super::panels::Panel;
 use super::present;
-use super::tour::{FIRST, Tour};
+use super::tour::{Caption, FIRST, Tour};
+use crate::math::scan::shifted;
 
 /// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
 const CONTACT_FROM: u16 = 100;
@@ -51,7 +53,7 @@ impl Stage {
         if self.tour.is_none() || area.height < LEAST + TOUR {
             return (area, None);
         }
-        let rows = [Constraint::Min(0), Constraint::Length(TOUR)];
+        let rows = [Min(0), Length(TOUR)];
         let [above, below] = Layout::vertical(rows).areas(area);
         (above, Some(below))
     }
@@ -61,23 +63,25 @@ impl Stage {
         let (columns, rows) = layout::grid(area);
         let (area, _) = self.with_tour(area);
         if self.presents {
-            let [contact, chart, _] = present::areas(area);
-            return vec![(Panel::Section, contact), (self.presented(), chart)];
+            let [contact, beside, _] = present::areas(area);
+            let chart = match self.focus {
+                Panel::Section => present::CHART,
+                panel => panel,
+            };
+            return vec![(Panel::Section, contact), (chart, beside)];
         }
         if self.zoomed {
             return vec![(self.focus, area)];
         }
         let shown = self.page(columns * rows);
         // The last page may hold fewer panels, which are then larger; its last row leaves no hole.
-        let columns = columns
-            .min(shown.len().div_ceil(rows).max(2))
-            .min(shown.len())
-            .max(1);
+        let needed = shown.len().div_ceil(rows).max(2).min(shown.len());
+        let columns = columns.min(needed).max(1);
         let rows = shown.len().div_ceil(columns);
-        let bands = Layout::vertical(vec![Constraint::Fill(1); rows]).split(area);
+        let bands = Layout::vertical(vec![Fill(1); rows]).split(area);
         let mut places = Vec::with_capacity(shown.len());
         for (band, row) in bands.iter().zip(shown.chunks(columns)) {
-            let cells = Layout::horizontal(vec![Constraint::Fill(1); row.len()])
+            let cells = Layout::horizontal(vec![Fill(1); row.len()])
                 .spacing(1)
                 .split(*band);
             places.extend(row.iter().copied().zip(cells.iter().copied()));
@@ -101,7 +105,7 @@ impl Stage {
 
     /// The panel this many places on gets the focus.
     pub fn shift_focus(&mut self, places: isize) {
-        self.focus = self.focus.shifted(places);
+        self.focus = shifted(&Panel::ALL, self.focus, places);
     }
 
     /// A click on a panel gives it the focus, or else zooms unless it has `moved` the cursor; the second one of a
@@ -166,14 +170,6 @@ impl Stage {
         self.focus = present::CHART;
     }
 
-    /// The chart beside the contact.
-    pub fn presented(&self) -> Panel {
-        match self.focus {
-            Panel::Section => present::CHART,
-            panel => panel,
-        }
-    }
-
     /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.
     pub fn welcome(&mut self, origin: &str) {
         if origin == FIRST {
@@ -216,8 +212,8 @@ impl Stage {
 
     /// The panel that the caption is about gets the focus; the contact is shown large where there is room.
     fn follow_tour(&mut self) {
-        let caption = self.tour.as_ref().and_then(Tour::caption);
-        let Some(panel) = caption.and_then(|caption| caption.panel()) else {
+        let caption = self.tour.as_ref().map(Tour::caption);
+        let Some(panel) = caption.and_then(Caption::panel) else {
             return;
         };
         self.leave_contact();

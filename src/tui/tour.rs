@@ -49,38 +49,39 @@ pub fn logarithmic(origin: &str) -> impl Iterator<Item = Panel> {
 /// A tour under way.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tour {
-    pub(super) origin: String,
+    pub(super) origin: &'static str,
+    captions: &'static [Caption],
     at: usize,
 }
 
 impl Tour {
     /// The tour of a scenario by its name; `None` where there is none.
     pub fn of(origin: &str) -> Option<Self> {
-        (!captions(origin).is_empty()).then(|| Self {
-            origin: origin.to_owned(),
-            at: 0,
+        let (origin, captions) = TOURS.get_key_value(origin)?;
+        let at = 0;
+        Some(Self {
+            origin,
+            captions,
+            at,
         })
     }
 
     /// The tour at its next caption; `None` after the last.
     pub fn next(self) -> Option<Self> {
         let at = self.at + 1;
-        (at < captions(&self.origin).len()).then_some(Self { at, ..self })
+        (at < self.captions.len()).then_some(Self { at, ..self })
     }
 
     /// The caption that is shown.
-    pub fn caption(&self) -> Option<&'static Caption> {
-        captions(&self.origin).get(self.at)
+    pub fn caption(&self) -> &'static Caption {
+        &self.captions[self.at]
     }
 
     /// Draws the caption.
     pub fn draw(&self, mut canvas: Canvas) {
-        let Some(caption) = self.caption() else {
-            return;
-        };
-        let (at, count) = (self.at + 1, captions(&self.origin).len());
+        let (at, count) = (self.at + 1, self.captions.len());
         let title = format!("tour {at}/{count} (n next, Esc closes)");
-        let text = canvas.printable(&caption.text);
+        let text = canvas.printable(&self.caption().text);
         let mut inside = canvas.titled(&title, Role::Notice);
         inside.indented().write(text);
     }

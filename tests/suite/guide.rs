@@ -10,6 +10,7 @@ use std::process::Command;
 use mdr_tui::guide::TOPICS;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::schema::{Kind, Parameter, parameters};
+use mdr_tui::tui::command::{COMMANDS, Row};
 use mdr_tui::tui::manual;
 
 use crate::test_dir::{Said, TestDir, has};
@@ -165,7 +166,20 @@ fn hold(file: &Path, mark: &str, wanted: &str) {
 
 #[test]
 fn the_keys_of_the_explorer_are_those_of_its_table() {
-    let keys = format!("{}\n", manual::markdown().trim_end());
+    let mut keys = "| | key | does |\n|---|---|---|\n".to_owned();
+    for (group, rows) in manual::groups() {
+        for (i, row) in rows.iter().enumerate() {
+            let names: Vec<String> = row.keys.iter().map(|key| format!("`{key}`")).collect();
+            let group = if i == 0 { group } else { "" };
+            keys += &format!("| {group} | {} | {} |\n", names.join(" "), row.help);
+        }
+    }
+    assert!(
+        COMMANDS
+            .iter()
+            .flat_map(Row::key_names)
+            .all(|key| keys.contains(&format!("`{key}`")))
+    );
     hold(&root().join("src/guide/explorer.md"), "keys", &keys);
 }
 

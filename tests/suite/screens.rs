@@ -243,7 +243,7 @@ fn every_tour_can_be_walked_to_its_end() {
             stage.press("n");
             // The caption is there, and the panel that it is about has the focus.
             let tour = stage.app.explorer.stage.tour.as_ref();
-            assert_eq!(tour.and_then(tour::Tour::caption), Some(caption));
+            assert_eq!(tour.map(tour::Tour::caption), Some(caption));
             let panel = caption.panel().unwrap_or(stage.app.explorer.stage.focus);
             assert_eq!(stage.app.explorer.stage.focus, panel, "{caption:?}");
             draw(&stage.app, 80, 24);

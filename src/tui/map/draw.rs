@@ -37,6 +37,9 @@ const KEYS: [[&str; 2]; 7] = [
 ];
 const QUIT: [&str; 2] = ["q", "quit"];
 
+/// The sign of the base scenario.
+const HERE: char = '◆';
+
 /// Significant digits of what is read.
 const DIGITS: usize = 4;
 
@@ -60,7 +63,7 @@ pub fn draw(view: &View, told: Option<&str>, mut canvas: Canvas) {
         lines.map(|(line, point)| format!("{} {}", point.sign, std::mem::take(&mut line.name)));
     let mut names: Vec<String> = names.collect();
     let here = view.here();
-    names.extend(here.map(|_| format!("{} you are here", here_sign(theme))));
+    names.extend(here.map(|_| format!("{HERE} you are here")));
     let (point, below) = (view.point(), area.height - 4);
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
     let count_place = Rect::new(area.x + behind, area.y, area.width - behind, 1);
@@ -94,8 +97,7 @@ fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
     let mut add = |at, sign, role| signs.push(Point { at, sign, role });
     let Some(map) = &chart.map else {
         let base = here.and_then(|[x, _]| Some([x, chart.curves.first()?.value_at(x)?]));
-        base.into_iter()
-            .for_each(|at| add(at, here_sign(theme), Role::Alarm));
+        base.into_iter().for_each(|at| add(at, HERE, Role::Alarm));
         return chart.points.extend(signs);
     };
     let [wide, _] = view.slice.size();
@@ -122,11 +124,9 @@ fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
             .into_iter()
             .for_each(|&k| add(spot(k), *sign, Role::Title));
     }
-    here.into_iter()
-        .for_each(|at| add(at, here_sign(theme), Role::Title));
+    here.into_iter().for_each(|at| add(at, HERE, Role::Title));
     let [x, y] = view.cursor();
-    let cross = if theme.ascii() { 'X' } else { '╳' };
-    add(spot(y * wide + x), cross, Role::Focus);
+    add(spot(y * wide + x), '╳', Role::Focus);
     chart.points.extend(signs);
 }
 
@@ -171,10 +171,8 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
         true => view.column(),
         false => &quantity.label,
     };
-    let mut line = Line::from(Span::styled(
-        theme.printable(name),
-        theme.style(Role::Focus),
-    ));
+    let name = Span::styled(theme.printable(name), theme.style(Role::Focus));
+    let mut line = Line::from(name);
     if view.is_regime() {
         for ((sign, role), (_, title)) in SWATCHES.into_iter().zip(REGIMES) {
             line.push_span("  ");
@@ -190,7 +188,7 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     };
     let [low, high] = range_ends(range, quantity.unit, 3);
     line.push_span(theme.printable(&format!("  {low} ")));
-    line.extend(shades::key(theme, ColorMap::Sequential, map::sign));
+    line.extend(shades::key(theme, ColorMap::Sequential, map::SIGNS));
     line.push_span(theme.printable(&format!(" {high}")));
     if quantity.scale == Scale::Log {
         line.push_span(Span::styled("  log", quiet));
@@ -201,9 +199,4 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
         line.push_span(Span::styled(text, quiet));
     }
     line
-}
-
-/// The sign of the base scenario.
-fn here_sign(theme: &Theme) -> char {
-    if theme.ascii() { 'o' } else { '◆' }
 }

@@ -43,13 +43,19 @@ impl Live {
     ///
     /// One line: a file that cannot be read, or is no table of a study.
     pub fn of_file(file: &Path) -> Result<Self, Refusal> {
-        let view = View::new(Record::of_file(file)?, &file.display().to_string())?;
-        Ok(Self {
+        let (record, name) = (Record::of_file(file)?, file.display().to_string());
+        let mut view = View::new(record.study()?, &name)?;
+        view.slice.renew(record, &name)?;
+        Ok(Self::new(view, Some(file.into())))
+    }
+
+    fn new(view: View, file: Option<Arc<Path>>) -> Self {
+        Self {
             view: Arc::new(Mutex::new(view)),
             halt: Arc::default(),
-            done: Arc::new(true.into()),
-            file: Some(file.into()),
-        })
+            done: Arc::new(file.is_some().into()),
+            file,
+        }
     }
 
     /// Reads the table again whenever it has grown, and tells that there is something new to see, until nobody hears it.
@@ -68,7 +74,8 @@ impl Live {
                 }
                 seen = now;
                 // A file that is being replaced is read again the next time.
-                let _ = Record::of_file(&file).map(|rows| shared.with(|view| view.renew(rows)));
+                let _ = Record::of_file(&file)
+                    .map(|rows| shared.with(|view| view.slice.renew(rows, &view.name)));
                 if !tell() {
                     return;
                 }
@@ -93,12 +100,7 @@ impl Live {
             .build()
             .map_err(|error| Refusal::from(error.to_string()))?;
         engine::check(&study, Shard::WHOLE, &pool, |_| true)?;
-        let live = Self {
-            view: Arc::new(Mutex::new(View::of(study.clone(), &title)?)),
-            halt: Arc::default(),
-            done: Arc::default(),
-            file: None,
-        };
+        let live = Self::new(View::new(study.clone(), &title)?, None);
         let shared = live.clone();
         thread::spawn(move || {
             let todo = 0..study.points();

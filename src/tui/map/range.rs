@@ -1,7 +1,5 @@
 //! The study of `:sweep KEY A..B`: one key around the present scenario.
 
-use std::fmt;
-
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::Study;
 
@@ -67,11 +65,9 @@ impl Range {
 
     /// The study of a scenario over this range, each point run for this many cycles.
     pub(super) fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
-        let broken = |error: &dyn fmt::Display| Refusal::from(error.to_string());
-        let base = scenario
-            .with_changes(Vec::new())
-            .with("run.cycles", &cycles.to_string())
-            .map_err(|error| broken(&error))?;
+        let base = scenario.with_changes(Vec::new());
+        let base = base.with("run.cycles", &cycles.to_string());
+        let base = base.map_err(|error| Refusal::from(error.to_string()))?;
         let ratio = self.to / self.from;
         let spread = match self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
             true => "logspace",

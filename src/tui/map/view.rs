@@ -7,7 +7,6 @@ use crate::figure::study;
 use crate::math::scan;
 use crate::plot::{self, Chart, Scale};
 use crate::scenario::Refusal;
-use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{Axis, Design, Study};
 use crate::tui::keys::{Key, Named};
@@ -29,23 +28,12 @@ pub struct View {
 }
 
 impl View {
-    /// A view of a table.
-    ///
-    /// # Errors
-    ///
-    /// If the header of the table has no study, or rows do not belong to it.
-    pub fn new(record: Record, name: &str) -> Result<Self, Refusal> {
-        let mut view = Self::of(record.study()?, name)?;
-        view.renew(record)?;
-        Ok(view)
-    }
-
     /// A view of a study that has no rows yet.
     ///
     /// # Errors
     ///
     /// If the study has no axis.
-    pub fn of(study: Study, name: &str) -> Result<Self, Refusal> {
+    pub fn new(study: Study, name: &str) -> Result<Self, Refusal> {
         Ok(Self {
             slice: Slice::new(study, name)?,
             name: name.to_owned(),
@@ -54,15 +42,6 @@ impl View {
             is_flipped: false,
             borders: RefCell::default(),
         })
-    }
-
-    /// Takes the rows of a newer table of the same study.
-    ///
-    /// # Errors
-    ///
-    /// If rows do not belong to the study.
-    pub fn renew(&mut self, record: Record) -> Result<(), Refusal> {
-        self.slice.renew(record, &self.name)
     }
 
     /// Answers a key that changes what is shown.

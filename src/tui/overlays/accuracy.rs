@@ -46,11 +46,12 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
             lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
         }
     }
-    let (title, size) = (
+    let (title, height) = (
         "accuracy (Esc closes, Tab explains)",
-        (76, lines.len() as u16 + 2),
+        lines.len() as u16 + 2,
     );
-    canvas.popup(title, size).show(Paragraph::new(lines));
+    let mut inside = canvas.popup(title, (76, height));
+    inside.show(Paragraph::new(lines));
 }
 
 /// What each check of the moment compares, and what a difference means; what lies outside the

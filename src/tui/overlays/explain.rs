@@ -31,15 +31,11 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
     let is_compared = explorer.compares();
     // In a comparison there are other panels than the focused one.
     let focus = explorer.stage.focus;
-    let recipe = focus.recipe();
-    let (title, keys, (text, symbols)) = match is_compared {
-        true => ("comparison", "Esc closes", panels::compare::WORDS),
-        false => (
-            recipe.title,
-            "Tab: next panel, Esc closes",
-            (recipe.text, recipe.symbols),
-        ),
+    let (recipe, keys) = match is_compared {
+        true => (&panels::compare::RECIPE, "Esc closes"),
+        false => (focus.recipe(), "Tab: next panel, Esc closes"),
     };
+    let (title, text, symbols) = (recipe.title, recipe.text, recipe.symbols);
     let spelled = |text: &str| theme.printable(text);
     let mut lines = vec![Line::raw(spelled(text)), Line::default()];
     lines.extend(symbols.iter().map(|(symbol, meaning)| {

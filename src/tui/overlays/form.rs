@@ -76,22 +76,17 @@ impl Form {
             (Key::Char('+' | '-' | '=') | Key::Named(Named::Left | Named::Right), Some(step)) => {
                 let up = matches!(step, Command::Faster | Command::Right);
                 let next = setting.next(up).filter(|_| setting.fixed().is_none());
-                match next.filter(|next| setting.value.as_ref() != Some(next)) {
-                    Some(value) => change(setting, value, explorer),
+                let Some(next) = next.filter(|next| setting.value.as_ref() != Some(next)) else {
                     // Where there is no next value, the key is the first of a text.
-                    None => {
-                        return self.edit(
-                            setting,
-                            Some('-').filter(|_| key == Key::Char('-')),
-                            explorer,
-                        );
-                    }
-                }
+                    let sign = Some('-').filter(|_| key == Key::Char('-'));
+                    return self.edit(setting, sign, explorer);
+                };
+                change(setting, next, explorer);
                 Answer::Stay
             }
             (_, Some(Command::Back)) => Answer::Close,
             (Key::Char(' ' | ',' | '[' | ']'), Some(watched)) if WATCHED.contains(&watched) => {
-                watch(Some(watched), &[], WATCHED)
+                Answer::Watch(watched)
             }
             (Key::Char('?' | ':'), other) => leave_for(other),
             (Key::Char(character), _) => self.edit(setting, Some(character), explorer),

@@ -50,7 +50,7 @@ impl Help {
         let mut inside = canvas.popup(title, size);
         let below = (rows as u16).saturating_sub(inside.area.height);
         let first = self.first.min(below);
-        let places = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside.area);
+        let places = Layout::horizontal(vec![Fill(1); columns]).split(inside.area);
         for (part, place) in lines.chunks(rows.max(1)).zip(places.iter()) {
             let part = Paragraph::new(part.to_vec()).scroll((first, 0));
             inside.at(*place).show(part);

@@ -18,7 +18,6 @@ const WORDS: u16 = 4;
 #[derive(Debug, Default)]
 pub struct Library {
     at: usize,
-    directory: PathBuf,
     entries: Vec<Entry>,
     /// What is said of the selected entry.
     about: String,
@@ -118,7 +117,7 @@ impl Library {
     /// The list with the scenario on the screen selected, and the working directory.
     pub fn open(origin: &str) -> Self {
         let mut library = Self::default();
-        library.enter(PathBuf::from("."));
+        library.enter(".".into());
         let here = Path::new(".").join(origin);
         let is_shown = |entry: &Entry| entry.path == Path::new(origin) || entry.path == here;
         let at = library.entries.iter().position(is_shown);
@@ -129,7 +128,6 @@ impl Library {
     fn enter(&mut self, directory: PathBuf) {
         self.entries = preset::ALL.iter().map(Entry::preset).collect();
         self.entries.extend(files(&directory));
-        self.directory = directory;
     }
 
     fn select(&mut self, at: usize) {

@@ -23,10 +23,7 @@ fn completions(typed: &str, frame: &Frame) -> Vec<(Completion, Option<Command>)>
         ) {
             continue;
         }
-        let key = row
-            .keys
-            .first()
-            .map_or_else(String::new, ToString::to_string);
+        let key = row.key_names().into_iter().next().unwrap_or_default();
         let (line, command) = match row.act {
             Act::Argument(complete) => {
                 let argument = typed.strip_prefix(row.name);
@@ -79,15 +76,12 @@ impl Palette {
 
     /// The words of a setting, the present one selected, or those that begin with what was typed.
     pub fn choosing(setting: &Setting, typed: Option<char>) -> Self {
-        let line = format!("set {}=", setting.parameter.path);
-        if let Some(typed) = typed {
-            return Self::begun(&format!("{line}{typed}"));
-        }
+        let begun = String::from_iter(typed);
         let mut words = setting.words().unwrap_or_default().into_iter();
         let now = words.position(|word| setting.value.as_deref() == Some(word));
         Self {
-            at: now.unwrap_or(0),
-            ..Self::begun(&line)
+            at: now.filter(|_| typed.is_none()).unwrap_or(0),
+            ..Self::begun(&format!("set {}={begun}", setting.parameter.path))
         }
     }
 
@@ -142,11 +136,8 @@ impl Palette {
         let typed = self.line.text();
         let key = typed.rfind('=').map_or("", |at| &typed[..=at]);
         let name = |of: &Completion| of.line.strip_prefix(key).unwrap_or(&of.line).to_owned();
-        let longest = found
-            .iter()
-            .map(|(of, _)| name(of).len())
-            .max()
-            .unwrap_or(0);
+        let lengths = found.iter().map(|(of, _)| name(of).len());
+        let longest = lengths.max().unwrap_or(0);
         let line = |(completion, _): &(Completion, Option<Command>)| {
             let name = format!(" {:1$} ", name(completion), longest.min(22));
             let name = Span::raw(name);

@@ -23,7 +23,7 @@ const LONGEST: u16 = 54;
 pub fn beside(area: Rect) -> [Rect; 2] {
     let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
     let rows = ROWS * u16::from(is_roomy);
-    Layout::vertical([Constraint::Min(0), Constraint::Length(rows)]).areas(area)
+    Layout::vertical([Min(0), Length(rows)]).areas(area)
 }
 
 /// The speed of the indenter to the right, relative to the fastest of the last cycle; `None` where no motion is
@@ -134,7 +134,7 @@ fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
 
 /// Draws the words on the picture and below it.
 pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
-    let (frame, area) = (section.frame, canvas.area);
+    let (frame, area) = (section.of.frame, canvas.area);
     // Nobody reads numbers ten times a second.
     let seen = section.of.calm;
     let calm = &seen.observation.moment;
@@ -177,7 +177,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     }
     on(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
-    let [first, second] = Layout::vertical([Constraint::Length(1); ROWS as usize]).areas(below);
+    let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
     let worn = canvas.printable(&worn(seen, |depth| value(depth, "m")));
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
@@ -246,7 +246,7 @@ fn stress_key(section: &Section, width: u16) -> Line<'static> {
     ];
     let mut keys = words.into_iter().map(|[from, to]| {
         let mut key = Line::raw(from);
-        key.extend(shades::key(theme, stress.colors(), shades::sign));
+        key.extend(shades::key(theme, stress.colors(), shades::SIGNS));
         key.push_span(to);
         key
     });

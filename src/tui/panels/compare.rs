@@ -2,7 +2,7 @@
 //! over each plot, in the difference as their own from this run.
 
 use super::*;
-use crate::charts::{A, C, Live, Symbols, ghosts};
+use crate::charts::{A, C, Live, ghosts};
 use crate::plot::{Axis, Curve, nice_bounds};
 use crate::traces::Axes;
 use crate::tui::beside::{Comparison, name_of};
@@ -17,18 +17,20 @@ const NARROWEST: u16 = 17;
 const DIFFERENCE: &str = "difference of f";
 
 /// The explanation of a comparison, which takes the place of all panels.
-pub const WORDS: (&str, Symbols) = (
-    "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
+pub static RECIPE: Recipe = Recipe {
+    title: "comparison",
+    text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
            of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
            at the start of the scenario, c ends the comparison.",
-    &[A, C, ("side by side", "the same numbers of both runs")],
-);
+    symbols: &[A, C, ("side by side", "the same numbers of both runs")],
+    ..Recipe::new(|_, _| Err(""))
+};
 
 /// Draws the comparison over the whole area of the panels, with a cursor at a radius, m, if there is one.
 pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut canvas: Canvas) {
-    let parts = Layout::vertical([Constraint::Fill(3), Constraint::Fill(2)]);
+    let parts = Layout::vertical([Fill(3), Fill(2)]);
     let [top, bottom] = parts.areas(canvas.area);
-    let halves = Layout::horizontal([Constraint::Fill(1); 2]);
+    let halves = Layout::horizontal([Fill(1); 2]);
     let [left, right] = halves.spacing(1).areas(top);
     let (seen, other) = (&frame.observation, &comparison.observation);
     let run = &frame.run;
@@ -49,7 +51,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     // The numbers must not be cut; the difference gets the rest, if that is wide enough.
     let table = 17 + 2 * column as u16;
     let left_over = bottom.width.saturating_sub(table + 1);
-    let columns = Layout::horizontal([Constraint::Fill(1), Constraint::Length(table)]);
+    let columns = Layout::horizontal([Fill(1), Length(table)]);
     let [below, numbers] = match left_over < NARROWEST {
         true => [Rect::ZERO, bottom],
         false => columns.spacing(1).areas(bottom),
@@ -86,7 +88,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
         let decade = highest.log10().ceil();
         let bounds = [10f64.powf(decade - 6.0), 10f64.powf(decade)];
         let ordinate = Axis::new("|difference|", "m").scale(Scale::Log);
-        let abscissa = Axis::new("r", "m").bounds([0.0, edge(frame)]);
+        let abscissa = Axis::new("r", "m").bounds([0.0, run.edge()]);
         let ordinate = ordinate.bounds(bounds);
         let chart = Chart::new(DIFFERENCE, abscissa, ordinate).curves(differences);
         render(&chart, below);

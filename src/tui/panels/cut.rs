@@ -71,14 +71,13 @@ pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
     let indenter = &frame.facts.scenario.setup().indenter;
     let flank = match indenter.rim() {
         Some(_) => depth.abs(),
-        None => indenter.profile(WIDER * edge(frame)),
+        None => indenter.profile(WIDER * frame.run.edge()),
     };
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
 
 /// A frame as a cut in an area: its lengths, m, and how much is magnified.
 pub struct Section<'a> {
-    pub frame: &'a Frame,
     /// Of what, and the look of the terminal.
     pub of: &'a Shown<'a>,
     pub theme: Theme,
@@ -122,7 +121,6 @@ impl<'a> Section<'a> {
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let [columns, rows] = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
-            frame,
             of,
             theme: *theme,
             area,
@@ -145,9 +143,9 @@ impl<'a> Section<'a> {
     /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
     /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
     pub fn cut(&self, x: f64) -> Cut {
-        let (seen, scenario) = (&self.frame.observation, &self.frame.facts.scenario);
+        let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
         let indenter = &scenario.setup().indenter;
-        let (moment, edge, r) = (&seen.moment, edge(self.frame), x.abs());
+        let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
         let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
         // Far from the contact nothing is lifted.

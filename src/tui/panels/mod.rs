@@ -1,14 +1,14 @@
 //! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
 //! imported here; each of them begins with `use super::*`.
 
-use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::prelude::*;
 
 use super::canvas::Canvas;
 use super::frame::Frame;
 use crate::charts::{self, Recipe};
 use crate::math::grid::interpolate;
-use crate::math::scan::{largest, shifted};
+use crate::math::scan::largest;
 use crate::plot::colormap::ColorMap;
 use crate::plot::shades::{self, has_blocks};
 use crate::plot::theme::{Depth, Look, Role, Theme};
@@ -108,11 +108,6 @@ panels! {
 }
 
 impl Panel {
-    /// The panel this many places on.
-    pub fn shifted(self, places: isize) -> Self {
-        shifted(&Self::ALL, self, places)
-    }
-
     /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
     pub fn extent(self, frame: &Frame, chart: Option<&Chart>) -> Option<[f64; 2]> {
         match self.picture() {
@@ -171,11 +166,6 @@ fn clip_spikes(values: &mut [f64]) {
             *value = 0.5 * most.copysign(*value);
         }
     }
-}
-
-/// The radius of the outermost node, m.
-fn edge(frame: &Frame) -> f64 {
-    frame.observation.radii.last().copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -8,10 +8,9 @@ pub static PICTURE: Picture = Picture {
     recipe: Recipe {
         title: "numbers",
         is_calm: true,
-        text: "The state in numbers, and what a fretting test reports for the last complete \
-             cycle. A, B and D \
-             are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
-             D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
+        text: "The state in numbers, and what a fretting test reports for the last complete cycle. A, B and D \
+               are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
+               D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
         symbols: &[
             ("E_d", "energy lost to friction"),
             ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),

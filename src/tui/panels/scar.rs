@@ -10,18 +10,17 @@
 //! ```
 
 use super::*;
-use crate::charts::look_of;
 use crate::plot::shades::paint_halves;
 use crate::plot::step::Step;
+use crate::plot::theme::look_of;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
     recipe: Recipe {
         title: "scar from above",
         needs: Curves::PROFILE.union(Curves::SPRINGS),
-        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, the \
-             right half the worn depth in colours. The arrow shows which way the indenter \
-                 slips.",
+        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
+               the right half the worn depth in colours. The arrow shows which way the indenter slips.",
         symbols: &[("s ~ .", "stick, slip, open (without colours)")],
         ..Recipe::new(|_, _| Err(""))
     },
@@ -38,7 +37,7 @@ const TWO_LINES: u16 = 10;
 /// have those between 0 and `deepest`.
 fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
     let (seen, r) = (&frame.observation, x.hypot(y));
-    if r > edge(frame) {
+    if r > frame.run.edge() {
         return (None, ' ');
     }
     if x < 0.0 {
@@ -48,7 +47,7 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
     let depth = interpolate(&seen.radii, &seen.wear, r);
     let shade = shades::shade(depth, [0.0, deepest]);
     let color = shades::color(theme, ColorMap::Sequential, shade);
-    (color, shades::sign(shade))
+    (color, shades::SIGNS[shade])
 }
 
 /// The depths that the colours span, m.
@@ -69,11 +68,10 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
-    let held = of.bounds.map_or(0.0, |[_, high]| high);
-    let deepest = match held.max(largest(&seen.wear)) {
-        0.0 => frame.facts.expected_wear,
-        deepest => deepest,
-    };
+    // Nothing has worn yet where there are no bounds.
+    let deepest = of
+        .bounds
+        .map_or(frame.facts.expected_wear, |bounds| bounds[1]);
     // Half a cell is about as high as a cell is wide.
     let across = f64::from(disc.width.min(2 * disc.height));
     let size = 2.0 * edge / across;
@@ -121,7 +119,7 @@ fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
         Some(_) => "slip ←",
     };
     let mut depths = Line::raw(" worn 0 ");
-    depths.extend(shades::key(&theme, ColorMap::Sequential, shades::sign));
+    depths.extend(shades::key(&theme, ColorMap::Sequential, shades::SIGNS));
     depths.push_span(theme.printable(&format!(" {}", value(deepest))));
     let mut row = Rect::new(area.x, area.bottom() - 1, area.width, 1);
     for part in [format!(" {bar} {} ", value(reach)), format!(" {slip} ")] {

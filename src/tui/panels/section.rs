@@ -17,7 +17,8 @@
 
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
 use super::*;
-use crate::charts::{U_X, look_of};
+use crate::charts::U_X;
+use crate::plot::theme::look_of;
 use crate::reading::Zone;
 
 /// The panel.
@@ -29,9 +30,9 @@ pub static PICTURE: Picture = Picture {
             .union(Curves::SPRINGS)
             .union(Curves::SURFACE),
         is_calm: true,
-        text: "A cut through both bodies: the indenter above, the half-space it deforms below. \
-             The title tells what is magnified. The contact surface is coloured by stick and slip; \
-             the short lines across it (V) stay in one where it sticks, and part where it slips.",
+        text: "A cut through both bodies: the indenter above, the half-space it deforms below. The title tells \
+               what is magnified. The contact surface is coloured by stick and slip; the short lines across it \
+               (V) stay in one where it sticks, and part where it slips.",
         symbols: &[("F_z", "normal force"), U_X],
         ..Recipe::new(|_, _| Err(""))
     },
@@ -82,7 +83,7 @@ impl Section<'_> {
 
     /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
     fn lines(&self, canvas: &mut Canvas) {
-        let (seen, area) = (&self.frame.observation, self.area);
+        let (seen, area) = (&self.of.frame.observation, self.area);
         if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.theme) {
             return;
         }
@@ -162,10 +163,12 @@ impl Section<'_> {
             Matter::Indenter => {
                 let depth = (self.high - z) / self.tall * SHADES_OF_BODY;
                 let depth = depth.clamp(0.0, SHADES_OF_BODY - 1.0) as u8;
-                Some(color(theme, Color::Gray, [236 + depth, 254 - depth]))
+                theme
+                    .indexed([236 + depth, 254 - depth])
+                    .or(Some(Color::Gray))
             }
             // Where the indenter was, under the hatching.
-            Matter::Worn => Some(color(theme, Color::Black, [58, 229])),
+            Matter::Worn => theme.indexed([58, 229]).or(Some(Color::Black)),
             Matter::HalfSpace => match self.shade(cut, column, z) {
                 Some(shade) => shades::color(theme, self.of.stress.colors(), shade),
                 None => theme.style(Role::Open).fg,
@@ -173,7 +176,7 @@ impl Section<'_> {
             // What slips glows.
             Matter::Contact(Zone::Slip) => {
                 let plain = theme.style(Role::Slip).fg?;
-                Some(color(theme, plain, [208, 202]))
+                theme.indexed([208, 202]).or(Some(plain))
             }
             Matter::Contact(zone) => theme.style(look_of(zone).0).fg,
         }
@@ -194,7 +197,7 @@ impl Section<'_> {
             _ => upper,
         };
         if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
-            return (shades::sign(shade), Style::new());
+            return (shades::SIGNS[shade], Style::new());
         }
         if theme.ascii() || upper == lower {
             let (role, signs) = shown.look();
@@ -221,15 +224,6 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         section.lines(&mut canvas);
     }
     caption::draw(&section, canvas, below);
-}
-
-/// A colour of the cube of 256 for a dark and for a light background, or the one of sixteen.
-fn color(theme: &Theme, sixteen: Color, [dark, light]: [u8; 2]) -> Color {
-    match (theme.depth, theme.look) {
-        (Depth::Sixteen, _) => sixteen,
-        (_, Look::Light) => Color::Indexed(light),
-        _ => Color::Indexed(dark),
-    }
 }
 
 /// A style of these colours, where there are some.

@@ -157,9 +157,6 @@ impl Worker {
                 Ok(order) => {
                     // If many orders are waiting, not every one is shown.
                     for order in std::iter::once(order).chain(orders.try_iter()) {
-                        if self.is_over() {
-                            return;
-                        }
                         order(self);
                         if self.is_over() {
                             return;

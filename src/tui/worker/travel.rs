@@ -23,21 +23,16 @@ impl Worker {
         ))
     }
 
-    /// Shows another stored state, or says why there is none.
+    /// Shows another stored state, paused, or says why there is none.
     pub(in crate::tui) fn travel(
         &mut self,
         way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>,
         end: &str,
     ) {
         self.keep();
-        match way(&mut self.past) {
-            Some(kept) => self.show(&kept),
-            None => self.screen.notice(end),
-        }
-    }
-
-    /// Shows a stored state, paused.
-    fn show(&mut self, kept: &Kept) {
+        let Some(kept) = way(&mut self.past) else {
+            return self.screen.notice(end);
+        };
         self.run = kept.run.clone();
         self.companions.comparison = None;
         self.activity = Activity::Paused;

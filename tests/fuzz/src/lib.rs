@@ -14,7 +14,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::worker::{Orders, Worker};
-use mdr_tui::tui::{Stroke, rehearse};
+use mdr_tui::tui::{Stroke, press, text};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
@@ -138,7 +138,24 @@ pub fn session(bytes: &[u8]) {
         .collect();
     let strokes = Stroke::script(&script).expect("a script");
     let theme = Theme::new(Look::Dark, Marker::Braille);
-    rehearse(session, theme, &strokes, Size::new(80, 24)).expect("a screen");
+    rehearse(session, theme, &strokes, Size::new(80, 24));
+}
+
+/// The last screen of an explorer of its own that does what `strokes` say. A panic in its worker continues here.
+pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> String {
+    let (orders, to_worker) = Orders::channel();
+    let (events, inbox) = channel();
+    let mut worker = Worker::new(session, events, Duration::MAX, false);
+    let thread = std::thread::spawn(move || worker.serve(&to_worker));
+    let played = orders.frame().map(|first| {
+        let mut app = App::new(theme, orders.clone(), first);
+        press(&mut app, strokes, size, &inbox).map(|size| text(&app, size))
+    });
+    orders.send(Worker::quit);
+    if let Err(panic) = thread.join() {
+        std::panic::resume_unwind(panic);
+    }
+    played.expect("a worker").expect("a screen")
 }
 
 thread_local! {

@@ -23,15 +23,16 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::tui::Stroke;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::Frame;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::worker::{Orders, Worker};
-use mdr_tui::tui::{Stroke, rehearse};
 use mdr_tui::wear::WearLaw;
 use ratatui::layout::Size;
 
+use crate::hostile::fuzzed::rehearse;
 use crate::test_dir::fits;
 
 /// The parts of a run as plain values; a test names only what differs from the default.
@@ -371,8 +372,7 @@ pub fn rehearsed_on(session: Session, keys: &str, size: (usize, usize)) -> Strin
     let theme = Theme::new(Look::Dark, Marker::Braille);
     let strokes = Stroke::script(keys).expect("a script");
     let area = Size::new(size.0 as u16, size.1 as u16);
-    let screen = rehearse(session, theme, &strokes, area);
-    fits(screen.expect("a screen"), size, keys)
+    fits(rehearse(session, theme, &strokes, area), size, keys)
 }
 
 /// An explorer's worker in a thread of its own, which ends with it.

@@ -18,7 +18,7 @@ use tempfile::TempDir;
 use vt100::{Parser, Screen};
 
 /// Longer than anything takes on a busy machine.
-pub const TIMEOUT: Duration = Duration::from_secs(20);
+pub const TIMEOUT: Duration = Duration::from_secs(60);
 
 /// A second is what is promised; a machine that is busy with all the other tests takes longer.
 pub const SOON: Duration = Duration::from_millis(2500);

@@ -31,7 +31,7 @@ pub struct MeasuredProfile {
 
 /// What was done to the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Treatment {
+struct Treatment {
     /// The height at the axis, which was taken off, m.
     pub offset: f64,
     /// The tilt that averaging both sides removed, rad; none for a profile that begins at the axis.
@@ -133,11 +133,6 @@ impl MeasuredProfile {
             ));
         }
         words.join(", ")
-    }
-
-    /// What was done to the rows.
-    pub fn treatment(&self) -> Treatment {
-        self.treatment
     }
 }
 
@@ -295,7 +290,7 @@ mod tests {
         let radii = radii(-1.2e-3);
         let heights: Vec<f64> = radii.iter().map(|&r| sphere(r) + 3e-3 * r + 7e-6).collect();
         let measured = MeasuredProfile::new(&radii, &heights, 0.0).expect("a profile");
-        let treatment = measured.treatment();
+        let treatment = measured.treatment;
         assert!((treatment.tilt.expect("a tilt") - 3e-3).abs() < 1e-6);
         assert!((treatment.offset - 7e-6).abs() < 1e-9 && treatment.asymmetry < 1e-9);
         assert_eq!(treatment.smoothed, None);
@@ -311,7 +306,7 @@ mod tests {
         let radii = radii(0.0);
         let exact: Vec<f64> = radii.iter().map(|&r| sphere(r)).collect();
         let kept = MeasuredProfile::new(&radii, &exact, 3e-5).expect("a profile");
-        let (rms, largest) = kept.treatment().smoothed.expect("smoothed");
+        let (rms, largest) = kept.treatment.smoothed.expect("smoothed");
         assert!(rms <= largest && largest < 1e-12 * exact[200], "{largest}");
         // Noise of 1e-7 m with alternating signs makes rings of contact.
         let noisy: Vec<f64> = exact
@@ -322,7 +317,7 @@ mod tests {
         let refused = MeasuredProfile::new(&radii, &noisy, 0.0).expect_err("rings");
         assert!(refused.rule.contains("would be a ring"), "{}", refused.rule);
         let smooth = MeasuredProfile::new(&radii, &noisy, 3e-5).expect("a profile");
-        let (rms, _) = smooth.treatment().smoothed.expect("smoothed");
+        let (rms, _) = smooth.treatment.smoothed.expect("smoothed");
         assert!((rms / 1e-7 - 1.0).abs() < 0.1, "{rms}");
         assert!((smooth.profile(5e-4) - sphere(5e-4)).abs() < 3e-8);
     }

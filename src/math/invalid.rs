@@ -36,28 +36,23 @@ impl Invalid {
 
 /// Passes a finite number, refuses NaN and infinities.
 pub fn finite(field: &'static str, value: f64) -> Result<f64, Invalid> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(Invalid::new(field, value, "must be a finite number"))
-    }
+    checked(field, value, true, "must be a finite number")
 }
 
 /// Passes a finite number greater than zero.
 pub fn positive(field: &'static str, value: f64) -> Result<f64, Invalid> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(Invalid::new(field, value, "must be greater than 0"))
-    }
+    checked(field, value, value > 0.0, "must be greater than 0")
 }
 
 /// Passes a finite number that is zero or greater.
 pub fn non_negative(field: &'static str, value: f64) -> Result<f64, Invalid> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(value)
-    } else {
-        Err(Invalid::new(field, value, "must be 0 or greater"))
+    checked(field, value, value >= 0.0, "must be 0 or greater")
+}
+
+fn checked(field: &'static str, value: f64, holds: bool, rule: &str) -> Result<f64, Invalid> {
+    match value.is_finite() && holds {
+        true => Ok(value),
+        false => Err(Invalid::new(field, value, rule)),
     }
 }
 

@@ -69,8 +69,6 @@ impl Regime {
 pub struct CycleFigures {
     /// Dissipated energy per cycle, J.
     pub energy: f64,
-    /// The area of the fretting loop per cycle, ∮F_x du_x⁽⁰⁾, J: in a settled cycle the dissipated energy.
-    pub loop_area: f64,
     /// U, half the range of u_x⁽⁰⁾, or of the rig's actuator, m.
     pub displacement_amplitude: f64,
     /// Q*, half the range of F_x, N.
@@ -107,8 +105,6 @@ pub struct LoopTally {
     /// ∫F_z dn and ∫a dn over the cycles n, N and m.
     normal_force: f64,
     contact_radius: f64,
-    /// ∫F_x du_x⁽⁰⁾, J.
-    work: f64,
     /// Whether nothing touched at some moment.
     opened: bool,
     /// Sum and number of the u_x⁽⁰⁾ at which F_x falls, or rises, through zero.
@@ -148,7 +144,6 @@ impl LoopTally {
         self.force = [self.force[0].min(force), self.force[1].max(force)];
         self.normal_force += normal_force * (cycle - before);
         self.contact_radius += contact_radius * (cycle - before);
-        self.work += 0.5 * (force_before + force) * (shift - shift_before);
         self.opened |= contact_radius == 0.0;
         let crossing = || {
             let share = force_before / (force_before - force);
@@ -201,7 +196,6 @@ impl LoopTally {
         };
         Some(CycleFigures {
             energy,
-            loop_area: self.work / cycles,
             displacement_amplitude: shift,
             force_amplitude: force,
             normal_force,

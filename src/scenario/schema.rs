@@ -267,7 +267,7 @@ mod tests {
             ("numerics.grid", Spacing::NAMES),
             ("numerics.scheme", Scheme::NAMES),
             ("numerics.stability", Stability::NAMES),
-            ("numerics.integrator", &Integrator::NAMES),
+            ("numerics.integrator", Integrator::NAMES),
         ] {
             let known = find(path).expect("a key");
             assert_eq!(known.kind.words().as_deref(), Some(names), "{path}");

@@ -119,13 +119,10 @@ fn uniform(setup: &Setup) -> Setup {
 fn melan(setup: &Setup) -> Option<(f64, f64)> {
     setup.wear?;
     // The border moves while friction runs in.
-    if let Some(running_in) = &setup.running_in
-        && running_in.friction.is_some()
-    {
-        return None;
-    }
-    let (depth, border) = Unworn::of(setup).melan()?;
-    (border < setup.grid.radius()).then_some((depth, border))
+    let running_in = setup.running_in.as_ref();
+    let moves = running_in.is_some_and(|all| all.friction.is_some());
+    let found = Unworn::of(setup).melan().filter(|_| !moves);
+    found.filter(|(_, border)| *border < setup.grid.radius())
 }
 
 /// A setup with `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m). A ring of

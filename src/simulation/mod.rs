@@ -156,6 +156,11 @@ impl Simulation {
         &self.state.wear
     }
 
+    /// What f has grown by in the last step, m, at the nodes; 0 after a jump.
+    pub fn last_wear(&self) -> &[f64] {
+        &self.state.last.wear
+    }
+
     /// Steps taken since the start.
     pub fn steps(&self) -> u64 {
         self.state.steps

@@ -82,6 +82,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
     let contact: &Contact = &state.contact;
     let (nodes, springs) = (setup.grid.len(), setup.springs());
     let settled = state.jump.settled.as_ref();
+    let of_cycle = settled.map_or(nodes, |settled| settled.wear.len());
     for (what, length, due) in [
         ("wear", state.wear.len(), nodes),
         ("image of the wear", state.image.len(), nodes),
@@ -89,11 +90,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
         ("springs' states", contact.spring_state.len(), springs),
         ("growth of g", state.last.growth.len(), nodes),
         ("growth of f", state.last.wear.len(), nodes),
-        (
-            "wear of a cycle",
-            settled.map_or(nodes, |settled| settled.wear.len()),
-            nodes,
-        ),
+        ("wear of a cycle", of_cycle, nodes),
         ("line load", contact.load.nodal.len(), nodes),
         ("pressure", state.pressure.nodal.len(), springs),
     ] {

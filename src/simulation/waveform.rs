@@ -28,7 +28,6 @@ pub enum Waveform {
 /// Straight lines between corners, periodic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polyline {
-    name: &'static str,
     /// Phases of the corners, from 0 to below 1, increasing.
     phases: Vec<f64>,
     /// Values there.
@@ -51,7 +50,7 @@ pub struct Tabled {
 impl Waveform {
     /// Constant speed there and back.
     pub fn triangle() -> Self {
-        Self::polyline("triangle", vec![0.25, 0.75], vec![1.0, -1.0])
+        Self::polyline(vec![0.25, 0.75], vec![1.0, -1.0])
     }
 
     /// Constant speed, with rests at both ends that take the share `hold` of a period, between 0 and 1.
@@ -66,7 +65,7 @@ impl Waveform {
         let half = 0.25 * hold;
         let phases = vec![0.25 - half, 0.25 + half, 0.75 - half, 0.75 + half];
         let values = vec![1.0, 1.0, -1.0, -1.0];
-        Ok(Self::polyline("trapezoid", phases, values))
+        Ok(Self::polyline(phases, values))
     }
 
     /// One period from a table: `times` (s) that increase, and `values`, of which the last is the first.
@@ -98,27 +97,15 @@ impl Waveform {
             .map(|value| (value - mean) / amplitude)
             .collect();
         Ok(Tabled {
-            waveform: Self::polyline("table", phases, shape),
+            waveform: Self::polyline(phases, shape),
             mean,
             amplitude,
             angular_frequency: TAU / period,
         })
     }
 
-    fn polyline(name: &'static str, phases: Vec<f64>, values: Vec<f64>) -> Self {
-        Self::Polyline(Arc::new(Polyline {
-            name,
-            phases,
-            values,
-        }))
-    }
-
-    /// The name in scenarios.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Sine => "sine",
-            Self::Polyline(line) => line.name,
-        }
+    fn polyline(phases: Vec<f64>, values: Vec<f64>) -> Self {
+        Self::Polyline(Arc::new(Polyline { phases, values }))
     }
 
     /// Whether it goes from one end to the other and back, resting there or not: one stroke each way.

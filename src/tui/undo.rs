@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use super::autosave::mark;
 use super::trend::Recorded;
-use crate::math::abel::Form;
 
 /// The memory for the past, bytes.
 const BUDGET: usize = 64 << 20;
@@ -56,10 +55,10 @@ impl Kept {
                 && setup.indenter == other.indenter
                 && setup.grid == other.grid
         });
-        let operators = match Form::quicker(setup.method, nodes) {
+        let operators = match setup.method.prefers_fast(nodes) {
             _ if shares_operators => 0,
-            Form::Dense => 4 * nodes.pow(2),
-            Form::Fast => FAST_ARRAYS * nodes,
+            true => FAST_ARRAYS * nodes,
+            false => 4 * nodes.pow(2),
         };
         let changes = self.run.session.changes().len() * CHANGE;
         let trend = &self.run.trend;

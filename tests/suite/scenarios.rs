@@ -358,7 +358,7 @@ proptest! {
         let free = indenter.rim().is_none() && indenter.flat_face().is_none();
         let domain = domain.filter(|_| free);
         assignments.extend(domain.map(|domain| ("numerics.domain_radius", number(domain))));
-        assignments.extend(grid.map(|grid| ("numerics.grid", Spacing::ALL[grid].to_string())));
+        assignments.extend(grid.map(|grid| ("numerics.grid", Spacing::NAMES[grid].to_owned())));
         assignments.extend(scheme.map(|scheme| ("numerics.scheme", Scheme::ALL[scheme].to_string())));
         let assignments: Vec<(&str, &str)> = assignments.iter().map(|(key, value)| (*key, value.as_str())).collect();
         let scenario = load(preset::ALL[preset].name, &[])

@@ -194,7 +194,7 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     let scale = response(setup.method) * setup.material.normal_modulus();
     let share = gain(setup).unwrap_or_default();
     let amplitude = 0.5 * height * depth(simulation);
-    let worn = &simulation.state().last.wear;
+    let worn = simulation.last_wear();
     let zones = simulation.observe(Curves::ZONES).zones;
     let least = LEAST * largest(worn);
     let (mut stiffest, mut most) = (0.0_f64, 0.0_f64);

@@ -205,7 +205,8 @@ impl Chart {
     }
 
     /// The ranges of abscissae and ordinates that will be seen: those of points and error bars with a place on
-    /// both axes, and within x bounds that are given; of the places of a map, and of what the axes always hold. Curves that are not `counted` are left out.
+    /// both axes, and within x bounds that are given; of the places of a map, and of what the axes always hold. Curves
+    /// that are not `counted` are left out.
     pub fn extent(&self, counted: impl Fn(&Curve) -> bool) -> [Option<[f64; 2]>; 2] {
         let limits = self.x.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
         let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);

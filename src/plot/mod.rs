@@ -11,11 +11,11 @@
 //!      0            50            100                  tick labels
 //! ```
 //!
-//! One idea per file: `chart` (what is drawn, on a screen or on paper), `map` (values as colours in it), `shades` (the colours and signs of a terminal), `theme`
-//! (what roles look like), `units` (SI prefixes), `axis` (what an axis shows, its bounds), `window` (the map from
-//! values to dots), `step` (the 1-2-5 grid), `ticks` (an axis laid over cells, on a screen or on paper), `marker`,
-//! `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `words` (titles and labels), `widget` (the layout above), `screen_svg`
-//! (a screen as a picture).
+//! One idea per file: `chart` (what is drawn, on a screen or on paper), `map` (values as colours in it), `shades` (the
+//! colours and signs of a terminal), `theme` (what roles look like), `units` (SI prefixes), `axis` (what an axis shows,
+//! its bounds), `window` (the map from values to dots), `step` (the 1-2-5 grid), `ticks` (an axis laid over cells, on a
+//! screen or on paper), `marker`, `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `words` (titles
+//! and labels), `widget` (the layout above), `screen_svg` (a screen as a picture).
 //!
 //! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y
 //! is not finite, or not positive on a log axis, are gaps. Where a curve leaves bounds that were given

@@ -82,23 +82,21 @@ fn turn(setup: &Setup, touch: Touch, from: f64, until: f64) -> Option<f64> {
     touching.or(turn)
 }
 
-/// The ends of all steps of a period of the motion, in cycles from its beginning, each with whether the motion turns
-/// there; found once for as long as the contact stays.
+/// The ends of all steps of a period of the motion, in cycles from its beginning: found once as long as the contact
+/// leaves the turns where they are.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Period {
     touch: Option<Touch>,
-    moments: Arc<[(f64, bool)]>,
+    moments: Arc<[f64]>,
 }
 
 impl Period {
     /// Those of a period of `cycles`.
-    pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[(f64, bool)]> {
+    pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[f64]> {
         if self.touch != Some(touch) {
-            let after = |now: f64| {
-                let (moment, turns) = next(setup, touch, now, true);
-                (now < cycles).then(|| (moment.min(cycles), turns))
-            };
-            let moments = std::iter::successors(after(0.0), |&(now, _)| after(now));
+            let after =
+                |&now: &f64| (now < cycles).then(|| next(setup, touch, now, true).0.min(cycles));
+            let moments = std::iter::successors(after(&0.0), after);
             (self.touch, self.moments) = (Some(touch), moments.collect());
         }
         Arc::clone(&self.moments)

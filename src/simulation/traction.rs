@@ -43,7 +43,7 @@ pub(crate) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
     contact.load.stress(&model.plan, &model.grid, touching, out);
 }
 
-/// τ, Pa, of the solved contact.
+/// τ, Pa, of the solved contact, from the node `first` on.
 pub(crate) fn shear(model: &Model, contact: &Contact, first: usize, out: &mut [f64]) {
     let (plan, grid, touching) = (&model.plan, &model.grid, contact.normal.nodes);
     contact.spring.stress_from(first, plan, grid, touching, out);

@@ -64,8 +64,8 @@ impl Table {
         }
     }
 
-    /// Adds a row, a list or a tuple: cells that are not given are missing, cells beyond the columns are dropped. Words in a column of
-    /// numbers go across all columns of its group from there on, whose own cells are then not shown.
+    /// Adds a row, a list or a tuple: cells that are not given are missing, cells beyond the columns are dropped. Words in
+    /// a column of numbers go across all columns of its group from there on, whose own cells are then not shown.
     pub fn push(&mut self, row: impl Serialize) {
         let row = serde_json::to_value(row).expect("numbers and words");
         let mut row = row.as_array().cloned().unwrap_or_default();

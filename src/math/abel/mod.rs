@@ -107,7 +107,7 @@ impl AbelMethod {
         self.into()
     }
 
-    /// Whether on so many cells it is computed in the [`fast`] form, O(N), in place of the dense one.
+    /// Whether it is computed in the [`fast`] form on this many cells, and not in the dense one.
     pub fn prefers_fast(self, cells: usize) -> bool {
         self == Self::Product && cells >= CROSSOVER
     }
@@ -166,6 +166,18 @@ impl Deferred {
 /// `cargo bench --bench transforms`: the three transforms do so from about 100 on, the worn depth from 200 on.
 const CROSSOVER: usize = 200;
 
+/// What `plan` makes in the [`fast`] form, to the first tolerance that is within reach; `None` if none is, or if the dense
+/// form is the quicker one.
+fn planned_fast<T>(
+    method: AbelMethod,
+    grid: &RadialGrid,
+    plan: impl FnMut(f64) -> Option<T>,
+) -> Option<T> {
+    let is_quicker = method.prefers_fast(grid.cells());
+    let tolerances = is_quicker.then_some(fast::TOLERANCES)?;
+    tolerances.into_iter().find_map(plan)
+}
+
 /// The three transforms of one method on one grid, ready to apply.
 #[derive(Debug)]
 pub struct AbelPlan {
@@ -186,9 +198,8 @@ enum Operators {
 impl AbelPlan {
     /// Computes the weights of `method` on `grid`, in the quicker form.
     pub fn new(method: AbelMethod, grid: &RadialGrid) -> Self {
-        let mut tolerances = fast::TOLERANCES.into_iter();
-        let fast = || tolerances.find_map(|tolerance| Self::fast(grid, tolerance));
-        let fast = method.prefers_fast(grid.cells()).then(fast).flatten();
+        let fast = |tolerance| Self::fast(grid, tolerance);
+        let fast = planned_fast(method, grid, fast);
         fast.unwrap_or_else(|| Self::dense(method, grid))
     }
 
@@ -271,10 +282,8 @@ pub enum WornPlan {
 impl WornPlan {
     /// Computes the weights, in the quicker form.
     pub fn new(grid: &RadialGrid) -> Self {
-        let mut tolerances = fast::TOLERANCES.into_iter();
-        let fast = || tolerances.find_map(|tolerance| FastWorn::new(grid, tolerance));
-        let is_fast = AbelMethod::Product.prefers_fast(grid.cells());
-        let fast = is_fast.then(fast).flatten();
+        let fast = |tolerance| FastWorn::new(grid, tolerance);
+        let fast = planned_fast(AbelMethod::Product, grid, fast);
         fast.map_or_else(|| Self::dense(grid), |fast| Self::Fast(Box::new(fast)))
     }
 

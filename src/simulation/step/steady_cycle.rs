@@ -92,7 +92,7 @@ fn period(
     let touch = Touch::on(&model.setup, memory, scratch.g.iter().copied());
     let moments = scratch.period.moments(&model.setup, touch, cycles);
     memory.cycle = 0.0;
-    for &(moment, _) in moments.iter() {
+    for &moment in moments.iter() {
         solve(model, memory, spare, scratch, moment)?;
         take_over(memory, spare, moment);
     }
@@ -105,7 +105,7 @@ fn period(
     };
     let mut stiffness = vec![0.0; model.nodes()];
     let modulus = model.setup.material.normal_modulus();
-    for &(moment, _) in moments.iter() {
+    for &moment in moments.iter() {
         solve(model, memory, spare, scratch, moment)?;
         wear(model, memory, spare, scratch, moment);
         let increment = &mut scratch.increment;

@@ -48,8 +48,8 @@ pub struct Sensitivity {
     pub is_resolved: bool,
 }
 
-/// Finds the elasticities of the study's columns with respect to the keys that it asks for, or those of its axes, around its base with
-/// what it sets. None if `go_on` said no before the end.
+/// Finds the elasticities of the study's columns with respect to the keys that it asks for, or those of its axes, around
+/// its base with what it sets. None if `go_on` said no before the end.
 ///
 /// # Errors
 ///

@@ -10,14 +10,13 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Level, dispatch, f64x4, prelude::*};
 use nalgebra::DMatrix;
 
 use super::scan::support;
+use super::vector::{Fusing, with_widest};
 
-/// Rows of a panel, and of one vector.
+/// Rows of a panel.
 const ROWS: usize = 16;
-const LANES: usize = 4;
 
 /// A square matrix whose rows each hold their entries in one run.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,46 +50,26 @@ impl Run {
     }
 }
 
-/// The rows of a panel: as many vectors as hold them.
-type Sums<S> = [f64x4<S>; ROWS / LANES];
-
 /// The sums of a panel's rows over `columns`, each times its value.
 #[inline(always)]
-fn sum_columns<S: Simd>(simd: S, columns: &[Column], values: &[f64]) -> Sums<S> {
-    let add = |sums: &mut Sums<S>, Column(column): &Column, value: f64| {
-        let value = f64x4::splat(simd, value);
-        let (vectors, _) = column.as_chunks::<LANES>();
-        for (sum, entries) in sums.iter_mut().zip(vectors) {
-            *sum = f64x4::from_slice(simd, entries).mul_add(value, *sum);
-        }
-    };
+fn sum_columns(fusing: Fusing, columns: &[Column], values: &[f64]) -> [f64; ROWS] {
     // Two sums a row: the processor need not wait for the last addition.
-    let mut sums = [[f64x4::splat(simd, 0.0); ROWS / LANES]; 2];
+    let mut sums = [[0.0; ROWS]; 2];
     let (fours, rest) = columns.as_chunks::<4>();
-    let (four_values, rest_values) = values.as_chunks::<4>();
-    for (columns, values) in fours.iter().zip(four_values) {
+    let (fours_of_values, rest_values) = values.as_chunks::<4>();
+    for (columns, values) in fours.iter().zip(fours_of_values) {
         for k in 0..4 {
-            add(&mut sums[k % 2], &columns[k], values[k]);
+            sums[k % 2] = fusing.multiply_add(&columns[k].0, &[values[k]; ROWS], &sums[k % 2]);
         }
-    }
-    for (column, value) in rest.iter().zip(rest_values) {
-        add(&mut sums[0], column, *value);
     }
     let [mut all, others] = sums;
-    for (all, other) in all.iter_mut().zip(others) {
-        *all += other;
+    for (Column(entries), value) in rest.iter().zip(rest_values) {
+        all = fusing.multiply_add(entries, &[*value; ROWS], &all);
+    }
+    for (sum, other) in all.iter_mut().zip(others) {
+        *sum += other;
     }
     all
-}
-
-#[inline(always)]
-fn rows_of<S: Simd>(sums: Sums<S>) -> [f64; ROWS] {
-    let mut rows = [0.0; ROWS];
-    let (lanes, _) = rows.as_chunks_mut::<LANES>();
-    for (sum, lanes) in sums.iter().zip(lanes) {
-        sum.store_slice(lanes);
-    }
-    rows
 }
 
 impl Skyline {
@@ -128,8 +107,10 @@ impl Skyline {
         debug_assert_eq!(input.len(), self.size);
         debug_assert_eq!(output.len(), self.size);
         let panel = (first / ROWS).min(self.panels.len());
-        // Compiled once for every instruction set; the processor's own is chosen.
-        let finite = dispatch!(Level::new(), simd => self.multiply(simd, panel, input, output));
+        let finite = with_widest(
+            #[inline(always)]
+            |fusing| self.multiply(fusing, panel, input, output),
+        );
         if !finite {
             self.apply_not_finite(input, output);
         }
@@ -138,30 +119,22 @@ impl Skyline {
 
     /// Computes the rows of the panels from `first` on; tells whether all their sums are finite.
     #[inline(always)]
-    fn multiply<S: Simd>(&self, simd: S, first: usize, input: &[f64], output: &mut [f64]) -> bool {
+    fn multiply(&self, fusing: Fusing, first: usize, input: &[f64], output: &mut [f64]) -> bool {
         let support = support(input);
-        let zero = f64x4::splat(simd, 0.0);
-        let mut zeros = [zero; ROWS / LANES];
-        let mut sums = self.panels[first..].iter().map(
-            #[inline(always)]
-            |panel| {
-                let (at, columns) = panel.within(&support);
-                let sums = sum_columns(simd, &self.entries[at], &input[columns]);
-                for (zeros, sum) in zeros.iter_mut().zip(sums) {
-                    *zeros += zero * sum;
-                }
-                rows_of(sums)
-            },
-        );
         let start = (first * ROWS).min(self.size);
-        let (whole, rest) = output[start..].as_chunks_mut();
-        for (output, sums) in whole.iter_mut().zip(sums.by_ref()) {
-            *output = sums;
+        let output = &mut output[start..];
+        let (whole, rest) = output.as_chunks_mut();
+        let (whole_panels, last) = self.panels[first..].split_at(whole.len());
+        for (output, panel) in whole.iter_mut().zip(whole_panels) {
+            let (at, columns) = panel.within(&support);
+            *output = sum_columns(fusing, &self.entries[at], &input[columns]);
         }
-        if let Some(sums) = sums.next().filter(|_| !rest.is_empty()) {
+        for panel in last {
+            let (at, columns) = panel.within(&support);
+            let sums = sum_columns(fusing, &self.entries[at], &input[columns]);
             rest.copy_from_slice(&sums[..rest.len()]);
         }
-        rows_of(zeros) == [0.0; ROWS]
+        output.iter().fold(true, |all, sum| all & sum.is_finite())
     }
 
     /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry

@@ -1,14 +1,50 @@
 //! Runs loops with the widest SIMD that the CPU supports.
 
-use fearless_simd::{Level, dispatch};
+use multiversion::{multiversion, target::target_cfg_f};
 
-/// Runs `pass`, compiled once for every instruction set, for that of this processor.
+/// Runs `pass`, compiled for the common instruction sets, with the widest that this processor has.
 ///
 /// Only what is inlined gains by it: the closure, and what it calls, should be `#[inline(always)]`. The results
 /// are the same to the last bit on all of them: the compiler fuses no multiplication with an addition.
 #[inline(always)]
 pub fn vectorized<R>(pass: impl FnOnce() -> R) -> R {
-    dispatch!(Level::new(), _simd => pass())
+    with_widest(
+        #[inline(always)]
+        |_| pass(),
+    )
+}
+
+/// The same for a `pass` that fuses multiplications with additions by itself; it is told whether the processor does.
+#[multiversion(targets("x86_64+avx2+fma+bmi1+bmi2"))]
+pub fn with_widest<R>(pass: impl FnOnce(Fusing) -> R) -> R {
+    pass(Fusing(target_cfg_f!(any(
+        target_feature = "fma",
+        target_arch = "aarch64"
+    ))))
+}
+
+/// Whether the processor multiplies and adds with one rounding. Without it, doing so would take a hundred times as long.
+#[derive(Debug, Clone, Copy)]
+pub struct Fusing(bool);
+
+impl Fusing {
+    /// a b + c of every lane.
+    #[inline(always)]
+    pub fn multiply_add<const LANES: usize>(
+        self,
+        a: &[f64; LANES],
+        b: &[f64; LANES],
+        c: &[f64; LANES],
+    ) -> [f64; LANES] {
+        let mut sums = *c;
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum = match self.0 {
+                true => a.mul_add(*b, *sum),
+                false => a * b + *sum,
+            };
+        }
+        sums
+    }
 }
 
 /// Writes what `of` makes of each pair of values into `out`, as many of the one as of the others.

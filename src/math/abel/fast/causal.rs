@@ -12,9 +12,8 @@
 //!
 //! The last digits differ between CPUs with and without fused multiply-add; on one machine they are always the same.
 
-use fearless_simd::{Level, dispatch, f64x4, prelude::*};
-
 use super::powers::{LANES, MOST_GROUPS, Powers};
+use crate::math::vector::{Fusing, vectorized, with_widest};
 
 /// A row's nearest rows are at most this many.
 pub(super) const REACH: usize = 8;
@@ -91,7 +90,6 @@ impl Causal {
         jumps: impl Fn(usize, &mut [f64]),
         mut sums: impl FnMut(usize, &mut [f64]),
     ) {
-        let level = Level::new();
         let mut state = [[0.0; LANES]; MOST_GROUPS];
         let mut window = [0.0; REACH + BLOCK];
         let mut lanes = [[0.0; LANES]; BLOCK];
@@ -99,27 +97,32 @@ impl Causal {
         for first in (0..count).step_by(BLOCK) {
             let rows = BLOCK.min(self.near.len() - first);
             window.copy_within(BLOCK.., 0);
-            dispatch!(level, _simd => jumps(first, &mut window[REACH..][..rows]));
+            vectorized(
+                #[inline(always)]
+                || jumps(first, &mut window[REACH..][..rows]),
+            );
             is_idle &= window[REACH..][..rows].iter().all(|&jump| jump == 0.0);
             if is_idle {
                 sums(first, &mut [0.0; BLOCK][..rows]);
                 continue;
             }
-            self.block(level, first, &window, &mut state, &mut lanes[..rows]);
-            dispatch!(level, _simd => {
-                let mut block = [0.0; BLOCK];
-                for (sum, [a, b, c, d]) in block.iter_mut().zip(&lanes) {
-                    *sum = (a + b) + (c + d);
-                }
-                sums(first, &mut block[..rows]);
-            });
+            self.block(first, &window, &mut state, &mut lanes[..rows]);
+            vectorized(
+                #[inline(always)]
+                || {
+                    let mut block = [0.0; BLOCK];
+                    for (sum, [a, b, c, d]) in block.iter_mut().zip(&lanes) {
+                        *sum = (a + b) + (c + d);
+                    }
+                    sums(first, &mut block[..rows]);
+                },
+            );
         }
     }
 
     /// The number of groups is fixed at compile time, so that the state stays in registers.
     fn block(
         &self,
-        level: Level,
         first: usize,
         window: &[f64; REACH + BLOCK],
         state: &mut [[f64; LANES]; MOST_GROUPS],
@@ -128,9 +131,10 @@ impl Causal {
         macro_rules! by_groups {
             ($($groups:literal),*) => {
                 match self.factors.len() {
-                    $($groups => dispatch!(level, simd => {
-                        self.groups::<_, $groups>(simd, first, window, state, lanes)
-                    }),)*
+                    $($groups => with_widest(
+                        #[inline(always)]
+                        |fusing| self.groups::<$groups>(fusing, first, window, state, lanes),
+                    ),)*
                     // A fit has from 2 to MOST_GROUPS groups.
                     _ => unreachable!("no such number of groups"),
                 }
@@ -140,17 +144,16 @@ impl Causal {
     }
 
     #[inline(always)]
-    fn groups<S: Simd, const GROUPS: usize>(
+    fn groups<const GROUPS: usize>(
         &self,
-        simd: S,
+        fusing: Fusing,
         first: usize,
         window: &[f64; REACH + BLOCK],
         state: &mut [[f64; LANES]; MOST_GROUPS],
         lanes: &mut [[f64; LANES]],
     ) {
-        let load = |lanes: &[f64; LANES]| f64x4::from_slice(simd, lanes);
-        let mut powers: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&state[group]));
-        let factors: [f64x4<S>; GROUPS] = std::array::from_fn(|group| load(&self.factors[group]));
+        let factors: &[_; GROUPS] = &self.factors.as_chunks().0[0];
+        let mut powers: [_; GROUPS] = std::array::from_fn(|group| state[group]);
         let (decays, _) = self.decays[first * GROUPS..].as_chunks::<GROUPS>();
         let rows = decays
             .iter()
@@ -158,18 +161,21 @@ impl Causal {
             .zip(window.windows(REACH + 1));
         for (lanes, ((decays, near), window)) in lanes.iter_mut().zip(rows) {
             let (near, before) = (near.as_chunks().0, window.as_chunks().0);
-            let mut row = load(&near[0]) * load(&before[0]);
-            row = load(&near[1]).mul_add(load(&before[1]), row);
-            let own = f64x4::splat(simd, window[REACH]);
+            let mut row = product(&near[0], &before[0]);
+            row = fusing.multiply_add(&near[1], &before[1], &row);
+            let own = window[REACH];
             for group in 0..GROUPS {
-                let decayed = load(&decays[group]) * powers[group];
-                row = factors[group].mul_add(decayed, row);
-                powers[group] = decayed + own;
+                let decayed = product(&decays[group], &powers[group]);
+                row = fusing.multiply_add(&factors[group], &decayed, &row);
+                powers[group] = decayed.map(|decayed| decayed + own);
             }
-            row.store_slice(lanes);
+            *lanes = row;
         }
-        for (lanes, power) in state.iter_mut().zip(&powers) {
-            power.store_slice(lanes);
-        }
+        state[..GROUPS].copy_from_slice(&powers);
     }
+}
+
+#[inline(always)]
+fn product(a: &[f64; LANES], b: &[f64; LANES]) -> [f64; LANES] {
+    std::array::from_fn(|i| a[i] * b[i])
 }

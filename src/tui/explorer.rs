@@ -133,11 +133,10 @@ impl Explorer {
         self.begin_answer();
         let frame = Arc::clone(&self.frame);
         let bands = layout::bands(self.stage.area).filter(|_| !self.compares());
-        let Some([_, area, _]) = bands else {
+        let Some([_, line, area, _]) = bands else {
             return;
         };
-        let (line, area) = layout::timeline(area);
-        if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
+        if let Some(cycle) = timeline::cycle_at(&frame, line, at) {
             let visit = move |past: &mut Past| past.visit(cycle);
             return self.order(move |run| run.travel(visit, "no state is stored"));
         }

@@ -32,22 +32,19 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(study @ Overlay::Sweep(_)) = overlay {
         return study.draw(explorer, canvas);
     }
-    let Some([top, whole, bottom]) = layout::bands(area) else {
+    let Some([top, line, middle, bottom]) = layout::bands(area) else {
         let (columns, rows) = layout::SMALLEST;
         let text = format!("mdr-tui needs {columns} by {rows} characters; q quits");
         return canvas.write(text);
     };
-    let (line, middle) = layout::timeline(whole);
     status(&explorer.frame, canvas.at(top));
-    if let Some(line) = line {
-        timeline::draw(&explorer.frame, canvas.at(line));
-    }
+    timeline::draw(&explorer.frame, canvas.at(line));
     panels(explorer, canvas.at(middle));
     footer::draw(app, canvas.at(bottom));
     // An explanation stands beside its panel; lists need every row.
     let under = match overlay {
         Some(Overlay::Explain) => middle,
-        _ => whole,
+        _ => line.union(middle),
     };
     if let Some(overlay) = overlay {
         overlay.draw(explorer, canvas.at(under));

@@ -44,7 +44,7 @@ pub struct Stage {
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
-        let places = self.places(layout::middle(self.area));
+        let places = self.places(layout::panels(self.area));
         places.into_iter().map(|(panel, _)| panel).collect()
     }
 
@@ -97,7 +97,7 @@ impl Stage {
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
-        let (across, down) = layout::grid(layout::middle(self.area));
+        let (across, down) = layout::grid(layout::panels(self.area));
         let room = across * down;
         let next = (self.focus as usize / room + 1) * room;
         self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);

@@ -59,12 +59,12 @@ fn panels(explorer: &Explorer, mut canvas: Canvas) {
     for (panel, place) in stage.places(area) {
         draw_panel(panel, explorer, canvas.at(place));
     }
-    let (above, caption) = stage.with_tour(area);
+    let [above, caption] = stage.with_tour(area);
     if stage.presents {
         present::draw(frame, canvas.at(present::areas(above)[2]));
     }
-    if let (Some(tour), Some(place)) = (&stage.tour, caption) {
-        tour.draw(canvas.at(place));
+    if let Some(tour) = &stage.tour {
+        tour.draw(canvas.at(caption));
     }
 }
 

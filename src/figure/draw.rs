@@ -200,11 +200,6 @@ impl Chart {
         canvas.text_upwards(beside, &title(&self.y, &y.unit), font);
     }
 
-    /// The curves that the legend names.
-    fn named(&self) -> impl Iterator<Item = &Curve> {
-        self.curves.iter().filter(|curve| !curve.name.is_empty())
-    }
-
     /// The names of the curves, in the corner where they cover the least of them; those of a map below it.
     fn legend(&self, frame: &Frame, drawn: &[[[f64; 2]; 2]], canvas: &mut Canvas, look: &Look) {
         let font = 0.9 * look.font;

@@ -87,9 +87,8 @@ impl Frame {
 
     /// The part of a segment inside the frame.
     pub fn inside(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-        let [width, height] = self.size;
-        let low = [self.left, self.top];
-        clip(from, to, low, [low[0] + width, low[1] + height])
+        let [low, high] = [[self.left, self.top], [self.right(), self.bottom()]];
+        clip(from, to, low, high)
     }
 }
 

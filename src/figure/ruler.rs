@@ -2,7 +2,7 @@
 
 use crate::plot::axis::titled;
 use crate::plot::ticks::{Labels, Ruler};
-use crate::plot::units::{AxisUnit, axis_unit};
+use crate::plot::units::AxisUnit;
 use crate::plot::window::Window;
 use crate::plot::{Axis, Scale};
 
@@ -28,14 +28,13 @@ pub(super) fn title(axis: &Axis, unit: &AxisUnit) -> String {
 
 /// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
 fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
-    let largest = bounds[0].abs().max(bounds[1].abs());
     let is_narrow = !axis.unit.is_empty() && bounds[1] / bounds[0] < ONE_PREFIX;
     match axis.scale {
         Scale::Log if !is_narrow => AxisUnit {
             factor: 1.0,
             text: axis.unit.to_owned(),
         },
-        _ => axis_unit(largest, axis.unit),
+        _ => axis.unit_for(bounds),
     }
 }
 

@@ -61,7 +61,7 @@ impl Axis {
     }
 
     /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.
-    pub(super) fn unit_for(&self, [low, high]: [f64; 2]) -> AxisUnit {
+    pub fn unit_for(&self, [low, high]: [f64; 2]) -> AxisUnit {
         let most = low.abs().max(high.abs());
         let expected = axis_unit(self.expects.max(most), self.unit);
         match most >= LEAST * expected.factor {

@@ -204,6 +204,11 @@ impl Chart {
         self
     }
 
+    /// The curves that the legend names.
+    pub fn named(&self) -> impl Iterator<Item = &Curve> {
+        self.curves.iter().filter(|curve| !curve.name.is_empty())
+    }
+
     /// The ranges of abscissae and ordinates that will be seen: those of points and error bars with a place on
     /// both axes, and within x bounds that are given; of the places of a map, and of what the axes always hold. Curves
     /// that are not `counted` are left out.

@@ -75,14 +75,13 @@ impl ColorMap {
         })
     }
 
-    /// The range of colours for values from `low` to `high`: colours of both signs have white at zero.
+    /// The range of colours for values from `low` up to `high`: colours of both signs have white at zero.
     pub fn range(self, [low, high]: [f64; 2]) -> [f64; 2] {
         let size = low.abs().max(high.abs());
         match self {
             _ if !(size > 0.0 && size.is_finite()) => [-1.0, 1.0],
             Self::Diverging => [-size, size],
-            Self::Sequential if high > low => [low, high],
-            Self::Sequential => [0.0, size],
+            Self::Sequential => [low, high],
         }
     }
 }

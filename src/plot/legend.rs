@@ -24,17 +24,6 @@ struct Line {
     style: Style,
 }
 
-/// How the values at the cursor are given.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Reading {
-    /// With unit and prefix.
-    Full,
-    /// As bare numbers, in the axis' unit.
-    Bare,
-    /// Not at all.
-    None,
-}
-
 /// Lines in their place.
 #[derive(Debug, Clone)]
 pub(super) struct Legend {
@@ -50,12 +39,12 @@ impl Legend {
     /// cursor and they fit, as bare numbers rather than over a curve, else names only. `None` if nothing fits or
     /// there is nothing to say.
     pub(super) fn arrange(plot: &Plot<'_>, units: [&AxisUnit; 2], raster: &Raster) -> Option<Self> {
-        let placed = |reading| Self::place(lines(plot, units, reading), raster);
+        let placed = |x, is_full| Self::place(lines(plot, units, x, is_full), raster);
         let cursor = plot.cursor.filter(|x| x.is_finite());
-        let readings = cursor.map(|_| [Reading::Full, Reading::Bare].map(placed));
+        let readings = cursor.map(|_| [true, false].map(|is_full| placed(cursor, is_full)));
         let readings = readings.into_iter().flatten().flatten();
         let least = readings.min_by_key(|legend| legend.covered);
-        least.or_else(|| placed(Reading::None))
+        least.or_else(|| placed(None, false))
     }
 
     /// The lines where they cover the fewest dots: in a corner, the top right one first, or in the place nearest to
@@ -110,24 +99,23 @@ impl Line {
     }
 }
 
-/// The reading of the cursor itself, and a line for each curve that has a name.
-fn lines(plot: &Plot<'_>, [x_unit, y_unit]: [&AxisUnit; 2], reading: Reading) -> Vec<Line> {
-    let (theme, chart) = (plot.theme, plot.chart);
-    let x = plot.cursor.filter(|_| reading != Reading::None);
+/// The reading at `x` itself, and a line for each curve that has a name, with its value there if there is an `x`: in
+/// full with unit and prefix, else as a bare number in the axis' unit.
+fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) -> Vec<Line> {
+    let (theme, chart, [x_unit, y_unit]) = (plot.theme, plot.chart, units);
     let header = x.map(|x| Line {
         left: theme.printable(&chart.x.label),
         right: theme.printable(&with_unit(x, &chart.x, x_unit)),
         style: theme.style(Role::Quiet),
     });
-    let named = chart.curves.iter().filter(|curve| !curve.name.is_empty());
-    let curves = named.map(|curve| {
+    let curves = chart.named().map(|curve| {
         let swatch = theme.printable(&curve.stroke().swatch().to_string());
         let name = theme.printable(&curve.name);
         let name: String = name.chars().take(LONGEST_NAME).collect();
         let read = match x.map(|x| curve.value_at(x)) {
             None => String::new(),
             Some(None) => "–".to_owned(),
-            Some(Some(y)) if reading == Reading::Full => with_unit(y, &chart.y, y_unit),
+            Some(Some(y)) if is_full => with_unit(y, &chart.y, y_unit),
             Some(Some(y)) => format_number(y / y_unit.factor, DIGITS),
         };
         Line {

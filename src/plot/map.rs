@@ -55,11 +55,8 @@ impl Map {
         }
     }
 
-    /// Where a value lies between the ends of the colours, 0 to 1.
+    /// Where a quantity's value lies between the ends of the colours, 0 to 1.
     pub fn share(&self, value: f64, range: [f64; 2]) -> f64 {
-        if !self.words.is_empty() {
-            return (value + 0.5) / WORDS as f64;
-        }
         let scale = self.quantity.scale;
         let [low, high] = range.map(|end| scale.spread(end));
         (scale.spread(value) - low) / (high - low)

@@ -12,6 +12,7 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::Marker;
 use super::units::to_ascii;
+use crate::math::scan::shifted;
 use crate::reading::Zone;
 
 /// Quantities and parts of the screen that have a style of their own: the same quantity has the same colour in
@@ -94,8 +95,7 @@ impl Look {
 
     /// The look after this one.
     pub fn next(self) -> Self {
-        let all = Self::value_variants();
-        all[(self as usize + 1) % all.len()]
+        shifted(Self::value_variants(), self, 1)
     }
 }
 

@@ -52,16 +52,14 @@ impl Widget for Plot<'_> {
         raster.render(buf);
         if map.is_some() {
             let places = frame.inner.positions();
-            for place in places.filter(|place| raster.dots_in((*place, SINGLE).into()) > 0) {
+            let cell = Size::new(1, 1);
+            for place in places.filter(|place| raster.dots_in((*place, cell).into()) > 0) {
                 frame.ink(buf.cell_mut(place));
             }
         }
         frame.signs(buf);
     }
 }
-
-/// One cell.
-const SINGLE: Size = Size::new(1, 1);
 
 /// Whether an area has no room for axes.
 fn is_bare(area: Rect) -> bool {

@@ -113,8 +113,7 @@ impl Frame<'_> {
     fn names_at_ends(&self, raster: &Raster) -> Option<Vec<(Rect, String, Style)>> {
         let (theme, inner) = (self.plot.theme, self.inner);
         let mut placed: Vec<(Rect, String, Style)> = Vec::new();
-        let named = self.plot.chart.curves.iter();
-        for curve in named.filter(|curve| !curve.name.is_empty()) {
+        for curve in self.plot.chart.named() {
             let name = theme.printable(&curve.name);
             let width = cells(&name);
             let cell = |(x, y)| Some((self.x.window.cell(x)?, self.y.window.cell(y)?));

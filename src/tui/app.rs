@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::command::{self, Act, Command, Open};
+use super::command::{self, Act, Command};
 use super::event::Event;
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
@@ -83,7 +83,7 @@ impl App {
                 self.overlays
                     .retain(|below| matches!(below, Overlay::Form(_)));
             }
-            Answer::Open(overlay) => self.open(overlay),
+            Answer::Open(overlay) => self.overlays.push(overlay),
             Answer::Watch(command) => self.run(command),
             Answer::Run(command) => {
                 self.overlays.clear();
@@ -99,7 +99,15 @@ impl App {
         match row.act {
             Act::Screen(act) => act(&mut self.explorer),
             Act::Worker(act) => self.explorer.order(act),
-            Act::Open(overlay) => self.open(overlay),
+            Act::Open => self.open(command),
+            Act::Words(key) => {
+                let mut settings = self.explorer.frame.facts.settings.iter();
+                let setting = settings.find(|setting| setting.parameter.path == key);
+                match setting.map(|setting| Palette::choosing(setting, None)) {
+                    Some(words) => self.overlays.push(Overlay::Palette(words)),
+                    None => self.explorer.notice = Some(format!("this scenario has no {key}")),
+                }
+            }
             Act::Argument(_) => {
                 let begun = Palette::begun(&format!("{} ", row.name));
                 self.overlays.push(Overlay::Palette(begun));
@@ -111,27 +119,19 @@ impl App {
         }
     }
 
-    /// Lays an overlay on what is there.
-    fn open(&mut self, overlay: Open) {
+    /// Lays the overlay of a command on what is there.
+    fn open(&mut self, command: Command) {
         let explorer = &mut self.explorer;
-        self.overlays.push(match overlay {
-            Open::Help => Overlay::Help(Help::default()),
-            Open::Library => Overlay::Library(Library::open(explorer.origin())),
-            Open::Explain => Overlay::Explain,
-            Open::Form => Overlay::Form(Form::default()),
-            Open::Palette => Overlay::Palette(Palette::default()),
-            Open::Accuracy => {
+        self.overlays.push(match command {
+            Command::Help => Overlay::Help(Help::default()),
+            Command::Presets => Overlay::Library(Library::open(explorer.origin())),
+            Command::Accept => Overlay::Explain,
+            Command::Edit => Overlay::Form(Form::default()),
+            Command::Accuracy => {
                 explorer.order(Worker::estimate_errors);
                 Overlay::Accuracy { explains: false }
             }
-            Open::Words { key, typed } => {
-                let mut settings = explorer.frame.facts.settings.iter();
-                let Some(setting) = settings.find(|setting| setting.parameter.path == key) else {
-                    explorer.notice = Some(format!("this scenario has no {key}"));
-                    return;
-                };
-                Overlay::Palette(Palette::choosing(setting, typed))
-            }
+            _ => Overlay::Palette(Palette::default()),
         });
     }
 

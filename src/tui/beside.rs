@@ -27,12 +27,12 @@ pub(super) struct Beside {
 }
 
 impl Beside {
-    /// A run that begins where `run` stands, and again with `start`, if there is one, wherever the first run goes back
-    /// in time.
-    pub fn new(run: impl Into<Recorded>, start: Option<Session>) -> Self {
+    /// A run that begins where `session` stands, and if it `restarts` again there wherever the first run goes back in
+    /// time.
+    pub fn new(session: Session, restarts: bool) -> Self {
         Self {
-            run: run.into(),
-            start,
+            start: restarts.then(|| session.clone()),
+            run: session.into(),
             busy: Duration::ZERO,
             steps: 0,
             stopped: None,
@@ -61,7 +61,7 @@ impl Beside {
         if self.must_restart(cycle)
             && let Some(start) = self.start.take()
         {
-            *self = Self::new(start.clone(), Some(start));
+            *self = Self::new(start, true);
         }
         let (start, before) = (Instant::now(), self.run.simulation().steps());
         while self.lags(cycle) {
@@ -123,7 +123,7 @@ impl ComparisonRun {
             }
         };
         Ok(Self {
-            beside: Beside::new(session, None),
+            beside: Beside::new(session, false),
             choice,
             from,
         })
@@ -133,12 +133,15 @@ impl ComparisonRun {
     pub fn seen(&self) -> Comparison {
         let simulation = self.beside.run.simulation();
         Comparison {
-            observation: simulation.observe(Curves::PROFILE | Curves::PRESSURE),
+            observation: simulation.observe(COMPARED),
             step_cost: self.beside.step_cost(),
             stopped: self.beside.stopped.clone(),
         }
     }
 }
+
+/// What is shown of both runs.
+pub(super) const COMPARED: Curves = Curves::PROFILE.union(Curves::PRESSURE);
 
 /// A second run in lockstep with the first.
 #[derive(Debug, Clone)]
@@ -193,7 +196,7 @@ impl Twin {
     pub fn of(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
-            beside: Beside::new(refinement::twin(session)?.ok()?, None),
+            beside: Beside::new(refinement::twin(session)?.ok()?, false),
             due: 1.0,
             run: None,
             told: None,

@@ -139,9 +139,8 @@ impl<'a> Canvas<'a> {
 
     /// The same at the lower end: what lies above can be watched.
     pub fn docked(&mut self, title: &str, rows: u16) -> Canvas<'_> {
-        let height = rows.min(self.area.height);
-        self.area.y = self.area.bottom() - height;
-        self.area.height = height;
+        let [_, below] = Layout::vertical([Fill(1), Length(rows)]).areas(self.area);
+        self.area = below;
         self.popup(title, (100, rows))
     }
 

@@ -14,7 +14,7 @@ use super::keys::Named as N;
 use super::panels::StressMap;
 use super::undo::Past;
 use super::worker::{Worker, ends_cycle};
-use Act::{Argument, Screen, Worker as Work};
+use Act::{Argument, Open, Screen, Words, Worker as Work};
 
 /// A command, its keys and its help.
 pub struct Row {
@@ -41,39 +41,12 @@ pub(super) enum Act {
     Worker(fn(&mut Worker)),
     /// It lets an argument be typed, with these completions.
     Argument(fn(&str, &Frame) -> Vec<Completion>),
-    /// It opens an overlay.
-    Open(Open),
+    /// It opens the words that a key takes.
+    Words(&'static str),
+    /// It opens its overlay.
+    Open,
     /// It ends the program, or leads back to the map that the run was opened from.
     Quit,
-}
-
-/// An overlay that can be opened.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Open {
-    /// The keys.
-    Help,
-    /// The presets and the user's own files.
-    Library,
-    /// The checks of the run, and its errors, which are estimated then.
-    Accuracy,
-    /// What the focused panel shows.
-    Explain,
-    /// The parameters.
-    Form,
-    /// The commands by name.
-    Palette,
-    /// The words that a key takes: those that begin with what was typed.
-    Words {
-        /// The key.
-        key: &'static str,
-        /// What was typed, if anything was.
-        typed: Option<char>,
-    },
-}
-
-/// Opens all words that a key takes.
-const fn words(key: &'static str) -> Act {
-    Act::Open(Open::Words { key, typed: None })
 }
 
 macro_rules! commands {
@@ -113,8 +86,7 @@ commands! {
         Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|on| on.order_anew(Worker::restart));
     }
     "look" {
-        Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry",
-            Act::Open(Open::Explain);
+        Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry", Open;
         Tour [Char('n')] "tour", "tour of this preset: next caption", Screen(Explorer::continue_tour);
         NextPanel [Named(N::Tab)] "panel", "focus the next panel", Screen(|on| on.stage.shift_focus(1));
         PreviousPanel [Named(N::BackTab)] "panel back", "focus the previous panel",
@@ -140,18 +112,15 @@ commands! {
         Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(|on| on.stage.go_back());
     }
     "change" {
-        Presets [Char('p')] "presets", "another preset, or a file of your own",
-            Act::Open(Open::Library);
-        Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded",
-            Act::Open(Open::Form);
+        Presets [Char('p')] "presets", "another preset, or a file of your own", Open;
+        Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded", Open;
         NextMethod [Char('m')] "method", "next transform method; the state is carried over",
             Work(|run| run.change_method(1));
         PreviousMethod [Char('M')] "method back", "previous transform method", Work(|run| run.change_method(-1));
-        Methods [Char('i')] "methods", "all transform methods, and what each is",
-            words("numerics.method");
+        Methods [Char('i')] "methods", "all transform methods, and what each is", Words("numerics.method");
         NextLaw [Char('w')] "wear law", "next wear law; the state is carried over", Work(|run| run.change_law(1));
         PreviousLaw [Char('W')] "law back", "previous wear law", Work(|run| run.change_law(-1));
-        Laws [Char('I')] "wear laws", "all wear laws, and what each is", words("wear.law");
+        Laws [Char('I')] "wear laws", "all wear laws, and what each is", Words("wear.law");
         Coarser [Char('<')] "coarser", "less accurate, faster: chooses method, cells, steps", Work(|run| run.refine(-1));
         Finer [Char('>')] "finer", "more accurate, slower: chooses method, cells, steps", Work(|run| run.refine(1));
     }
@@ -161,7 +130,7 @@ commands! {
             Work(|run| run.compare(0, From::Start));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
         DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_anew(Worker::drop_ghosts));
-        Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Act::Open(Open::Accuracy);
+        Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Open;
     }
     "time and files" {
         TimeBack [Char('[')] "back in time", "back in time; running or editing branches from there",
@@ -173,10 +142,9 @@ commands! {
         SnapshotNote [Char('S')] "snapshot, note", "the same, with a note in both files", Argument(completion::note);
     }
     "program" {
-        Palette [Char(':')] "commands", "every command by name, and set KEY=VALUE",
-            Act::Open(Open::Palette);
-        Help [Char('?')] "help", "show or hide this help", Act::Open(Open::Help);
-        Search [Char('/')] "search", "search in the help", Act::Open(Open::Palette);
+        Palette [Char(':')] "commands", "every command by name, and set KEY=VALUE", Open;
+        Help [Char('?')] "help", "show or hide this help", Open;
+        Search [Char('/')] "search", "search in the help", Open;
         Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere", Act::Quit;
         QuitKeepingScreen [Char('Q')] "quit, keep", "quit, and leave the last screen in the terminal",
             Screen(|on| on.next = Next::LeaveScreen);

@@ -31,8 +31,6 @@ pub enum Event {
     Suspend,
     /// The process continues after a suspension.
     Continue,
-    /// The terminal has closed, or the process was asked to end.
+    /// The terminal has closed, the process was asked to end, or the worker has ended.
     HangUp,
-    /// The worker has ended.
-    WorkerGone,
 }

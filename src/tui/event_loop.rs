@@ -122,7 +122,7 @@ fn handle_events(
                     app.explorer.resize(terminal::size()?);
                     is_away = false;
                 }
-                Event::HangUp | Event::WorkerGone => return Ok(()),
+                Event::HangUp => return Ok(()),
                 event => {
                     if let Event::Input(input) = &event {
                         if matches!(input, Input::Key(_) | Input::Paste(_)) {

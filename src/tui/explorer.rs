@@ -133,11 +133,10 @@ impl Explorer {
         self.begin_answer();
         let frame = Arc::clone(&self.frame);
         let bands = layout::bands(self.stage.area).filter(|_| !self.compares());
-        let Some([_, area, _]) = bands else {
+        let Some([_, line, area, _]) = bands else {
             return;
         };
-        let (line, area) = layout::timeline(area);
-        if let Some(cycle) = line.and_then(|line| timeline::cycle_at(&frame, line, at)) {
+        if let Some(cycle) = timeline::cycle_at(&frame, line, at) {
             let visit = move |past: &mut Past| past.visit(cycle);
             return self.order(move |run| run.travel(visit, "no state is stored"));
         }
@@ -223,14 +222,10 @@ impl Explorer {
         let shown = |panel| self.calm.shown(panel, &self.stage, &self.frame);
         self.charts.make(&visible, &self.frame, shown);
         let needs = visible.iter().map(|panel| panel.recipe().needs);
-        // The checks of the status line need the pressure, whatever panel shows it.
-        let mut needed = needs.fold(Curves::PRESSURE, Curves::union);
-        // A comparison covers all panels, and a cursor reads all curves.
-        if self.compares() {
-            needed |= Curves::PROFILE;
-        }
+        let mut needed = needs.fold(Curves::empty(), Curves::union);
+        // A cursor reads all curves.
         if self.cursor.is_shown() {
-            needed |= Curves::PROFILE | Curves::SHEAR | Curves::PROFILE_1D;
+            needed |= Curves::PROFILE | Curves::PRESSURE | Curves::SHEAR | Curves::PROFILE_1D;
         }
         if needed != self.computed {
             self.computed = needed;

@@ -62,7 +62,7 @@ pub struct Frame {
     pub peaks: Option<[Peak; 2]>,
     /// The cycle up to which the errors of the run are estimated, and what they are; else why they are not.
     pub errors: Result<(f64, Difference), String>,
-    /// The checks of the moment; `None` if p is not computed.
+    /// The checks of the moment.
     pub checks: Vec<Check>,
     /// The comparison run.
     pub comparison: Option<Comparison>,

@@ -37,7 +37,7 @@ impl Source {
             let start = Session::start(refinement::resolve_soon(&scenario)?.scenario)?;
             return Ok(Self {
                 ghost: Arc::new(Ghost::new(&scenario.stem())),
-                beside: Some(Box::new(Beside::new(start.clone(), Some(start)))),
+                beside: Some(Box::new(Beside::new(start, true))),
             });
         }
         let ghost = Ghost::read(path)?;

@@ -18,35 +18,26 @@ const TALL: u16 = 33;
 /// Below this width one panel fills the row.
 const NARROW: u16 = 56;
 
-/// Rows between title and footer from which on one of them is the timeline's.
-const WITH_TIMELINE: u16 = 22;
+/// There is a timeline from this height on.
+const WITH_TIMELINE: u16 = 24;
 
 /// Minimum size; a smaller screen shows a message instead of panels.
 pub const SMALLEST: (u16, u16) = (40, 10);
 
-/// The status line, the panels' area and the footer; `None` if the screen is too small.
-pub fn bands(screen: Rect) -> Option<[Rect; 3]> {
+/// The status line, the timeline, which has no row on a low screen, the panels' area and the footer; `None` if the
+/// screen is too small.
+pub fn bands(screen: Rect) -> Option<[Rect; 4]> {
     if screen.width < SMALLEST.0 || screen.height < SMALLEST.1 {
         return None;
     }
-    let lines = [Length(1), Min(0), Length(1)];
-    Some(Layout::vertical(lines).areas(screen))
+    let timeline = u16::from(screen.height >= WITH_TIMELINE);
+    let rows = [Length(1), Length(timeline), Min(0), Length(1)];
+    Some(Layout::vertical(rows).areas(screen))
 }
 
-/// The row of the timeline, where there is room for it, and what is left for the panels.
-pub fn timeline(middle: Rect) -> (Option<Rect>, Rect) {
-    if middle.height < WITH_TIMELINE {
-        return (None, middle);
-    }
-    let rows = [Length(1), Min(0)];
-    let [line, rest] = Layout::vertical(rows).areas(middle);
-    (Some(line), rest)
-}
-
-/// The area of the panels on a screen.
-pub fn middle(screen: Rect) -> Rect {
-    let height = screen.height.saturating_sub(2);
-    timeline(Rect { height, ..screen }).1
+/// The area of the panels on a screen; empty if that is too small.
+pub fn panels(screen: Rect) -> Rect {
+    bands(screen).map_or(Rect::ZERO, |[_, _, panels, _]| panels)
 }
 
 /// Columns and rows of panels in an area.

@@ -129,8 +129,8 @@ pub fn run(options: Options) -> Result<Farewell> {
     let keep_in = options.keep_in.filter(|_| is_live);
     let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
     let running = options.running && is_live;
-    let worker = Worker::new(options.run, events.clone(), interval, running);
-    let mut worker = worker.with_ghosts(options.ghosts);
+    let mut worker = Worker::new(options.run, events.clone(), interval, running);
+    worker.ghosts = options.ghosts;
     let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
     if let Some(map) = options.map {
         let events = events.clone();

@@ -32,22 +32,19 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(study @ Overlay::Sweep(_)) = overlay {
         return study.draw(explorer, canvas);
     }
-    let Some([top, whole, bottom]) = layout::bands(area) else {
+    let Some([top, line, middle, bottom]) = layout::bands(area) else {
         let (columns, rows) = layout::SMALLEST;
         let text = format!("mdr-tui needs {columns} by {rows} characters; q quits");
         return canvas.write(text);
     };
-    let (line, middle) = layout::timeline(whole);
     status(&explorer.frame, canvas.at(top));
-    if let Some(line) = line {
-        timeline::draw(&explorer.frame, canvas.at(line));
-    }
+    timeline::draw(&explorer.frame, canvas.at(line));
     panels(explorer, canvas.at(middle));
     footer::draw(app, canvas.at(bottom));
     // An explanation stands beside its panel; lists need every row.
     let under = match overlay {
         Some(Overlay::Explain) => middle,
-        _ => whole,
+        _ => line.union(middle),
     };
     if let Some(overlay) = overlay {
         overlay.draw(explorer, canvas.at(under));
@@ -62,12 +59,12 @@ fn panels(explorer: &Explorer, mut canvas: Canvas) {
     for (panel, place) in stage.places(area) {
         draw_panel(panel, explorer, canvas.at(place));
     }
-    let (above, caption) = stage.with_tour(area);
+    let [above, caption] = stage.with_tour(area);
     if stage.presents {
         present::draw(frame, canvas.at(present::areas(above)[2]));
     }
-    if let (Some(tour), Some(place)) = (&stage.tour, caption) {
-        tour.draw(canvas.at(place));
+    if let Some(tour) = &stage.tour {
+        tour.draw(canvas.at(caption));
     }
 }
 

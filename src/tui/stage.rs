@@ -44,24 +44,21 @@ pub struct Stage {
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
-        let places = self.places(layout::middle(self.area));
+        let places = self.places(layout::panels(self.area));
         places.into_iter().map(|(panel, _)| panel).collect()
     }
 
-    /// The area of the panels, and that of a tour's caption below them while there is one.
-    pub fn with_tour(&self, area: Rect) -> (Rect, Option<Rect>) {
-        if self.tour.is_none() || area.height < LEAST + TOUR {
-            return (area, None);
-        }
-        let rows = [Min(0), Length(TOUR)];
-        let [above, below] = Layout::vertical(rows).areas(area);
-        (above, Some(below))
+    /// The area of the panels, and that of a tour's caption below them, which is empty where there is none.
+    pub fn with_tour(&self, area: Rect) -> [Rect; 2] {
+        let is_seen = self.tour.is_some() && area.height >= LEAST + TOUR;
+        let rows = [Min(0), Length(TOUR * u16::from(is_seen))];
+        Layout::vertical(rows).areas(area)
     }
 
     /// The panels in their area, each with its place.
     pub fn places(&self, area: Rect) -> Vec<(Panel, Rect)> {
         let (columns, rows) = layout::grid(area);
-        let (area, _) = self.with_tour(area);
+        let [area, _] = self.with_tour(area);
         if self.presents {
             let [contact, beside, _] = present::areas(area);
             let chart = match self.focus {
@@ -97,7 +94,7 @@ impl Stage {
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
-        let (across, down) = layout::grid(layout::middle(self.area));
+        let (across, down) = layout::grid(layout::panels(self.area));
         let room = across * down;
         let next = (self.focus as usize / room + 1) * room;
         self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);

@@ -104,10 +104,8 @@ impl Screen {
     pub fn take_back(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
         self.is_restored = false;
-        self.output.send(TAKE_OVER);
-        if self.mouse {
-            self.output.send(MOUSE_ON);
-        }
+        let mouse = if self.mouse { MOUSE_ON } else { "" };
+        self.output.send(&format!("{TAKE_OVER}{mouse}"));
         self.flow.forget();
         self.start_afresh();
         Ok(())

@@ -50,36 +50,30 @@ pub fn logarithmic(origin: &str) -> impl Iterator<Item = Panel> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tour {
     pub(super) origin: &'static str,
-    captions: &'static [Caption],
     at: usize,
 }
 
 impl Tour {
     /// The tour of a scenario by its name; `None` where there is none.
     pub fn of(origin: &str) -> Option<Self> {
-        let (origin, captions) = TOURS.get_key_value(origin)?;
-        let at = 0;
-        Some(Self {
-            origin,
-            captions,
-            at,
-        })
+        let (origin, _) = TOURS.get_key_value(origin)?;
+        Some(Self { origin, at: 0 })
     }
 
     /// The tour at its next caption; `None` after the last.
     pub fn next(self) -> Option<Self> {
         let at = self.at + 1;
-        (at < self.captions.len()).then_some(Self { at, ..self })
+        (at < captions(self.origin).len()).then_some(Self { at, ..self })
     }
 
     /// The caption that is shown.
     pub fn caption(&self) -> &'static Caption {
-        &self.captions[self.at]
+        &captions(self.origin)[self.at]
     }
 
     /// Draws the caption.
     pub fn draw(&self, mut canvas: Canvas) {
-        let (at, count) = (self.at + 1, self.captions.len());
+        let (at, count) = (self.at + 1, captions(self.origin).len());
         let title = format!("tour {at}/{count} (n next, Esc closes)");
         let text = canvas.printable(&self.caption().text);
         let mut inside = canvas.titled(&title, Role::Notice);

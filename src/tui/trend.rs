@@ -172,8 +172,14 @@ impl Trend {
         let simulation = session.simulation();
         let radius = scar_radius(simulation).unwrap_or(f64::NAN);
         let scar = [largest(simulation.worn_depth()), radius];
-        if self.take(&simulation.moment(), scar) {
-            self.end(&Reading::new(session));
+        let is_end = self.take(&simulation.moment(), scar);
+        let ended = self.cycles.last_mut().filter(|_| is_end);
+        if let Some(entry) = ended.map(Arc::make_mut) {
+            let reading = Reading::new(session);
+            for k in [AMPLITUDE, LOAD] {
+                entry.values[k] = reading.number(COLUMNS[k].0);
+            }
+            entry.fields = Some(Arc::new(history::fields(&reading)));
         }
     }
 
@@ -219,16 +225,6 @@ impl Trend {
             self.stride = 2.0 * self.stride.max(1.0);
         }
         true
-    }
-
-    /// Notes the end of the last entry, which is the moment that is read.
-    fn end(&mut self, reading: &Reading) {
-        if let Some(entry) = self.cycles.last_mut().map(Arc::make_mut) {
-            for k in [AMPLITUDE, LOAD] {
-                entry.values[k] = reading.number(COLUMNS[k].0);
-            }
-            entry.fields = Some(Arc::new(history::fields(reading)));
-        }
     }
 
     /// The cycles so far, the unfinished one included, oldest first.

@@ -3,7 +3,7 @@
 use super::*;
 
 /// What follows a key that an overlay has taken.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub enum Answer {
     /// It stays.
     Stay,
@@ -12,7 +12,7 @@ pub enum Answer {
     /// It has done what it was opened for: of what lies under it, only the form waits for the next change.
     Done,
     /// Another one is laid on it.
-    Open(Open),
+    Open(Overlay),
     /// A command is carried out, and it stays: the run can be watched from there.
     Watch(Command),
     /// All overlays close, and a command is carried out.

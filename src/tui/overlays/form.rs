@@ -103,8 +103,7 @@ impl Form {
             return Answer::Stay;
         }
         if setting.words().is_some() {
-            let key = setting.parameter.path;
-            return Answer::Open(Open::Words { key, typed });
+            return Answer::Open(Overlay::Palette(Palette::choosing(setting, typed)));
         }
         let now = setting.value.as_ref().map(|_| setting.shown(true));
         let text = typed.map(String::from).or(now);

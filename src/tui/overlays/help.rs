@@ -21,7 +21,7 @@ impl Help {
             (_, Some(Command::Up)) => first.saturating_sub(1),
             (_, Some(Command::Down)) => (first + 1).min(last),
             (_, Some(Command::Back | Command::Help | Command::Accept)) => return Answer::Close,
-            (_, Some(Command::Search)) => return Answer::Open(Open::Palette),
+            (_, Some(Command::Search)) => return Answer::Watch(Command::Search),
             (_, other) => return leave_for(other),
         };
         Answer::Stay

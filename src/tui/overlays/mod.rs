@@ -6,7 +6,7 @@ use ratatui::prelude::*;
 use ratatui::widgets::Paragraph;
 
 use super::canvas::Canvas;
-use super::command::{self, Command, Open};
+use super::command::{self, Command};
 use super::explorer::Explorer;
 use super::frame::Frame;
 use super::keys::{Key, Named};

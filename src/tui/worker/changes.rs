@@ -20,7 +20,7 @@ const LAWS: [&str; 2] = ["archard", "power"];
 impl Worker {
     /// Changes the transform method by this many places, that of the comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
-        if let Some(comparison) = &self.companions.comparison {
+        if let Some(comparison) = &self.comparison {
             return self.compare(places, comparison.from);
         }
         let now = self.run.simulation().setup().method;
@@ -81,7 +81,7 @@ impl Worker {
     /// The scenario is another one than before: so are what is known of it and what tells its error.
     pub(super) fn renew(&mut self) {
         self.facts = Facts::of(&self.run.session);
-        self.companions.twin = Twin::of(&self.run.session);
+        self.twin = Twin::of(&self.run.session);
     }
 
     /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
@@ -124,7 +124,7 @@ impl Worker {
         self.past.leave();
         self.snapshots.clear();
         self.run = run;
-        self.companions.comparison = None;
+        self.comparison = None;
         self.renew();
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

@@ -8,16 +8,8 @@ use crate::tui::ghosts::MOST;
 /// How long each catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 
-/// The runs and curves beside the run.
-#[derive(Default)]
-pub(super) struct Companions {
-    pub comparison: Option<ComparisonRun>,
-    pub ghosts: Vec<Source>,
-    pub twin: Option<Twin>,
-}
-
-impl Companions {
-    /// The runs that are seen.
+impl Worker {
+    /// The runs beside it that are seen.
     fn seen(&mut self) -> impl Iterator<Item = &mut Beside> {
         let ghosts = self.ghosts.iter_mut();
         let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
@@ -25,35 +17,33 @@ impl Companions {
         comparison.map(|run| &mut run.beside).chain(ghosts)
     }
 
-    /// Lets what is seen come nearer to `cycle`.
-    pub fn follow(&mut self, cycle: f64) {
+    /// Lets what is seen come nearer to the run.
+    pub(super) fn follow(&mut self) {
+        let cycle = self.run.cycle();
         self.seen()
             .for_each(|beside| beside.follow(cycle, cycle, CATCH_UP));
     }
 
-    /// Lets the twin come nearer to `cycle`.
-    pub fn follow_with_twin(&mut self, cycle: f64, budget: Duration) {
+    /// Lets the twin come nearer to the run.
+    pub(super) fn follow_with_twin(&mut self, budget: Duration) {
         if let Some(twin) = &mut self.twin {
-            twin.follow_for(cycle, budget);
+            twin.follow_for(self.run.cycle(), budget);
         }
     }
-}
 
-impl Worker {
     /// Whether anything is not yet where the run is; a run does not wait for its twin.
     pub(super) fn is_awaited(&mut self) -> bool {
         let cycle = self.run.cycle();
-        let twin = self.companions.twin.as_ref();
+        let twin = self.twin.as_ref();
         let twin = twin.filter(|_| self.activity != Activity::Running);
         let twin_lags = twin.is_some_and(|twin| twin.lags(cycle));
-        twin_lags || self.companions.seen().any(|beside| beside.lags(cycle))
+        twin_lags || self.seen().any(|beside| beside.lags(cycle))
     }
 
     /// Lets what runs beside come nearer to the run for a moment.
     pub(super) fn catch_up(&mut self) {
-        let cycle = self.run.cycle();
-        self.companions.follow(cycle);
-        self.companions.follow_with_twin(cycle, CATCH_UP);
+        self.follow();
+        self.follow_with_twin(CATCH_UP);
         if self.screen.is_due() || !self.is_awaited() {
             self.publish();
         }
@@ -61,7 +51,7 @@ impl Worker {
 
     /// Has the twin tell the errors of the present moment.
     pub fn estimate_errors(&mut self) {
-        let twin = self.companions.twin.as_mut();
+        let twin = self.twin.as_mut();
         if let Some(twin) = twin.filter(|_| self.past.present().is_none()) {
             twin.look_at(&self.run.session, true);
         }
@@ -69,7 +59,7 @@ impl Worker {
 
     /// The cycle up to which the errors of the run are known, and what they are; else why they are not.
     pub(super) fn errors(&self) -> Result<(f64, Difference), String> {
-        match &self.companions.twin {
+        match &self.twin {
             // The twin has looked at the present.
             _ if self.past.present().is_some() => Err("of the present: ] leads there".into()),
             Some(twin) => twin.told(self.run.cycle()),
@@ -79,14 +69,14 @@ impl Worker {
 
     /// Begins or ends the comparison with another method.
     pub fn compare_or_stop(&mut self) {
-        if self.companions.comparison.take().is_none() {
+        if self.comparison.take().is_none() {
             self.compare(0, From::Now);
         }
     }
 
     /// Starts a comparison, this many places after the previous one, from now or from the start.
     pub(in crate::tui) fn compare(&mut self, places: isize, from: From) {
-        let before = self.companions.comparison.as_ref();
+        let before = self.comparison.as_ref();
         let begun = ComparisonRun::beside(&self.run.session, before, places, from);
         if let Some(comparison) = self.screen.or_notice(begun) {
             let setup = comparison.beside.run.simulation().setup();
@@ -95,7 +85,7 @@ impl Worker {
                 From::Now => format!("comparing with {name} from here; C: from the start"),
                 From::Start => format!("comparing with {name} from the start"),
             });
-            self.companions.comparison = Some(comparison);
+            self.comparison = Some(comparison);
         }
     }
 
@@ -113,18 +103,18 @@ impl Worker {
     }
 
     fn add_ghost(&mut self, ghost: Source) {
-        if self.companions.ghosts.len() >= MOST {
+        if self.ghosts.len() >= MOST {
             let told = format!("{MOST} ghosts are there already; G removes them");
             return self.screen.notice(&told);
         }
         let told = format!("{} is over the plots now; G removes it", ghost.name());
         self.screen.notice(&told);
-        self.companions.ghosts.push(ghost);
+        self.ghosts.push(ghost);
     }
 
     /// Takes all of them away.
     pub fn drop_ghosts(&mut self) {
-        if std::mem::take(&mut self.companions.ghosts).is_empty() {
+        if std::mem::take(&mut self.ghosts).is_empty() {
             let told = "there is no ghost; g freezes this state, :overlay FILE takes a file";
             self.screen.notice(told);
         }

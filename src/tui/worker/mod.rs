@@ -24,7 +24,6 @@ use super::trend::Recorded;
 use super::undo::Past;
 use crate::panics::locked;
 use crate::reading::Curves;
-use companions::Companions;
 use outlet::Outlet;
 
 mod changes;
@@ -77,8 +76,11 @@ pub struct Worker {
     /// The cycles of the snapshots of this run.
     snapshots: Vec<f64>,
     cycle_loads: CycleLoads,
-    /// What runs beside, or lies over the plots.
-    companions: Companions,
+    comparison: Option<ComparisonRun>,
+    /// What lies over the plots.
+    pub(super) ghosts: Vec<Source>,
+    /// The coarser run that tells the errors of this one.
+    twin: Option<Twin>,
     activity: Activity,
     /// Whether the user has been told that the planned end is reached.
     told_of_end: bool,
@@ -103,10 +105,9 @@ impl Worker {
         let run = run.into();
         Self {
             facts: Facts::of(&run.session),
-            companions: Companions {
-                twin: Twin::of(&run.session),
-                ..Companions::default()
-            },
+            comparison: None,
+            ghosts: Vec::new(),
+            twin: Twin::of(&run.session),
             autosave: Arc::new(Mutex::new(ScreenAutosave::new(None, None, &run.session))),
             run,
             past: Past::default(),
@@ -123,13 +124,6 @@ impl Worker {
             screen: Outlet::new(events, interval),
             halt: Arc::default(),
         }
-    }
-
-    /// The same with ghosts over the plots.
-    #[must_use]
-    pub fn with_ghosts(mut self, ghosts: Vec<Source>) -> Self {
-        self.companions.ghosts = ghosts;
-        self
     }
 
     /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;

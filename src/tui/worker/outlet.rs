@@ -7,6 +7,7 @@ use crate::charts::{Live, Run};
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
 use crate::reading::{CycleFigures, Observation};
+use crate::tui::beside::COMPARED;
 use crate::tui::frame::Slot;
 use crate::tui::line::one_line;
 
@@ -92,12 +93,11 @@ impl Worker {
             self.facts = Facts::of(&self.run.session);
         }
         let simulation = self.run.simulation();
-        // A comparison subtracts profiles; the screen that asked for it may not have shown one.
-        let compared = match self.companions.comparison {
-            Some(_) => Curves::PROFILE | Curves::PRESSURE,
-            None => Curves::empty(),
+        let curves = match self.comparison {
+            Some(_) => self.curves | COMPARED,
+            None => self.curves,
         };
-        let observation = simulation.observe(self.curves | compared);
+        let observation = simulation.observe(curves);
         let load = self.curves.contains(Curves::SPRINGS).then(|| {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
@@ -106,14 +106,10 @@ impl Worker {
         let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
         let peaks = load.as_ref().filter(|_| touches);
         let peaks = peaks.map(|load| shown.map(|of| load.largest(of)));
-        let checks = match observation.pressure.is_empty() {
-            true => Vec::new(),
-            false => self.run.session.checks(),
-        };
         let is_running = self.activity == Activity::Running;
         let figures = self.run.session.cycle_figures();
         Frame {
-            run: self.charted(&observation, figures.as_ref()),
+            run: self.charted(&observation, figures.as_ref(), curves),
             facts: Arc::clone(&self.facts),
             load,
             cycle_loads: self.cycle_loads.all(),
@@ -129,20 +125,20 @@ impl Worker {
             changes: self.past.line(&self.run).session.changes().to_vec(),
             snapshots: self.snapshots.clone(),
             errors: self.errors(),
-            checks,
-            comparison: self.companions.comparison.as_ref().map(ComparisonRun::seen),
+            checks: self.run.session.checks(),
+            comparison: self.comparison.as_ref().map(ComparisonRun::seen),
         }
     }
 
-    /// What charts are made of: what is `seen` of the present moment, the past, and other sources.
-    fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>) -> Run {
+    /// What charts are made of: what is `seen` of the present moment, the past, and `curves` of other sources.
+    fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>, curves: Curves) -> Run {
         let (facts, trend) = (&self.facts, &self.run.trend);
         let (moment, load) = (seen.moment, &seen.normal_load);
         let setup = self.run.simulation().setup();
         let material = &setup.material;
-        let ghosts = self.companions.ghosts.iter();
+        let ghosts = self.ghosts.iter();
         Run {
-            ghosts: ghosts.map(|ghost| ghost.seen(self.curves)).collect(),
+            ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
             theory: Some(Arc::clone(&facts.theory)),
             indenter: Some(setup.indenter.clone()),
             live: Some(Live {

@@ -79,10 +79,9 @@ impl Worker {
         }
         let simulation = self.run.simulation();
         self.clock.measure(simulation, start.elapsed());
-        let cycle = simulation.cycle();
         let waits = self.clock.shows_ends(simulation) && !self.screen.is_due_after(AT_LEAST);
         self.run.trend.step_cost = self.clock.step_cost;
-        self.companions.follow_with_twin(cycle, TWIN_STINT);
+        self.follow_with_twin(TWIN_STINT);
         if self.screen.is_due() && !waits || self.activity != Activity::Running {
             self.publish();
         }
@@ -108,12 +107,12 @@ impl Worker {
         }
         let is_running = self.activity == Activity::Running;
         let (ends_cycle, is_end) = (ends_cycle(before, cycle), self.has_reached_end(before));
-        let twin = self.companions.twin.as_mut();
+        let twin = self.twin.as_mut();
         if let Some(twin) = twin.filter(|_| ends_cycle || is_end) {
             // Steps by hand are few, and each is looked at.
             twin.look_at(&self.run.session, is_end || !is_running);
         }
-        self.companions.follow(cycle);
+        self.follow();
         if ends_cycle && self.kept_at.elapsed() > APART {
             self.keep();
         }

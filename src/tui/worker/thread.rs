@@ -27,7 +27,7 @@ struct EndReport(Sender<Event>);
 
 impl Drop for EndReport {
     fn drop(&mut self) {
-        let _ = self.0.send(Event::WorkerGone);
+        let _ = self.0.send(Event::HangUp);
     }
 }
 

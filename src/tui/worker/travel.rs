@@ -34,7 +34,7 @@ impl Worker {
             return self.screen.notice(end);
         };
         self.run = kept.run.clone();
-        self.companions.comparison = None;
+        self.comparison = None;
         self.activity = Activity::Paused;
         self.facts = Facts::of(&self.run.session);
     }

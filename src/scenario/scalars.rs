@@ -41,10 +41,7 @@ pub fn number(value: f64) -> String {
 
 /// Returns a number as a field, empty where it is not known.
 pub fn field(value: f64) -> String {
-    match value.is_finite() {
-        true => number(value),
-        false => String::new(),
-    }
+    cell(&value.into())
 }
 
 /// The present moment of a session, read for some scalars. What several scalars need is computed

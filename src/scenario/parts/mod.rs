@@ -121,7 +121,7 @@ impl Parts<'_> {
                 &self.require::<String>("numerics.integrator")?,
                 self.require("numerics.tolerance")?,
             )
-            .map_err(|invalid| self.refused("numerics", invalid))?,
+            .map_err(self.refused("numerics"))?,
         };
         Ok(setup)
     }
@@ -197,12 +197,14 @@ impl Parts<'_> {
         self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
-    /// Adds the table to what a constructor refused.
-    fn refused(&self, section: &str, invalid: Invalid) -> Refusal {
-        let path = format!("{section}.{}", invalid.field);
-        match self.has(&path) {
-            true => self.refuse(&path, invalid.rule),
-            false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+    /// What becomes of a field that the constructor of a part refused: a key of `section`.
+    fn refused(&self, section: &str) -> impl Fn(Invalid) -> Refusal {
+        move |invalid| {
+            let path = join(section, invalid.field);
+            match self.has(&path) {
+                true => self.refuse(&path, invalid.rule),
+                false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+            }
         }
     }
 
@@ -235,8 +237,7 @@ impl Parts<'_> {
             true => power,
             false => power.and(WearLaw::archard(coefficient)),
         };
-        law.map(Some)
-            .map_err(|invalid| self.refused("wear", invalid))
+        law.map(Some).map_err(self.refused("wear"))
     }
 
     /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
@@ -300,7 +301,7 @@ impl Parts<'_> {
                 return Err(self.refuse("numerics.nodes", rule));
             }
         };
-        grid.map_err(|invalid| self.refused("numerics", invalid))
+        grid.map_err(self.refused("numerics"))
     }
 
     /// Where the nodes lie: as the list says, if there is one.

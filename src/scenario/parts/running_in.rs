@@ -32,7 +32,7 @@ impl Parts<'_> {
         if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
             let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
-            all.wear = Some(constant.map_err(|invalid| self.refused("wear", invalid))?);
+            all.wear = Some(constant.map_err(self.refused("wear"))?);
         }
         Ok((all != RunningIn::default()).then_some(all))
     }
@@ -53,9 +53,7 @@ impl Parts<'_> {
             } else {
                 continue;
             };
-            return course
-                .map(Some)
-                .map_err(|invalid| self.refused(section, invalid));
+            return course.map(Some).map_err(self.refused(section));
         }
         if self.has(&key("settled")) {
             let constants = forms.map(|(_, constant, _)| key(constant));

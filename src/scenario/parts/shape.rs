@@ -33,7 +33,7 @@ impl Parts<'_> {
             }
             _ => Indenter::paraboloid(of("radius")?),
         }
-        .map_err(|invalid| self.refused("indenter", invalid))
+        .map_err(self.refused("indenter"))
     }
 
     fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Refusal> {

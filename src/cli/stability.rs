@@ -49,7 +49,7 @@ fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result
     let mut wear_numbers = options.wear_numbers.clone();
     wear_numbers.sort_by(f64::total_cmp);
     let length = settings.len() * wear_numbers.len();
-    let bar = progress::bar(length as u64, progress::COUNTS, options.output.quiet);
+    let bar = progress::bar(length, progress::COUNTS, options.output.quiet);
     let mut lines = Vec::new();
     for setting in settings.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));

@@ -78,11 +78,7 @@ fn run(
     let (points, steps) = (&options.points, &options.steps);
     let settings = trade::settings(scenario, &options.methods, points, steps);
     let finest = trade::reference(scenario, points, steps);
-    let bar = progress::bar(
-        settings.len() as u64,
-        progress::COUNTS,
-        options.output.quiet,
-    );
+    let bar = progress::bar(settings.len(), progress::COUNTS, options.output.quiet);
     let measure = |setting: &Setting, what: &str| {
         bar.set_message(format!("{what}{setting} by {}", setting.scheme));
         bar.tick();

@@ -34,7 +34,7 @@ pub fn verify(options: &Verify) -> Result<()> {
 }
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
-    let bar = progress::bar(tasks.len() as u64, progress::COUNTS, quiet);
+    let bar = progress::bar(tasks.len(), progress::COUNTS, quiet);
     let outcomes = tasks.iter().map(|task| {
         let (problem, method, points) = (task.problem, task.method, task.points);
         bar.set_message(format!("{problem}, {method}, N = {points}"));

@@ -156,17 +156,17 @@ fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> 
 
 /// The number of samples and the seed of a sampled design.
 fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
-    let design = written.design;
-    match (design.most_samples(), written.samples, written.seed) {
-        (None, None, None) => Ok(None),
-        (None, ..) => error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""),
-        (Some(_), None, _) => error(format!(
+    let (design, seed) = (written.design, written.seed);
+    let Some(most) = design.most_samples() else {
+        let rule = "samples and seed go with design = \"latin-hypercube\" or \"sobol\"";
+        return ensure(written.samples.is_none() && seed.is_none(), rule).map(|()| None);
+    };
+    match written.samples {
+        None => error(format!(
             "samples is missing: the number of points that design = \"{design}\" draws"
         )),
-        (Some(most), Some(samples), seed) if (1..=most).contains(&samples) => {
-            Ok(Some((samples, seed.unwrap_or(0))))
-        }
-        (Some(most), Some(samples), _) => {
+        Some(samples) if (1..=most).contains(&samples) => Ok(Some((samples, seed.unwrap_or(0)))),
+        Some(samples) => {
             let rule = format!("must be a whole number from 1 to {most}");
             refuse("samples", samples, rule)
         }

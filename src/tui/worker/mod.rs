@@ -107,7 +107,11 @@ impl Worker {
                 twin: Twin::of(&run.session),
                 ..Companions::default()
             },
-            autosave: Arc::new(Mutex::new(ScreenAutosave::new(None, None, &run.session))),
+            autosave: Arc::new(Mutex::new(ScreenAutosave::new(
+                None,
+                Duration::ZERO,
+                &run.session,
+            ))),
             run,
             past: Past::default(),
             kept_at: Instant::now(),

@@ -130,9 +130,8 @@ impl<'a> Reading<'a> {
     fn stated(&self, key: &str) -> Value {
         let mut stated = self.session.statements().iter();
         let found = stated.find(|(known, _)| known == key);
-        found
-            .and_then(|(_, value)| value.parse::<f64>().ok())
-            .into()
+        let number = found.and_then(|(_, value)| value.parse::<f64>().ok());
+        number.into()
     }
 
     fn worn(&self) -> &[f64] {

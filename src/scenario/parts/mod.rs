@@ -103,7 +103,7 @@ impl Parts<'_> {
         if let Some(scar) = &scar {
             self.check_scar(scar, &indenter, grid.radius())?;
         }
-        let setup = Setup {
+        Ok(Setup {
             scar,
             grid,
             hardness: self.hardness(),
@@ -122,8 +122,7 @@ impl Parts<'_> {
                 self.require("numerics.tolerance")?,
             )
             .map_err(self.refused("numerics"))?,
-        };
-        Ok(setup)
+        })
     }
 
     /// The value of a key, where it is given.
@@ -293,11 +292,8 @@ impl Parts<'_> {
             None => RadialGrid::uniform(points, radius),
             Some(nodes) if nodes.len() == points + 1 => RadialGrid::restored(nodes, None),
             Some(nodes) => {
-                let rule = format!(
-                    "must be {} numbers, one more than points, not {}",
-                    points + 1,
-                    nodes.len()
-                );
+                let (wanted, given) = (points + 1, nodes.len());
+                let rule = format!("must be {wanted} numbers, one more than points, not {given}");
                 return Err(self.refuse("numerics.nodes", rule));
             }
         };

@@ -23,8 +23,8 @@ impl Parts<'_> {
         }
         let tangential = self
             .has(TANGENTIAL)
-            .then(|| self.control(TANGENTIAL, NORMAL))
-            .transpose()?;
+            .then(|| self.control(TANGENTIAL, NORMAL));
+        let tangential = tangential.transpose()?;
         let frequency = |control: &Control| control.oscillation().angular_frequency();
         let cycle = tangential.as_ref().map(frequency);
         if cycle.is_some_and(|cycle| frequency(&normal) > HIGHEST_RATIO * cycle) {

@@ -17,12 +17,9 @@ impl Parts<'_> {
         };
         if let Some(per_load) = self.get("wear.coefficient_per_load") {
             all.wear = None;
-            all.wear_per_load = all.friction.as_ref().map(|_| per_load);
-            if all
-                .friction
-                .as_ref()
-                .is_some_and(|friction| friction.least() <= 0.0)
-            {
+            let least = all.friction.as_ref().map(Course::least);
+            all.wear_per_load = least.map(|_| per_load);
+            if least.is_some_and(|least| least <= 0.0) {
                 let rule = "needs friction greater than 0 at all times: per friction work it is \
                             k = coefficient_per_load / friction";
                 return Err(self.refuse("wear.coefficient_per_load", rule));

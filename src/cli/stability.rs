@@ -25,10 +25,10 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let go_on = || !stop.load(Ordering::Relaxed);
     let lines = lines(&study, options, &go_on)?;
     let interrupted = !go_on();
+    let (cycles, steps) = (number(options.cycles), options.steps);
+    let about = "K = k E* d/a at the start";
     let mut notes = vec![format!(
-        "{title}, {} cycles, {} steps per cycle: K = k E* d/a at the start",
-        number(options.cycles),
-        options.steps
+        "{title}, {cycles} cycles, {steps} steps per cycle: {about}"
     )];
     if interrupted {
         notes.push("interrupted: the last line is not complete".to_owned());

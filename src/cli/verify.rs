@@ -101,10 +101,9 @@ fn verdict(outcomes: &[Outcome]) -> String {
 
 /// What the errors of each problem are.
 fn notes(outcomes: &[Outcome]) -> Vec<String> {
+    let problems = by_problem(outcomes).map(|(problem, _)| problem);
     let note = |problem: Problem| format!("{problem}: {}", problem.facts().description.join(" "));
-    by_problem(outcomes)
-        .map(|(problem, _)| note(problem))
-        .collect()
+    problems.map(note).collect()
 }
 
 /// Curves of the error over r/a, drawn as text: for all quantities of a problem a small plot per method on its finest

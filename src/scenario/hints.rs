@@ -16,10 +16,8 @@ pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let known = parameters().filter(|known| known.also.contains(&word.as_str()));
     let mut known: Vec<&Parameter> = known.collect();
     // A word for keys of several tables is known within each of them alone.
-    if known
-        .windows(2)
-        .any(|pair| pair[0].section() != pair[1].section())
-    {
+    let sections: HashSet<&str> = known.iter().map(|known| known.section()).collect();
+    if sections.len() > 1 {
         known.retain(|known| known.section() == section);
     }
     if known.is_empty() {

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::axis::{self, Axis, Values, known_key};
-use super::design::{Design, MOST_SOBOL_AXES, Spacing};
+use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
 use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
@@ -23,9 +23,6 @@ const COLUMNS: [&str; 4] = [
     "regime",
     "estimated_error",
 ];
-
-/// The most points of a study.
-const MOST_POINTS: usize = 10_000_000;
 
 type Result<T> = std::result::Result<T, Refusal>;
 

@@ -60,8 +60,7 @@ pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
         return Vec::new();
     };
     let Some((key, value)) = typed.split_once('=') else {
-        let known = parameters().iter();
-        let known = known.filter(|known| known.section() != "changes");
+        let known = parameters().filter(|known| known.section() != "changes");
         let begun = known.filter(|known| known.path.starts_with(typed));
         let offered = begun.map(|known| candidate(format!("{}=", known.path), &known.described()));
         return offered.collect();

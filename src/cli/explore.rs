@@ -25,10 +25,8 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let screen = &options.screen;
     let strokes = Stroke::script(screen.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
-    let (marker, look) = (
-        screen.marker.or(config.marker),
-        screen.theme.or(config.theme),
-    );
+    let marker = screen.marker.or(config.marker);
+    let look = screen.theme.or(config.theme);
     let colored = screen.color.or(config.color);
     let colored = colored.and_then(ColorChoice::is_colored);
     command::bind(config.keys);
@@ -66,7 +64,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         map,
         ghosts,
         keep_in: autosave::state_directory(),
-        keep_every: Some(options.checkpoint_every).filter(|every| !every.is_zero()),
+        keep_every: options.checkpoint_every,
         fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         theme: tui::theme_of(marker, colored, look),
         present: options.present,

@@ -29,11 +29,8 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     let fit = Fit::new(found.scenario, data(options)?, free, cycles, robust)?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let bar = progress::bar(0, "{pos} runs  {elapsed} gone", options.quiet);
-    let mut runs = 0;
-    let outcome = fit.run(&mut || {
-        runs += 1;
-        bar.inc(1);
-    });
+    let outcome = fit.run(&|| bar.inc(1));
+    let runs = bar.position();
     bar.finish_and_clear();
     let fitted = outcome?;
     if let Some(target) = target {

@@ -22,8 +22,8 @@ pub const COUNTS: &str = "{pos} of {len}  {elapsed} gone";
 
 /// A bar of `length`, with `behind` (placeholders of `indicatif`) behind it; silent if `quiet` or if
 /// stderr is no terminal.
-pub fn bar(length: u64, behind: &str, quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(length), target(quiet));
+pub fn bar(length: usize, behind: &str, quiet: bool) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(length as u64), target(quiet));
     if let Ok(style) = ProgressStyle::with_template(&format!("{{msg}} [{{bar:32}}] {behind}")) {
         bar.set_style(style.progress_chars("=> "));
     }
@@ -57,7 +57,7 @@ pub struct Progress(ProgressBar);
 impl Progress {
     /// For `cycles` in all.
     pub fn new(cycles: f64, quiet: bool) -> Self {
-        let bar = bar((cycles * PARTS) as u64, TIMES, quiet);
+        let bar = bar((cycles * PARTS) as usize, TIMES, quiet);
         let reached = |state: &ProgressState, out: &mut dyn fmt::Write| {
             let _ = write!(out, "cycle {:.1}", state.pos() as f64 / PARTS);
         };

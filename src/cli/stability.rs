@@ -25,10 +25,10 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let go_on = || !stop.load(Ordering::Relaxed);
     let lines = lines(&study, options, &go_on)?;
     let interrupted = !go_on();
+    let (cycles, steps) = (number(options.cycles), options.steps);
+    let about = "K = k E* d/a at the start";
     let mut notes = vec![format!(
-        "{title}, {} cycles, {} steps per cycle: K = k E* d/a at the start",
-        number(options.cycles),
-        options.steps
+        "{title}, {cycles} cycles, {steps} steps per cycle: {about}"
     )];
     if interrupted {
         notes.push("interrupted: the last line is not complete".to_owned());
@@ -49,7 +49,7 @@ fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result
     let mut wear_numbers = options.wear_numbers.clone();
     wear_numbers.sort_by(f64::total_cmp);
     let length = settings.len() * wear_numbers.len();
-    let bar = progress::bar(length as u64, progress::COUNTS, options.output.quiet);
+    let bar = progress::bar(length, progress::COUNTS, options.output.quiet);
     let mut lines = Vec::new();
     for setting in settings.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));

@@ -14,7 +14,7 @@ use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Refusal, Scenario};
-use crate::studies::refinement::{Outcome, Reached, Verdict, run_to_accuracy};
+use crate::studies::refinement::{Level, Outcome, Reached, Verdict, run_to_accuracy};
 use crate::studies::trade::{self, Setting, Timed, Trial, cheapest, front, table};
 
 /// Accuracies whose search for a level is timed as well as the fixed settings.
@@ -78,11 +78,7 @@ fn run(
     let (points, steps) = (&options.points, &options.steps);
     let settings = trade::settings(scenario, &options.methods, points, steps);
     let finest = trade::reference(scenario, points, steps);
-    let bar = progress::bar(
-        settings.len() as u64,
-        progress::COUNTS,
-        options.output.quiet,
-    );
+    let bar = progress::bar(settings.len(), progress::COUNTS, options.output.quiet);
     let measure = |setting: &Setting, what: &str| {
         bar.set_message(format!("{what}{setting} by {}", setting.scheme));
         bar.tick();
@@ -94,9 +90,10 @@ fn run(
     };
     let mut half = finest.clone();
     half.level = half.level.scaled(0.5, 0.5);
-    let half = measure(&half, "reference, ").ok();
-    let differs = |(half, _)| Outcome::of(&half).against(&Outcome::of(&reference)).worst();
-    let blur = half.map(differs);
+    let blur = measure(&half, "reference, ").map_or(String::new(), |(half, _)| {
+        let blur = Outcome::of(&half).against(&Outcome::of(&reference)).worst();
+        format!("; a level half as fine differs by {blur:.1e} at worst")
+    });
     let mut trials: Vec<Trial> = Vec::new();
     for setting in &settings {
         let ended = measure(setting, "");
@@ -106,9 +103,6 @@ fn run(
         trials.push(Trial::new(setting.clone(), ended, &reference));
         bar.inc(1);
     }
-    let blur = blur.map_or(String::new(), |blur| {
-        format!("; a level half as fine differs by {blur:.1e} at worst")
-    });
     let mut notes = vec![
         format!(
             "{}, {} cycles: errors at the end of depth (rms, in largest depths), V, E_d and F_x; the \
@@ -135,7 +129,7 @@ fn run(
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
 fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session) -> String {
-    let (seconds, level) = (reached.seconds, &reached.rung.level);
+    let (seconds, Level { points, steps, .. }) = (reached.seconds, &reached.rung.level);
     let errors = reached.rung.outcome.against(&Outcome::of(reference));
     let met = match reached.verdict {
         Verdict::Met => "",
@@ -150,10 +144,8 @@ fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session)
         None => "no fixed setting tried is as good".into(),
     };
     format!(
-        "numerics.accuracy = {accuracy:e}{met}: {seconds:.1e} s in all, ends at N = {}, {} steps per cycle; error of \
-         scar and volume {:.1e}; {beside}",
-        level.points,
-        level.steps,
+        "numerics.accuracy = {accuracy:e}{met}: {seconds:.1e} s in all, ends at N = {points}, {steps} steps per cycle; \
+         error of scar and volume {:.1e}; {beside}",
         errors.promised()
     )
 }

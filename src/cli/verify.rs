@@ -34,7 +34,7 @@ pub fn verify(options: &Verify) -> Result<()> {
 }
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
-    let bar = progress::bar(tasks.len() as u64, progress::COUNTS, quiet);
+    let bar = progress::bar(tasks.len(), progress::COUNTS, quiet);
     let outcomes = tasks.iter().map(|task| {
         let (problem, method, points) = (task.problem, task.method, task.points);
         bar.set_message(format!("{problem}, {method}, N = {points}"));
@@ -101,10 +101,9 @@ fn verdict(outcomes: &[Outcome]) -> String {
 
 /// What the errors of each problem are.
 fn notes(outcomes: &[Outcome]) -> Vec<String> {
+    let problems = by_problem(outcomes).map(|(problem, _)| problem);
     let note = |problem: Problem| format!("{problem}: {}", problem.facts().description.join(" "));
-    by_problem(outcomes)
-        .map(|(problem, _)| note(problem))
-        .collect()
+    problems.map(note).collect()
 }
 
 /// Curves of the error over r/a, drawn as text: for all quantities of a problem a small plot per method on its finest

@@ -34,7 +34,8 @@ pub struct Autosave {
     directory: Option<PathBuf>,
     /// In use since the last attempt at home failed, or where there is none.
     elsewhere: Option<Target>,
-    every: Option<Duration>,
+    /// 0: only on request.
+    every: Duration,
     last: Instant,
     /// The newest checkpoint, and its cycle.
     kept: Option<(PathBuf, f64)>,
@@ -43,8 +44,8 @@ pub struct Autosave {
 
 impl Autosave {
     /// Saves at `home`, and in a free place of `directory` where there is no home or while that fails: once per interval
-    /// `every`, or only on request if `None`.
-    pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Option<Duration>) -> Self {
+    /// `every`, or only on request if that is 0.
+    pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Duration) -> Self {
         Self {
             home,
             directory,
@@ -63,8 +64,8 @@ impl Autosave {
 
     /// Time until the next checkpoint is due; `None` if only on request.
     pub fn wait(&self) -> Option<Duration> {
-        let every = self.every?;
-        Some(every.saturating_sub(self.last.elapsed()))
+        let left = self.every.saturating_sub(self.last.elapsed());
+        (!self.every.is_zero()).then_some(left)
     }
 
     /// Whether it is time for the next.
@@ -282,9 +283,9 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let path = base.path().join("run.checkpoint");
         let every = |every| Autosave::new(Some(path.clone()), None, every);
-        assert!(!every(None).is_due());
-        assert!(!every(Some(Duration::from_secs(60))).is_due());
-        let mut always = every(Some(Duration::ZERO));
+        assert!(!every(Duration::ZERO).is_due());
+        assert!(!every(Duration::from_secs(60)).is_due());
+        let mut always = every(Duration::from_nanos(1));
         assert!(always.is_due());
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
@@ -300,7 +301,7 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let home = base.path().join("run/run.checkpoint");
         let state = base.path().join("state");
-        let mut autosave = Autosave::new(Some(home.clone()), Some(state), None);
+        let mut autosave = Autosave::new(Some(home.clone()), Some(state), Duration::ZERO);
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
         let word = autosave.save(&session, b"one").expect("a word");

@@ -75,15 +75,12 @@ impl Owner {
 
     /// The process, in brackets.
     fn named(&self) -> String {
+        let (process, host) = (self.process, printable(&self.host));
         let hint = match self.is_here() {
             true => "",
             false => "; if it is gone, remove the lock file",
         };
-        format!(
-            " (process {} on {}{hint})",
-            self.process,
-            printable(&self.host)
-        )
+        format!(" (process {process} on {host}{hint})")
     }
 }
 

@@ -53,9 +53,8 @@ impl History {
 
     /// The names of all columns.
     fn names(&self) -> impl Iterator<Item = &str> {
-        COLUMNS
-            .into_iter()
-            .chain(self.further.iter().map(String::as_str))
+        let further = self.further.iter().map(String::as_str);
+        COLUMNS.into_iter().chain(further)
     }
 
     /// The columns of the present moment of `session` with their values.

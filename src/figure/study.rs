@@ -7,8 +7,9 @@ use crate::math::scan::range;
 use crate::plot::colormap::ColorMap;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
+use crate::reading::Regime;
 use crate::scenario::{scalars, schema};
-use crate::studies::sweep::slice::{Line, REGIMES, Slice};
+use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{self, Design};
 use crate::traces::unit_of;
 
@@ -149,7 +150,7 @@ pub fn quantity(column: &str, values: &[f64]) -> Axis {
 /// The values of a column at points; those of the regimes are the numbers of their words.
 fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> Vec<f64> {
     let value = |point| match column {
-        REGIME => slice.regime(point).map(|word| word as f64),
+        REGIME => slice.regime(point).map(|regime| f64::from(regime as u8)),
         _ => slice.number(point, column),
     };
     points
@@ -191,7 +192,7 @@ fn map(
         values,
         colors: ColorMap::Sequential,
         words: match is_regime {
-            true => REGIMES.map(|(_, words)| words).to_vec(),
+            true => Regime::ALL.map(Regime::title).to_vec(),
             false => Vec::new(),
         },
         places: [xs, ys],
@@ -208,7 +209,7 @@ fn map(
         let end = line.at.last().map(|&end| spot(end));
         chart.points.extend(end.map(|(x, y)| Point {
             at: [x, y],
-            sign: line.letter,
+            sign: line.letter(),
             role: Role::Title,
         }));
         let curve = Curve::new(line.name, xs, ys, Role::Border(k));
@@ -224,7 +225,7 @@ fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
     let [(_, _, across), (_, _, up)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
     let [wide, high] = slice.size();
     let regime = |x: usize, y: usize| slice.regime(slice.point_at(x, y));
-    let differ = |a: Option<usize>, b: Option<usize>| a.zip(b).is_some_and(|(a, b)| a != b);
+    let differ = |a: Option<Regime>, b: Option<Regime>| a.zip(b).is_some_and(|(a, b)| a != b);
     let mut border = Vec::new();
     for y in 0..high {
         for x in 0..wide {
@@ -276,7 +277,7 @@ fn points(slice: &Slice, column: &str) -> Chart {
             {
                 chart.marks.push(Mark {
                     x: edge,
-                    label: REGIMES[after].1,
+                    label: after.title(),
                     role: Role::Quiet,
                 });
             }

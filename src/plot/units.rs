@@ -274,7 +274,7 @@ mod tests {
             for ascii in [true, false] {
                 let (number, of) = reading(value, unit, ascii);
                 assert!(!ascii || of.is_ascii());
-                let known = parameters().iter().find(|known| known.unit == unit);
+                let known = parameters().find(|known| known.unit == unit);
                 let read = quantity(&format!("{number} {of}"), known.expect("a key"), false);
                 if let Some(Ok(read)) = read {
                     assert!(

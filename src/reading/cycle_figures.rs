@@ -23,7 +23,7 @@
 //! in units of U. A, B and D: S. Fouvry, P. Kapsa, L. Vincent (1995), Wear 185, 35–46.
 
 use serde::{Deserialize, Serialize};
-use strum::IntoStaticStr;
+use strum::{EnumString, IntoStaticStr};
 
 use crate::math::root;
 use crate::simulation::{Setup, Simulation};
@@ -33,7 +33,7 @@ use crate::simulation::{Setup, Simulation};
 const CLOSED_LOOP: f64 = 0.005;
 
 /// The running condition of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, IntoStaticStr)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, EnumString, IntoStaticStr)]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]
 pub enum Regime {
@@ -48,6 +48,9 @@ pub enum Regime {
 }
 
 impl Regime {
+    /// Every regime, in the order of legends.
+    pub const ALL: [Self; 4] = [Self::Stick, Self::Partial, Self::Gross, Self::Open];
+
     /// The name in files.
     pub fn name(self) -> &'static str {
         self.into()

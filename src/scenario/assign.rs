@@ -10,13 +10,11 @@ use super::values;
 
 /// Splits `KEY=VALUE`, which stands at `place`.
 pub(crate) fn split<'a>(text: &'a str, place: &str) -> Result<(&'a str, &'a str), Refusal> {
-    let halves = text
-        .split_once('=')
-        .map(|(key, value)| (key.trim(), value.trim()));
+    let (key, value) = text.split_once('=').unwrap_or_default();
+    let (key, value) = (key.trim(), value.trim());
     let rule = "must be KEY=VALUE, as in numerics.points=400";
-    halves
-        .filter(|(key, value)| !key.is_empty() && !value.is_empty())
-        .ok_or_else(|| Refusal::new(place, rule))
+    let whole = (!key.is_empty() && !value.is_empty()).then_some((key, value));
+    whole.ok_or_else(|| Refusal::new(place, rule))
 }
 
 /// Puts `value` at the dotted path `key`; `written` is how the user wrote it.
@@ -84,7 +82,7 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
     let is_punch = |shape: &str| shape == "flat-punch";
     let before: Option<String> = schema::read(table, "indenter.shape");
     let was_punch = before.is_some_and(|before| is_punch(&before));
-    let others = schema::parameters().iter().filter(|key| !key.is_of(shape));
+    let others = schema::parameters().filter(|key| !key.is_of(shape));
     for key in others {
         values::remove(table, key.path);
     }

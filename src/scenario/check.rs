@@ -101,10 +101,7 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
             continue;
         };
         section(table, "changes", &shown, origin, faults);
-        for parameter in schema::parameters()
-            .iter()
-            .filter(|known| known.section() == "changes")
-        {
+        for parameter in schema::parameters().filter(|known| known.section() == "changes") {
             if !table.contains_key(parameter.key()) && !faults.covers(parameter.path) {
                 let shown = values::join(&shown, parameter.key());
                 faults.note(&shown, origin.missing(&shown, parameter.described()));

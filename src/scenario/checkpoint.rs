@@ -172,10 +172,8 @@ pub fn decode<E: DeserializeOwned>(
 /// Length and checksum of the second line.
 fn promise(line: &str) -> Option<(u64, u32)> {
     let (length, checksum) = line.strip_suffix('\n')?.split_once(" bytes, CRC-32 ")?;
-    let (length, checksum) = (
-        length.parse().ok()?,
-        u32::from_str_radix(checksum, 16).ok()?,
-    );
+    let length = length.parse().ok()?;
+    let checksum = u32::from_str_radix(checksum, 16).ok()?;
     (line == seal(length, checksum)).then_some((length, checksum))
 }
 

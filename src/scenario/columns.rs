@@ -80,9 +80,8 @@ impl Columns {
         };
         let refuse = |error| Refusal::new(path, format!("{}{hint}", problem(&error)));
         let names = reader.headers().map_err(refuse)?.iter();
-        let names: Vec<String> = names
-            .map(|name| name.trim_start_matches('\u{feff}').to_owned())
-            .collect();
+        let names = names.map(|name| name.trim_start_matches('\u{feff}').to_owned());
+        let names: Vec<String> = names.collect();
         if names.iter().any(|name| name.parse::<f64>().is_ok()) {
             let rule = "the first line must name the columns, as in r_m,f_m";
             return Err(Refusal::new(path, rule));

@@ -3,7 +3,7 @@
 
 use toml::{Table, Value};
 
-use super::schema::{self, Default, Kind};
+use super::schema::{self, Default, Kind, Parameter};
 use super::values;
 
 /// Tables that every scenario has, written or not.
@@ -27,10 +27,8 @@ pub(super) fn table(written: &Table) -> Table {
     let usual = has_usual_accuracy(written).then_some(Value::Float(USUAL_ACCURACY));
     let has_accuracy = values::at(written, ACCURACY).is_some() || usual.is_some();
     let mut complete = Table::new();
-    for parameter in schema::parameters()
-        .iter()
-        .filter(|known| !["run", "changes"].contains(&known.section()))
-    {
+    let is_apart = |known: &Parameter| ["run", "changes"].contains(&known.section());
+    for parameter in schema::parameters().filter(|known| !is_apart(known)) {
         // These are found before the run, and written then.
         let chosen = has_accuracy
             && (CHOSEN_BY_ACCURACY.contains(&parameter.path)

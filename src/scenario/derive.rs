@@ -15,12 +15,10 @@ const ROOM_TO_SINK: f64 = 3.0;
 const BEYOND_SETTLED: f64 = 1.05;
 
 /// Grid and scheme where the scenario gives none: the published methods run as they were published.
-pub(super) fn choices(method: AbelMethod) -> (Spacing, Scheme) {
-    match method {
-        AbelMethod::Product => (Spacing::Graded, Scheme::Trapezoid),
-        AbelMethod::Benad | AbelMethod::A | AbelMethod::B | AbelMethod::APlusB => {
-            (Spacing::Uniform, Scheme::Euler)
-        }
+pub fn choices(method: AbelMethod) -> (Spacing, Scheme) {
+    match AbelMethod::PUBLISHED.contains(&method) {
+        true => (Spacing::Uniform, Scheme::Euler),
+        false => (Spacing::Graded, Scheme::Trapezoid),
     }
 }
 

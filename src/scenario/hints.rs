@@ -13,30 +13,24 @@ use super::values::split;
 pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let (section, key) = split(path);
     let word = key.to_lowercase();
-    let known = parameters().iter();
-    let mut known: Vec<&Parameter> = known
-        .filter(|known| known.also.contains(&word.as_str()))
-        .collect();
+    let known = parameters().filter(|known| known.also.contains(&word.as_str()));
+    let mut known: Vec<&Parameter> = known.collect();
     // A word for keys of several tables is known within each of them alone.
-    if known
-        .windows(2)
-        .any(|pair| pair[0].section() != pair[1].section())
-    {
+    let sections: HashSet<&str> = known.iter().map(|known| known.section()).collect();
+    if sections.len() > 1 {
         known.retain(|known| known.section() == section);
     }
     if known.is_empty() {
         let near = nearest(path, places().into_iter());
         return near.map(|key| (key, "")).into_iter().collect();
     }
-    known
-        .iter()
-        .map(|known| (known.path, known.remark))
-        .collect()
+    let told = known.iter().map(|known| (known.path, known.remark));
+    told.collect()
 }
 
 /// All keys and tables.
 fn places() -> Vec<&'static str> {
-    let all = parameters().iter().flat_map(|Parameter { path, .. }| {
+    let all = parameters().flat_map(|Parameter { path, .. }| {
         let tables = path.match_indices('.').map(|(at, _)| &path[..at]);
         tables.chain([*path])
     });

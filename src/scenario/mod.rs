@@ -39,6 +39,7 @@ pub(crate) mod write;
 
 pub use changes::{Change, MOST_CHANGES};
 pub use complete::USUAL_ACCURACY;
+pub use derive::choices;
 use error::{Faults, Origin, echo};
 pub use error::{Refusal, printable};
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};

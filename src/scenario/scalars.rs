@@ -41,10 +41,7 @@ pub fn number(value: f64) -> String {
 
 /// Returns a number as a field, empty where it is not known.
 pub fn field(value: f64) -> String {
-    match value.is_finite() {
-        true => number(value),
-        false => String::new(),
-    }
+    cell(&value.into())
 }
 
 /// The present moment of a session, read for some scalars. What several scalars need is computed
@@ -133,9 +130,8 @@ impl<'a> Reading<'a> {
     fn stated(&self, key: &str) -> Value {
         let mut stated = self.session.statements().iter();
         let found = stated.find(|(known, _)| known == key);
-        found
-            .and_then(|(_, value)| value.parse::<f64>().ok())
-            .into()
+        let number = found.and_then(|(_, value)| value.parse::<f64>().ok());
+        number.into()
     }
 
     fn worn(&self) -> &[f64] {

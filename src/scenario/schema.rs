@@ -98,9 +98,7 @@ impl Parameter {
             Kind::Number => Some(Value::Float(number)),
             Kind::Whole => Some(Value::Integer(number as i64)),
             Kind::Flag => Some(Value::Boolean(true)),
-            Kind::Choice(words) => words
-                .first()
-                .map(|known| Value::String(known.word.to_owned())),
+            Kind::Choice(words) => Some(words.first()?.word.into()),
             Kind::Text | Kind::Numbers => None,
         }
     }
@@ -171,14 +169,13 @@ pub(super) struct Schema {
 
 pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
     let table = toml::Deserializer::parse(include_str!("keys.toml"));
-    table
-        .and_then(Schema::deserialize)
-        .expect("the table of keys is whole")
+    let schema = table.and_then(Schema::deserialize);
+    schema.expect("the table of keys is whole")
 });
 
 /// All keys, in the order in which a scenario is written.
-pub fn parameters() -> &'static [Parameter] {
-    &SCHEMA.keys
+pub fn parameters() -> impl Iterator<Item = &'static Parameter> + Clone {
+    SCHEMA.keys.iter()
 }
 
 /// The description of a key that the program names.
@@ -188,12 +185,12 @@ pub(super) fn known(path: &str) -> &'static Parameter {
 
 /// The parameter with this dotted path.
 pub fn find(path: &str) -> Option<&'static Parameter> {
-    parameters().iter().find(|parameter| parameter.path == path)
+    parameters().find(|parameter| parameter.path == path)
 }
 
 /// Whether `path` is a table that holds parameters, directly or in tables of its own.
 pub(super) fn is_section(path: &str) -> bool {
-    parameters().iter().any(|parameter| {
+    parameters().any(|parameter| {
         let rest = parameter.path.strip_prefix(path);
         rest.is_some_and(|rest| rest.starts_with('.'))
     })
@@ -221,11 +218,11 @@ mod tests {
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
         let shapes = known("indenter.shape").kind.words().expect("words");
-        for (i, parameter) in parameters().iter().enumerate() {
+        for (i, parameter) in parameters().enumerate() {
             assert!(!parameter.meaning.is_empty(), "{}", parameter.path);
             assert!(
-                parameters()[..i]
-                    .iter()
+                parameters()
+                    .take(i)
                     .all(|other| other.path != parameter.path),
                 "{} stands twice",
                 parameter.path
@@ -280,9 +277,7 @@ mod tests {
         assert_eq!(snapshots, Some(MOST_SNAPSHOTS));
         // Both directions of the motion have the same keys, but for the rig.
         let of = |section: &'static str| {
-            let keys = parameters()
-                .iter()
-                .filter(move |known| known.section() == section);
+            let keys = parameters().filter(move |known| known.section() == section);
             keys.filter(|known| known.key() != "rig_stiffness")
         };
         for (normal, tangential) in of("motion.normal").zip(of("motion.tangential")) {

@@ -126,11 +126,6 @@ impl Session {
         &self.changes
     }
 
-    /// One step or jump, then the changes that are due.
-    pub fn step(&mut self) -> Result<(), SessionError> {
-        self.step_until(f64::INFINITY)
-    }
-
     /// One step or jump that ends at `cycle` at the latest, and where the next recorded change is to be
     /// made; then the changes that are due.
     pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {

@@ -47,10 +47,8 @@ fn in_words(message: &str) -> String {
     match message.rsplit_once(", expected ") {
         Some((seen, wanted)) => {
             let words = WORDS.iter().find(|(said, _)| *said == wanted);
-            format!(
-                "{seen}, expected {}",
-                words.map_or(wanted, |(_, words)| words)
-            )
+            let wanted = words.map_or(wanted, |(_, words)| words);
+            format!("{seen}, expected {wanted}")
         }
         None => message,
     }

@@ -160,9 +160,8 @@ fn factor(rest: &mut &str) -> Option<Unit> {
         *rest = after;
         return Unit::named("1");
     }
-    let end = rest
-        .find(|c: char| !(c.is_alphabetic() || c == '°'))
-        .unwrap_or(rest.len());
+    let is_of_symbol = |c: char| c.is_alphabetic() || c == '°';
+    let end = rest.find(|c| !is_of_symbol(c)).unwrap_or(rest.len());
     let unit = Unit::named_or_moment(&rest[..end])?;
     *rest = &rest[end..];
     Some(unit.power(power(rest)?))

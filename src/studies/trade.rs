@@ -23,7 +23,7 @@ pub const POINTS: [usize; 3] = [25, 50, 100];
 /// Steps per cycle that are tried.
 pub const STEPS: [u32; 3] = [12, 25, 50];
 
-/// Tolerances of jumps that are tried.
+/// Tolerances of jumps that are tried, the finest last.
 const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 
 /// Steps per cycle under jumps by any but the best method.
@@ -142,7 +142,7 @@ pub fn settings(
 pub fn reference(scenario: &Scenario, points: &[usize], steps: &[u32]) -> Setting {
     let points = points.iter().copied().max().unwrap_or(100);
     let steps = steps.iter().copied().max().unwrap_or(100);
-    let finest = TOLERANCES.into_iter().fold(1.0, f64::min);
+    let [.., finest] = TOLERANCES;
     let tolerance = wants_jumps(scenario).then_some(0.1 * finest);
     Setting {
         method: AbelMethod::Product,

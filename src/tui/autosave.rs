@@ -34,7 +34,7 @@ pub(super) fn mark(session: &Session) -> Mark {
 impl ScreenAutosave {
     /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the
     /// end if `None`; without a directory nothing is saved.
-    pub fn new(directory: Option<PathBuf>, every: Option<Duration>, session: &Session) -> Self {
+    pub fn new(directory: Option<PathBuf>, every: Duration, session: &Session) -> Self {
         Self {
             is_finished: directory.is_none(),
             autosave: Autosave::new(None, directory, every),

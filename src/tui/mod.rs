@@ -86,8 +86,8 @@ pub struct Options {
     pub running: bool,
     /// Directory for checkpoints; `None`: no checkpoints.
     pub keep_in: Option<PathBuf>,
-    /// Their interval; `None`: only at the end.
-    pub keep_every: Option<Duration>,
+    /// Their interval; 0: only at the end.
+    pub keep_every: Duration,
     /// Maximum frame rate per second.
     pub fps: u16,
     /// The look of the terminal, as [`theme_of`] finds it.

@@ -21,7 +21,6 @@ impl Setting {
     pub fn all(scenario: &Scenario) -> Vec<Self> {
         let fixed = ["", "run", "changes"];
         parameters()
-            .iter()
             .filter(|parameter| !fixed.contains(&parameter.section()))
             // Long lists come from files and are not typed.
             .filter(|parameter| parameter.kind != Kind::Numbers)

@@ -82,7 +82,7 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
     let free = TRUE.map(|(key, _)| key.to_owned());
     let start = scenario(3e-9, 0.1);
     let fit = Fit::new(start, data, &free, None, robust).expect("a fit");
-    fit.run(&mut || ()).expect("a minimum")
+    fit.run(&|| ()).expect("a minimum")
 }
 
 /// Within twice the standard error in 94 of 100 draws, were all linear: Student's t with the 15 degrees of freedom that the
@@ -146,7 +146,7 @@ fn what_data_do_not_determine_is_said() {
         .expect("a key");
     let free = ["wear.coefficient", "wear.stress_exponent"].map(str::to_owned);
     let fit = Fit::new(with_power, scar(), &free, None, false).expect("a fit");
-    let fitted = fit.run(&mut || ()).expect("a minimum");
+    let fitted = fit.run(&|| ()).expect("a minimum");
     assert_eq!(fitted.values[1].stderr, None);
     let remark = "the data do not determine wear.stress_exponent".to_owned();
     assert!(fitted.remarks.contains(&remark), "{:?}", fitted.remarks);

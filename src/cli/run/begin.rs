@@ -103,9 +103,8 @@ impl<'a> Job<'a> {
     ) -> Self {
         session.state(job.statements.clone());
         let home = directory.checkpoint();
-        let every = Some(options.checkpoint_every).filter(|every| !every.is_zero());
         let safe = Safe {
-            checkpoints: Autosave::new(Some(home), state_directory(), every),
+            checkpoints: Autosave::new(Some(home), state_directory(), options.checkpoint_every),
             copy: Recent::new((session.clone(), job.clone())),
         };
         Self {

@@ -312,10 +312,8 @@ impl Job<'_> {
     /// Writes the final files, as many as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
-        let (rows, file) = (
-            self.directory.rows(),
-            self.directory.path().join("history.csv"),
-        );
+        let rows = self.directory.rows();
+        let file = self.directory.path().join("history.csv");
         let mut outcome = write_whole_with(&file, |out| job.history.write(session, &rows, out));
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;

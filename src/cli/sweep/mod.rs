@@ -117,7 +117,7 @@ fn refuse_invalid(
     if options.skip_invalid {
         return Ok(());
     }
-    let bar = progress::bar(study.points() as u64, progress::TIMES, options.quiet);
+    let bar = progress::bar(study.points(), progress::TIMES, options.quiet);
     bar.set_message("checking");
     let start = Instant::now();
     let checked = engine::check(study, shard, pool, |checked| {
@@ -143,7 +143,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let stop = stop::patient_signal()?;
     let go_on = || !stop.load(Ordering::Relaxed);
     crate::panics::capture();
-    let bar = progress::bar(mine as u64, progress::TIMES, options.quiet);
+    let bar = progress::bar(mine, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
     bar.set_position(output.ledger.rows() as u64);
     bar.reset_eta();

@@ -18,9 +18,9 @@ impl Parts<'_> {
             friction => friction.unwrap_or(0.0),
         };
         let refused = |invalid: Invalid| match invalid.field {
-            "coefficient" => self.refused("friction", invalid),
-            "rigid" => self.refused(HALF_SPACE, invalid),
-            _ => self.refused("material", invalid),
+            "coefficient" => self.refused("friction")(invalid),
+            "rigid" => self.refused(HALF_SPACE)(invalid),
+            _ => self.refused("material")(invalid),
         };
         if !self.has(INDENTER) && !self.has(HALF_SPACE) {
             let modulus = self.require("material.effective_modulus")?;
@@ -51,7 +51,7 @@ impl Parts<'_> {
                 None => Ok(Body::Rigid),
             };
         }
-        Body::elastic(self.require(&modulus)?, self.require(&poisson)?)
-            .map_err(|invalid| self.refused(section, invalid))
+        let elastic = Body::elastic(self.require(&modulus)?, self.require(&poisson)?);
+        elastic.map_err(self.refused(section))
     }
 }

@@ -103,7 +103,7 @@ impl Parts<'_> {
         if let Some(scar) = &scar {
             self.check_scar(scar, &indenter, grid.radius())?;
         }
-        let setup = Setup {
+        Ok(Setup {
             scar,
             grid,
             hardness: self.hardness(),
@@ -121,9 +121,8 @@ impl Parts<'_> {
                 &self.require::<String>("numerics.integrator")?,
                 self.require("numerics.tolerance")?,
             )
-            .map_err(|invalid| self.refused("numerics", invalid))?,
-        };
-        Ok(setup)
+            .map_err(self.refused("numerics"))?,
+        })
     }
 
     /// The value of a key, where it is given.
@@ -197,12 +196,14 @@ impl Parts<'_> {
         self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
-    /// Adds the table to what a constructor refused.
-    fn refused(&self, section: &str, invalid: Invalid) -> Refusal {
-        let path = format!("{section}.{}", invalid.field);
-        match self.has(&path) {
-            true => self.refuse(&path, invalid.rule),
-            false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+    /// What becomes of a field that the constructor of a part refused: a key of `section`.
+    fn refused(&self, section: &str) -> impl Fn(Invalid) -> Refusal {
+        move |invalid| {
+            let path = join(section, invalid.field);
+            match self.has(&path) {
+                true => self.refuse(&path, invalid.rule),
+                false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+            }
         }
     }
 
@@ -235,8 +236,7 @@ impl Parts<'_> {
             true => power,
             false => power.and(WearLaw::archard(coefficient)),
         };
-        law.map(Some)
-            .map_err(|invalid| self.refused("wear", invalid))
+        law.map(Some).map_err(self.refused("wear"))
     }
 
     /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
@@ -292,15 +292,12 @@ impl Parts<'_> {
             None => RadialGrid::uniform(points, radius),
             Some(nodes) if nodes.len() == points + 1 => RadialGrid::restored(nodes, None),
             Some(nodes) => {
-                let rule = format!(
-                    "must be {} numbers, one more than points, not {}",
-                    points + 1,
-                    nodes.len()
-                );
+                let (wanted, given) = (points + 1, nodes.len());
+                let rule = format!("must be {wanted} numbers, one more than points, not {given}");
                 return Err(self.refuse("numerics.nodes", rule));
             }
         };
-        grid.map_err(|invalid| self.refused("numerics", invalid))
+        grid.map_err(self.refused("numerics"))
     }
 
     /// Where the nodes lie: as the list says, if there is one.

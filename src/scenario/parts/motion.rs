@@ -23,8 +23,8 @@ impl Parts<'_> {
         }
         let tangential = self
             .has(TANGENTIAL)
-            .then(|| self.control(TANGENTIAL, NORMAL))
-            .transpose()?;
+            .then(|| self.control(TANGENTIAL, NORMAL));
+        let tangential = tangential.transpose()?;
         let frequency = |control: &Control| control.oscillation().angular_frequency();
         let cycle = tangential.as_ref().map(frequency);
         if cycle.is_some_and(|cycle| frequency(&normal) > HIGHEST_RATIO * cycle) {
@@ -40,9 +40,7 @@ impl Parts<'_> {
         }
         let drive = Drive::new(normal, tangential);
         match self.get("motion.tangential.rig_stiffness") {
-            Some(stiffness) => drive
-                .with_rig(stiffness)
-                .map_err(|invalid| self.refused(TANGENTIAL, invalid)),
+            Some(stiffness) => drive.with_rig(stiffness).map_err(self.refused(TANGENTIAL)),
             None => Ok(drive),
         }
     }
@@ -61,9 +59,8 @@ impl Parts<'_> {
             }
             _ => return Ok(None),
         }
-        Waveform::table(&self.list(&times, &file)?, &self.list(&values, &file)?)
-            .map(Some)
-            .map_err(|invalid| self.refused(motion, invalid))
+        let table = Waveform::table(&self.list(&times, &file)?, &self.list(&values, &file)?);
+        table.map(Some).map_err(self.refused(motion))
     }
 
     /// The angular frequency, rad/s, where it or the frequency is given.
@@ -77,7 +74,7 @@ impl Parts<'_> {
     /// where the scenario gives none.
     fn control(&self, motion: &str, other: &str) -> Result<Control, Refusal> {
         let key = |key: &str| join(motion, key);
-        let refused = |invalid| self.refused(motion, invalid);
+        let refused = self.refused(motion);
         let tabled = self.tabled_motion(motion)?;
         let or_of_table = |name: &str, of: fn(&Tabled) -> f64| {
             let value = self.get(&key(name)).or_else(|| tabled.as_ref().map(of));
@@ -94,7 +91,7 @@ impl Parts<'_> {
         let waveform = match self.get::<String>(&key("waveform")).as_deref() {
             Some("triangle") => Waveform::triangle(),
             Some("trapezoid") => {
-                Waveform::trapezoid(self.require(&key("hold"))?).map_err(refused)?
+                Waveform::trapezoid(self.require(&key("hold"))?).map_err(&refused)?
             }
             _ => tabled.map_or(Waveform::Sine, |table| table.waveform),
         };

@@ -17,12 +17,9 @@ impl Parts<'_> {
         };
         if let Some(per_load) = self.get("wear.coefficient_per_load") {
             all.wear = None;
-            all.wear_per_load = all.friction.as_ref().map(|_| per_load);
-            if all
-                .friction
-                .as_ref()
-                .is_some_and(|friction| friction.least() <= 0.0)
-            {
+            let least = all.friction.as_ref().map(Course::least);
+            all.wear_per_load = least.map(|_| per_load);
+            if least.is_some_and(|least| least <= 0.0) {
                 let rule = "needs friction greater than 0 at all times: per friction work it is \
                             k = coefficient_per_load / friction";
                 return Err(self.refuse("wear.coefficient_per_load", rule));
@@ -32,7 +29,7 @@ impl Parts<'_> {
         if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
             let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
-            all.wear = Some(constant.map_err(|invalid| self.refused("wear", invalid))?);
+            all.wear = Some(constant.map_err(self.refused("wear"))?);
         }
         Ok((all != RunningIn::default()).then_some(all))
     }
@@ -53,9 +50,7 @@ impl Parts<'_> {
             } else {
                 continue;
             };
-            return course
-                .map(Some)
-                .map_err(|invalid| self.refused(section, invalid));
+            return course.map(Some).map_err(self.refused(section));
         }
         if self.has(&key("settled")) {
             let constants = forms.map(|(_, constant, _)| key(constant));

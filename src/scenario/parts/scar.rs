@@ -15,12 +15,9 @@ impl Parts<'_> {
         if !self.has(RADII) && !self.has(DEPTHS) {
             return Ok(None);
         }
-        Scar::new(
-            &self.require::<Vec<f64>>(RADII)?,
-            &self.require::<Vec<f64>>(DEPTHS)?,
-        )
-        .map(Some)
-        .map_err(|invalid| self.refused("wear", invalid))
+        let (radii, depths): (Vec<f64>, Vec<f64>) = (self.require(RADII)?, self.require(DEPTHS)?);
+        let scar = Scar::new(&radii, &depths);
+        scar.map(Some).map_err(self.refused("wear"))
     }
 
     /// Refuses a scar that no domain which ends at `domain` (m) can hold, most often for its unit.

@@ -33,20 +33,16 @@ impl Parts<'_> {
             }
             _ => Indenter::paraboloid(of("radius")?),
         }
-        .map_err(|invalid| self.refused("indenter", invalid))
+        .map_err(self.refused("indenter"))
     }
 
     fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Refusal> {
-        let foreign = schema::parameters()
-            .iter()
-            .find(|key| self.has(key.path) && !key.is_of(shape));
-        let Some(foreign) = foreign else {
+        let is_foreign = |key: &&Parameter| self.has(key.path) && !key.is_of(shape);
+        let Some(foreign) = schema::parameters().find(is_foreign) else {
             return Ok(());
         };
-        let takes = schema::parameters()
-            .iter()
-            .filter(|key| key.shapes.contains(&shape));
-        let takes: Vec<&str> = takes.map(|known| known.key()).collect();
+        let takes = schema::parameters().filter(|key| key.shapes.contains(&shape));
+        let takes: Vec<&str> = takes.map(Parameter::key).collect();
         let rule = format!(
             "shape = \"{shape}\" has no such key; it takes {}",
             takes.join(", ")

@@ -18,7 +18,6 @@
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
 //! derivatives; `basin` minimises in general and gives no covariance.)
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -156,10 +155,9 @@ impl Fit {
     ///
     /// # Errors
     /// A scenario that cannot run with its start values, and a search that fails.
-    pub fn run(&self, on_run: &mut dyn FnMut()) -> Result<Fitted> {
-        let on_run = RefCell::new(on_run);
+    pub fn run(&self, on_run: &dyn Fn()) -> Result<Fitted> {
         let simulate = |theta: &[f64]| {
-            on_run.borrow_mut()();
+            on_run();
             model::simulate(&self.at(theta)?, &self.data, self.cycles)
         };
         let mut theta: Vec<f64> = self.free.iter().map(|free| free.start).collect();
@@ -319,11 +317,10 @@ impl Fit {
         }
         remarks.extend(alike);
         let sets = self.data.iter().zip(&simulated);
+        let left = sets.map(|(set, simulated)| residuals(set, simulated));
         Fitted {
             values,
-            residuals: sets
-                .map(|(set, simulated)| residuals(set, simulated))
-                .collect(),
+            residuals: left.collect(),
             remarks,
             scenario,
         }

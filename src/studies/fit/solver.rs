@@ -48,11 +48,9 @@ impl Free {
         let is_physical = !["run", "changes", "numerics"].contains(&parameter.section());
         let rule = "is not a physical property, so data cannot determine it";
         ensure!(is_physical, refused(rule));
-        let value = scenario
-            .value(key)
-            .and_then(|value| value.parse::<f64>().ok());
+        let value = scenario.value(key).and_then(|value| value.parse().ok());
         let rule = format!("has no value to start from; give one with --set {key}=...");
-        let value = value.ok_or_else(|| refused(&rule))?;
+        let value: f64 = value.ok_or_else(|| refused(&rule))?;
         let is_zero = parameter.range == Range::NotNegative && value == 0.0;
         let rule = "starts at 0; give a value greater than 0 with --set";
         ensure!(!is_zero, refused(rule));

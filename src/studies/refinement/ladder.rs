@@ -74,7 +74,7 @@ pub struct Reached {
     pub error: Difference,
     /// Whether the accuracy is met, or why the ladder ended before.
     pub verdict: Verdict,
-    /// The time of all rungs, s.
+    /// The time of the search, s.
     pub seconds: f64,
 }
 
@@ -109,6 +109,7 @@ pub fn climb(
     go_on: &dyn Fn() -> bool,
     clock: &dyn Fn() -> f64,
 ) -> Result<Reached, SessionError> {
+    let begin = clock();
     let ladder = Ladder {
         scenario,
         cycles,
@@ -116,9 +117,7 @@ pub fn climb(
         budget,
         run: &run,
         go_on,
-        clock,
-        begin: clock(),
-        spent: 0.0,
+        spent: &|| clock() - begin,
         failures: 0,
     };
     ladder.climb()
@@ -146,9 +145,8 @@ struct Ladder<'a> {
     budget: f64,
     run: &'a Run<'a>,
     go_on: &'a dyn Fn() -> bool,
-    clock: &'a dyn Fn() -> f64,
-    begin: f64,
-    spent: f64,
+    /// The time since the search began, s.
+    spent: &'a dyn Fn() -> f64,
     /// How many levels in a row could not be run to their end.
     failures: u32,
 }
@@ -193,7 +191,7 @@ impl Ladder<'_> {
             error: top.error(),
             rung: top.rung,
             verdict,
-            seconds: self.spent,
+            seconds: (self.spent)(),
         })
     }
 
@@ -252,14 +250,13 @@ impl Ladder<'_> {
 
     /// Runs a level, and leaves it where the search takes longer than to the `deadline`, s.
     fn run(&mut self, level: &Level, deadline: f64) -> Result<Rung, Failure> {
-        let (go_on, clock, begin) = (self.go_on, self.clock, self.begin);
-        let start = clock();
-        let is_late = || clock() - begin > deadline;
+        let (go_on, spent) = (self.go_on, self.spent);
+        let start = spent();
+        let is_late = || spent() > deadline;
         let scenario = level.of_scenario(self.scenario);
         let scenario = scenario.map_err(|refused| Failure::Over(refused.into()))?;
         let ended = (self.run)(&scenario, self.cycles, &|| go_on() && !is_late());
-        let seconds = clock() - start;
-        self.spent += seconds;
+        let seconds = spent() - start;
         match ended {
             Ok(session) => {
                 self.failures = 0;
@@ -282,7 +279,7 @@ impl Ladder<'_> {
     /// Whether there is time for a level, as far as the last rung tells.
     fn affords(&self, level: &Level, last: &Rung) -> bool {
         let work: f64 = level.ratio(&last.level).iter().product();
-        self.spent + last.seconds * work <= self.budget
+        (self.spent)() + last.seconds * work <= self.budget
     }
 
     /// The shape that nodes are placed for; `None` if the scenario says where they lie.
@@ -380,9 +377,7 @@ mod tests {
             budget: f64::INFINITY,
             run: &run,
             go_on: &|| true,
-            clock: &|| 0.0,
-            begin: 0.0,
-            spent: 0.0,
+            spent: &|| 0.0,
             failures: 0,
         };
         let error = ladder.climb().expect_err("no result");

@@ -107,17 +107,15 @@ impl Level {
 
     /// The keys of a scenario and their values.
     pub fn keys(&self) -> Vec<(&'static str, String)> {
+        let jumps = |tolerance| Integrator::CycleJump { tolerance };
+        let integrator = self.tolerance.map_or(Integrator::Direct, jumps);
         let mut keys = vec![
             ("numerics.points", self.points.to_string()),
             ("numerics.steps_per_cycle", self.steps.to_string()),
+            ("numerics.integrator", integrator.name().to_owned()),
         ];
-        if let Some(tolerance) = self.tolerance {
-            let integrator = Integrator::CycleJump { tolerance };
-            keys.push(("numerics.integrator", integrator.name().to_owned()));
-            keys.push(("numerics.tolerance", format!("{tolerance:e}")));
-        } else {
-            keys.push(("numerics.integrator", Integrator::Direct.name().to_owned()));
-        }
+        let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
+        keys.extend(tolerance.map(|tolerance| ("numerics.tolerance", tolerance)));
         // Last: another number of points would take their place.
         if let Some(grid) = &self.nodes {
             let nodes: Vec<String> = grid.nodes().iter().map(|r| format!("{r:e}")).collect();

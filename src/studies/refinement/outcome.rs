@@ -178,16 +178,14 @@ impl Outcome {
         };
         let inside = INSIDE * self.radius.min(fine.radius);
         let stick = fine.stick_radius;
+        // At the moment of lift-off one of the two may carry no force at all.
+        let force_scale = fine.force_scale.max(self.force_scale);
         let away = (1.0 - INSIDE) * fine.radius;
         Difference {
             worn_depth: relative(self.worn_difference(fine), fine.scar_depth()),
             volume: relative(self.volume - fine.volume, fine.volume),
             work: relative(self.work - fine.work, fine.work),
-            // At the moment of lift-off one of the two may carry no force at all.
-            force: relative(
-                self.force - fine.force,
-                fine.force_scale.max(self.force_scale),
-            ),
+            force: relative(self.force - fine.force, force_scale),
             pressure: rms((1..RADII)
                 .map(|i| inside * i as f64 / (RADII - 1) as f64)
                 .filter(|r| (r - stick).abs() > away && *r > away)

@@ -148,7 +148,7 @@ pub fn words_of(key: &str) -> Option<&'static str> {
 
 /// What is said of an accuracy that is not met.
 fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
-    let level = &reached.rung.level;
+    let (Level { points, steps, .. }, outcome) = (&reached.rung.level, &reached.rung.outcome);
     let why = match &reached.verdict {
         Verdict::Met => return None,
         Verdict::Unworn => {
@@ -160,20 +160,16 @@ fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
         Verdict::OutOfTime => format!("in {budget} s"),
         Verdict::Finest => "even by the finest level".into(),
         Verdict::Stalled => format!(
-            "because finer levels do not improve \
-             it; the scar is {:.1e} m deep, in a contact {:.1e} m deep",
-            reached.rung.outcome.scar_depth(),
-            reached.rung.outcome.depth
+            "because finer levels do not improve it; the scar is {:.1e} m deep, in a contact {:.1e} m deep",
+            outcome.scar_depth(),
+            outcome.depth
         ),
         Verdict::Failed(error) => format!("because finer levels fail: {error}"),
     };
+    let error = error_of(reached);
     Some(format!(
-        "numerics.accuracy = {accuracy:e} was not reached \
-         {why}; the estimated error is {:.1e} with {} points and \
-         {} steps per cycle",
-        error_of(reached),
-        level.points,
-        level.steps
+        "numerics.accuracy = {accuracy:e} was not reached {why}; the estimated error is {error:.1e} with {points} \
+         points and {steps} steps per cycle"
     ))
 }
 

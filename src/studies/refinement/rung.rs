@@ -58,17 +58,15 @@ impl Top {
         let ratios = finer.level.ratio(&self.rung.level);
         let difference = self.rung.outcome.against(&finer.outcome);
         let known = || self.sources.iter().zip(ratios);
-        let refined = || known().filter(|(_, ratio)| *ratio > 1.0);
+        let refined = known().filter(|(_, ratio)| *ratio > 1.0);
         let add =
             |sum: Difference, (one, _): (&Difference, f64)| sum.with(one, |sum, one| sum + one);
-        let total = refined().fold(Difference::default(), add);
-        let alone = refined().count() == 1;
+        let total = refined.fold(Difference::default(), add);
         let after = |(before, ratio): (&Difference, f64)| {
             if ratio <= 1.0 {
                 return *before;
             }
             let share = before.with(&total, |error, total| match total {
-                _ if alone => 1.0,
                 0.0 => 1.0,
                 total => error / total,
             });

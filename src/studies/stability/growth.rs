@@ -34,10 +34,8 @@ fn amplification(scheme: Scheme, z: f64) -> f64 {
         Scheme::Trapezoid => {
             let companion = Matrix3::new(1.0 - z, -0.5 * z, 0.5 * z, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
             let roots = companion.complex_eigenvalues();
-            roots
-                .iter()
-                .map(|root| root.re.hypot(root.im))
-                .fold(0.0, f64::max)
+            let sizes = roots.iter().map(|root| root.re.hypot(root.im));
+            sizes.fold(0.0, f64::max)
         }
     }
 }

@@ -104,16 +104,14 @@ impl Study {
 
     fn start(&self, setting: Setting, wear_number: f64) -> Result<Session, SessionError> {
         let stability = if setting.guard { "sub-step" } else { "off" };
-        let keys = [
+        let mut keys = vec![
             ("numerics.method", setting.method.name().to_owned()),
-            ("numerics.points", setting.points.to_string()),
-            ("numerics.steps_per_cycle", setting.steps.to_string()),
             ("numerics.stability", stability.to_owned()),
-            ("numerics.integrator", "direct".to_owned()),
             ("wear.coefficient", format!("{:e}", wear_number * self.unit)),
         ];
-        let changes = keys.map(|(key, value)| Change::new(0.0, key, &value));
-        Session::start(self.scenario.after(&changes)?)
+        keys.extend(Level::new(setting.points, setting.steps, None).keys());
+        let changes = keys.iter().map(|(key, value)| Change::new(0.0, key, value));
+        Session::start(self.scenario.after(&changes.collect::<Vec<_>>())?)
     }
 
     /// Runs one setting at one wear number; `None` if `go_on` said no.

@@ -106,10 +106,8 @@ pub fn maps(lines: &[Line]) -> String {
 /// One row of a map.
 fn strip(line: &Line) -> String {
     let rung = |mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']);
-    let rungs = line
-        .outcomes
-        .iter()
-        .flat_map(|(_, outcome)| rung(outcome.words().1));
+    let outcomes = line.outcomes.iter();
+    let rungs = outcomes.flat_map(|(_, outcome)| rung(outcome.words().1));
     let mut strip: Vec<char> = rungs.collect();
     if let Some(predicted) = line.predicted {
         let place = line.outcomes.windows(2).enumerate().find_map(|(i, pair)| {

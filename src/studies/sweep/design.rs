@@ -28,12 +28,15 @@ impl Design {
     pub fn most_samples(self) -> Option<usize> {
         match self {
             Self::Grid | Self::Zip => None,
-            Self::LatinHypercube => Some(10_000_000),
+            Self::LatinHypercube => Some(MOST_POINTS),
             // The length of the crate's sequences.
             Self::Sobol => Some(1 << 16),
         }
     }
 }
+
+/// The most points of a study.
+pub(super) const MOST_POINTS: usize = 10_000_000;
 
 /// The most axes of a Sobol sequence.
 pub(super) const MOST_SOBOL_AXES: usize = 256;

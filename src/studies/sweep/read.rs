@@ -8,7 +8,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::axis::{self, Axis, Values, known_key};
-use super::design::{Design, MOST_SOBOL_AXES, Spacing};
+use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
 use crate::math::scale::Scale;
 use crate::scenario::blocks::flatten;
@@ -23,9 +23,6 @@ const COLUMNS: [&str; 4] = [
     "regime",
     "estimated_error",
 ];
-
-/// The most points of a study.
-const MOST_POINTS: usize = 10_000_000;
 
 type Result<T> = std::result::Result<T, Refusal>;
 
@@ -156,17 +153,17 @@ fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> 
 
 /// The number of samples and the seed of a sampled design.
 fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
-    let design = written.design;
-    match (design.most_samples(), written.samples, written.seed) {
-        (None, None, None) => Ok(None),
-        (None, ..) => error("samples and seed go with design = \"latin-hypercube\" or \"sobol\""),
-        (Some(_), None, _) => error(format!(
+    let (design, seed) = (written.design, written.seed);
+    let Some(most) = design.most_samples() else {
+        let rule = "samples and seed go with design = \"latin-hypercube\" or \"sobol\"";
+        return ensure(written.samples.is_none() && seed.is_none(), rule).map(|()| None);
+    };
+    match written.samples {
+        None => error(format!(
             "samples is missing: the number of points that design = \"{design}\" draws"
         )),
-        (Some(most), Some(samples), seed) if (1..=most).contains(&samples) => {
-            Ok(Some((samples, seed.unwrap_or(0))))
-        }
-        (Some(most), Some(samples), _) => {
+        Some(samples) if (1..=most).contains(&samples) => Ok(Some((samples, seed.unwrap_or(0)))),
+        Some(samples) => {
             let rule = format!("must be a whole number from 1 to {most}");
             refuse("samples", samples, rule)
         }

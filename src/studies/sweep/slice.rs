@@ -4,45 +4,29 @@ use super::border::{Distance, crossing, to_gross_slip, to_lift_off};
 use super::finder::Finder;
 use super::record::Record;
 use super::{Axis, Design, Study, Success};
+use crate::reading::Regime;
 use crate::scenario::Refusal;
 
-/// The words of the column `regime`, and what they mean.
-pub const REGIMES: [(&str, &str); 4] = [
-    ("stick", "full stick"),
-    ("partial", "partial slip"),
-    ("gross", "gross slip"),
-    ("open", "lift-off"),
-];
-
-/// The field's criteria that can be laid over a map: column, value, letter, and what it holds for.
-const CRITERIA: [(&str, f64, char, &str); 5] = [
+/// The field's criteria that can be laid over a map: column, value, and name with what it holds for.
+const CRITERIA: [(&str, f64, &str); 5] = [
     (
         "energy_ratio",
         0.2,
-        'A',
         "A = 0.2 (unworn sphere, stiff rig only)",
     ),
     (
         "sliding_ratio",
         0.26,
-        'D',
         "D = 0.26 (unworn sphere, stiff rig only)",
     ),
-    ("energy_ratio_B", 0.77, 'B', "B = 0.77 (sphere, any rig)"),
-    ("swt_ratio", 1.0, 'S', "SWT at the fatigue limit"),
-    (
-        "crossland_ratio",
-        1.0,
-        'C',
-        "Crossland at the fatigue limit",
-    ),
+    ("energy_ratio_B", 0.77, "B = 0.77 (sphere, any rig)"),
+    ("swt_ratio", 1.0, "SWT at the fatigue limit"),
+    ("crossland_ratio", 1.0, "Crossland at the fatigue limit"),
 ];
 
 /// A line over a map, as places on its axes: 1.5 lies halfway between the second and the third value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// The letter that draws it on a screen.
-    pub letter: char,
     /// What it is.
     pub name: &'static str,
     /// Places on the x axis and on the y axis, where it crosses columns and rows of the map, from left to right.
@@ -50,9 +34,15 @@ pub struct Line {
 }
 
 impl Line {
-    fn new(letter: char, name: &'static str, mut at: Vec<[f64; 2]>) -> Option<Self> {
+    fn new(name: &'static str, mut at: Vec<[f64; 2]>) -> Option<Self> {
         at.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        (at.len() > 1).then_some(Self { letter, name, at })
+        (at.len() > 1).then_some(Self { name, at })
+    }
+
+    /// The letter that marks it on a map: the first of its name.
+    pub fn letter(&self) -> char {
+        let first = self.name.chars().next().unwrap_or(' ');
+        first.to_ascii_uppercase()
     }
 
     /// Its parts; one ends where a column is not crossed.
@@ -225,16 +215,15 @@ impl Slice {
         number.is_finite().then_some(number)
     }
 
-    /// The place of a point's word among [`REGIMES`].
-    pub fn regime(&self, point: usize) -> Option<usize> {
-        let word = self.field(point, "regime")?;
-        REGIMES.iter().position(|known| known.0 == word)
+    /// The regime of a point.
+    pub fn regime(&self, point: usize) -> Option<Regime> {
+        self.field(point, "regime")?.parse().ok()
     }
 
     /// The criteria of the field, where the study has their columns: between neighbouring points of the map.
     pub fn criteria(&self) -> Vec<Line> {
         let [wide, high] = self.size();
-        let line = |(column, value, letter, name): (&str, f64, char, &'static str)| {
+        let line = |(column, value, name): (&str, f64, &'static str)| {
             let off = |x: usize, y: usize| {
                 let inside = x < wide && y < high;
                 let number = inside.then(|| self.number(self.point_at(x, y), column));
@@ -249,7 +238,7 @@ impl Slice {
                 let right = part(off(x + 1, y)).map(|part| [column + part, row]);
                 [up, right].into_iter().flatten()
             });
-            Line::new(letter, name, crossed.collect())
+            Line::new(name, crossed.collect())
         };
         CRITERIA.into_iter().filter_map(line).collect()
     }
@@ -272,10 +261,8 @@ impl Slice {
             let rows = (0..high).filter_map(|at| Some([crossed(self.x, y, at)?, at as f64]));
             columns.chain(rows).collect()
         };
-        let gross = "gross slip, closed form, unworn";
-        let gross = Line::new('G', gross, line(to_gross_slip));
-        let open = "lift-off, closed form, unworn";
-        let open = Line::new('L', open, line(to_lift_off));
+        let gross = Line::new("gross slip, closed form, unworn", line(to_gross_slip));
+        let open = Line::new("lift-off, closed form, unworn", line(to_lift_off));
         gross.into_iter().chain(open).collect()
     }
 }

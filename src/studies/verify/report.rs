@@ -25,9 +25,8 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
         let task = outcome.task;
         let mut row = vec![task.method.name().into(), task.points.into()];
         for (at, quantity) in quantities.iter().enumerate() {
-            let mut cells = group(outcome, at, outcomes);
-            cells.truncate(shown(quantity, roomy).len());
-            row.extend(cells);
+            let shown = shown(quantity, roomy).len();
+            row.extend(group(outcome, at, outcomes).into_iter().take(shown));
         }
         table.push(row);
     }
@@ -60,9 +59,8 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
             order(outcome, at, outcomes, Errors::rms).into(),
         ],
         Err(stop) => {
-            let mut cells = vec![format!("stopped at cycle {:.2}", stop.cycle).into()];
-            cells.resize(4, Value::Null);
-            cells
+            let stopped = format!("stopped at cycle {:.2}", stop.cycle);
+            vec![stopped.into(), Value::Null, Value::Null, Value::Null]
         }
     }
 }

@@ -9,8 +9,9 @@ use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
 use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::partial_slip::stiffness_ratio;
 use crate::reading::Curves;
+use crate::scenario::choices;
 use crate::simulation::drive::Drive;
-use crate::simulation::{Breakdown, Scheme, Setup, Simulation, Spacing};
+use crate::simulation::{Breakdown, Setup, Simulation};
 use crate::wear::WearLaw;
 
 /// The closed form, moved by `amplitude`.
@@ -78,9 +79,7 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown
     };
     let mut setup = moved(method, points, DOMAIN, AMPLITUDE);
     setup.wear = Some(WearLaw::archard(WEAR).expect("a law"));
-    if !AbelMethod::PUBLISHED.contains(&method) {
-        (setup.spacing, setup.scheme) = (Spacing::Graded, Scheme::Trapezoid);
-    }
+    (setup.spacing, setup.scheme) = choices(method);
     let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(CYCLES)?;
     let seen = simulation.observe(Curves::PROFILE);

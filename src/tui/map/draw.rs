@@ -22,7 +22,7 @@ use crate::plot::shades::{self, has_blocks};
 use crate::plot::theme::{Role, Theme};
 use crate::plot::units::{format_value, range_ends};
 use crate::plot::{Axis, Chart, Plot, Point, Scale};
-use crate::studies::sweep::slice::REGIMES;
+use crate::reading::Regime;
 use crate::tui::canvas::Canvas;
 
 /// The keys of the footer, as many as fit, and the one that is always there.
@@ -174,12 +174,12 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     let name = Span::styled(theme.printable(name), theme.style(Role::Focus));
     let mut line = Line::from(name);
     if view.is_regime() {
-        for ((sign, role), (_, title)) in SWATCHES.into_iter().zip(REGIMES) {
+        for ((sign, role), regime) in SWATCHES.into_iter().zip(Regime::ALL) {
             line.push_span("  ");
             if has_blocks(theme) {
                 line.push_span(Span::styled("█", theme.style(role)));
             }
-            line.push_span(format!("{sign} {title}"));
+            line.push_span(format!("{sign} {}", regime.title()));
         }
         return line;
     }

@@ -108,7 +108,11 @@ impl Worker {
             comparison: None,
             ghosts: Vec::new(),
             twin: Twin::of(&run.session),
-            autosave: Arc::new(Mutex::new(ScreenAutosave::new(None, None, &run.session))),
+            autosave: Arc::new(Mutex::new(ScreenAutosave::new(
+                None,
+                Duration::ZERO,
+                &run.session,
+            ))),
             run,
             past: Past::default(),
             kept_at: Instant::now(),

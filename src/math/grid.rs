@@ -60,34 +60,14 @@ impl RadialGrid {
     pub fn graded(cells: usize, border: f64, radius: f64) -> Result<Self, Invalid> {
         Self::check(cells, radius)?;
         positive("border", border)?;
-        if border >= radius {
-            return Err(Invalid::new(
-                "border",
-                border,
-                format!("must be less than the domain's radius {radius}"),
-            ));
-        }
         let inside = ((SHARE_INSIDE * cells as f64).round() as usize).clamp(2, cells - 2);
         let outside = cells - inside;
-        let narrowest = NARROWEST * radius;
-        let power = exponent(border, inside, narrowest);
-        let mut nodes: Vec<f64> = (0..inside)
-            .map(|i| border - border * (1.0 - i as f64 / inside as f64).powf(power))
-            .collect();
-        nodes.push(border);
-        let width = radius - border;
-        let power = exponent(width, outside, narrowest);
-        nodes
-            .extend((1..outside).map(|i| border + width * (i as f64 / outside as f64).powf(power)));
-        nodes.push(radius);
-        if nodes.windows(2).any(|pair| pair[0] >= pair[1]) {
-            return Err(Invalid::new(
-                "border",
-                border,
-                format!("leaves no room for nodes between 0 and {radius}"),
-            ));
-        }
-        Ok(Self::from_nodes(nodes, Some(inside)))
+        let power = |width: f64, cells: usize| exponent(width, cells, NARROWEST * radius);
+        Self::around(
+            border,
+            (inside, power(border, inside)),
+            &[(radius, outside, power(radius - border, outside))],
+        )
     }
 
     /// N = `cells` cells from r = 0 to L = `radius`, `within` of them in the ring from c = `border` to a = `edge`,
@@ -112,26 +92,38 @@ impl RadialGrid {
         }
         let inside = (cells - within).div_ceil(2);
         let outside = cells - within - inside;
-        let ring = edge - border;
-        let share = |i: usize, n: usize| i as f64 / n as f64;
         // The cells next to the ring are about as wide as its own.
-        let cell = ring / within as f64;
-        let of_side = |width: f64, n: usize| ((width / cell).ln() / (n as f64).ln()).max(1.0);
-        let (power, outer) = (of_side(border, inside), of_side(radius - edge, outside));
-        let nodes: Vec<f64> = (0..inside)
-            .map(|i| border - border * (1.0 - share(i, inside)).powf(power))
-            .chain((0..within).map(|i| border + ring * share(i, within).powf(GRADING)))
-            .chain((0..outside).map(|i| edge + (radius - edge) * share(i, outside).powf(outer)))
-            .chain([radius])
-            .collect();
-        if nodes.windows(2).any(|pair| pair[0] >= pair[1]) {
-            return Err(Invalid::new(
-                "border",
-                border,
-                format!("leaves no room for nodes before {edge}"),
-            ));
+        let cell = (edge - border) / within as f64;
+        let power = |width: f64, n: usize| ((width / cell).ln() / (n as f64).ln()).max(1.0);
+        Self::around(
+            border,
+            (inside, power(border, inside)),
+            &[
+                (edge, within, GRADING),
+                (radius, outside, power(radius - edge, outside)),
+            ],
+        )
+    }
+
+    /// Cells that shrink towards the `border` from inside, and towards the inner end of every piece outside of it. `inside`
+    /// has the number of cells and the exponent of their growth, each piece `outwards` its outer end before them.
+    fn around(
+        border: f64,
+        inside: (usize, f64),
+        outwards: &[(f64, usize, f64)],
+    ) -> Result<Self, Invalid> {
+        let (inside, power) = inside;
+        let mut nodes: Vec<f64> = growing([border, 0.0], inside, power).collect();
+        nodes.reverse();
+        let mut from = border;
+        for &(to, cells, power) in outwards {
+            nodes.extend(growing([from, to], cells, power).skip(1));
+            from = to;
         }
-        Ok(Self::from_nodes(nodes, Some(inside)))
+        Self::restored(nodes, Some(inside)).map_err(|_| {
+            let rule = format!("leaves no room for nodes between 0 and {from}");
+            Invalid::new("border", border, rule)
+        })
     }
 
     /// As many cells out to another `radius` (m), each wider by as much. No node stands for a border.
@@ -275,6 +267,12 @@ pub fn interpolate(nodes: &[f64], values: &[f64], r: f64) -> f64 {
     let (left, right) = (nodes[upper - 1], nodes[upper]);
     let weight = (r - left) * (r + left) / ((right - left) * (right + left));
     values[upper - 1] + weight * (values[upper] - values[upper - 1])
+}
+
+/// The ends of `cells` cells between two radii, each wider than the one before it by a `power` of its place.
+fn growing([from, to]: [f64; 2], cells: usize, power: f64) -> impl Iterator<Item = f64> {
+    let within = move |i: usize| from + (to - from) * (i as f64 / cells as f64).powf(power);
+    (0..cells).map(within).chain([to])
 }
 
 /// The exponent that shrinks `cells` cells over `width` to no less than `narrowest`.

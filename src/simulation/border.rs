@@ -1,4 +1,7 @@
-//! Finds the border of the permanent stick zone before the run, and makes the grid for it.
+//! Makes the graded grid before the run: cells where the wear will be.
+//!
+//! A pilot run looks where that is. Without a permanent stick zone of prescribed displacements, cells are
+//! [placed](super::placing) by the wear of its first two periods.
 //!
 //! Melan's theorem gives the depth g(c) at the border. If the springs shake down during a first
 //! cycle that is not yet periodic, there is some wear inside it, and the border ends up slightly
@@ -8,17 +11,25 @@
 
 use super::choices::{Integrator, Spacing};
 use super::drive::Control;
+use super::placing;
 use super::unworn::Unworn;
 use super::{Setup, Simulation};
 use crate::math::grid::RadialGrid;
 
-/// The fewest and the most cells of a pilot run, and its most steps a cycle.
+/// The fewest and the most cells of a pilot run.
 const PILOT_CELLS: [usize; 2] = [64, 200];
-const PILOT_STEPS: u32 = 200;
+
+/// The most steps a cycle of the pilot run that finds the border.
+const BORDER_STEPS: u32 = 200;
+
+/// Periods, and steps a cycle, of the pilot run that cells are placed by: during the first period the springs shake
+/// down. The steps are not those of the run, so that finer steps have the same cells.
+const SCAR_PERIODS: u32 = 2;
+const SCAR_STEPS: u32 = 48;
 
 /// The most steps of a pilot run in all, where it still has the fewest a cycle.
 const PILOT_WORK: u32 = 20_000;
-const FEWEST_PILOT_STEPS: u32 = 24;
+const FEWEST_STEPS: u32 = 24;
 
 /// How far inside the border its node lies: as a fraction of the domain, of the cell outside it, and of the distance
 /// by which wear has moved the border, where the pilot errs by 2 %. A node outside would slip a little once per
@@ -48,8 +59,8 @@ pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
         && before.drive == after.drive
 }
 
-/// The same setup, its grid graded towards the stick border where it asks for that and where there
-/// is one; otherwise uniform. `from` is the run that continues on it, unless the run is new.
+/// The same setup, its grid graded towards where wear is steep, where it asks for that and the pilot run succeeds;
+/// otherwise uniform. `from` is the run that continues on it, unless the run is new.
 pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
     if setup.spacing == Spacing::Given {
         return setup.clone();
@@ -58,38 +69,59 @@ pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
     if setup.spacing == Spacing::Uniform {
         return uniform;
     }
-    let Some((depth, unworn)) = melan(&uniform) else {
-        return towards_ring(&uniform).unwrap_or(uniform);
+    let graded = match melan(&uniform) {
+        Some((depth, unworn)) => around_border(&uniform, from, depth, unworn),
+        None => around_ring(&uniform).or_else(|| around_scar(&uniform, from)),
     };
-    let graded = || {
-        let cells = uniform.grid.cells();
-        let [fewest, most] = PILOT_CELLS;
-        let of_pilot = cells.clamp(fewest, most);
-        let first = with_border(&uniform, unworn, 0.0, of_pilot)?;
-        let second = pilot(&first, from, depth)?;
-        let second = with_border(&uniform, second, 0.0, of_pilot)?;
-        let border = pilot(&second, from, depth)?;
-        with_border(&uniform, border, unworn - border, cells)
-    };
-    graded().unwrap_or(uniform)
+    graded.unwrap_or(uniform)
 }
 
-/// The grid for a held normal load whose stick zone does not stay as it is, or where nothing wears: graded
-/// towards the border of the unworn contact where wear will move it, and where the ring of slip is thin. No node
-/// is the border's own.
-fn towards_ring(uniform: &Setup) -> Option<Setup> {
-    let ring = Unworn::of(uniform).ring()?;
-    let border = ring.stick_radius;
-    let is_held = matches!(uniform.drive.normal(), Control::Force(_));
-    let moves = uniform.wear.is_some() && is_held;
+/// Graded towards the border of the permanent stick zone, where g is `depth` (m), and where the `unworn` indenter has
+/// it (m).
+fn around_border(
+    uniform: &Setup,
+    from: Option<&Simulation>,
+    depth: f64,
+    unworn: f64,
+) -> Option<Setup> {
     let cells = uniform.grid.cells();
-    let (edge, radius) = (ring.contact_radius, uniform.grid.radius());
-    let grid = match thin_ring(&uniform.grid, border, edge) {
+    let of_pilot = cells_of_pilot(cells);
+    let steps = uniform.steps_per_cycle.min(BORDER_STEPS);
+    let border_on = |setup: Option<Setup>| border(&pilot(&setup?, from, 1, steps)?, depth);
+    let first = border_on(with_border(uniform, unworn, 0.0, of_pilot))?;
+    let border = border_on(with_border(uniform, first, 0.0, of_pilot))?;
+    with_border(uniform, border, unworn - border, cells)
+}
+
+/// For a held normal load: towards the border of the unworn contact where wear will move it under a held force, and where
+/// the ring of slip is too thin for uniform cells. No node is the border's own.
+fn around_ring(uniform: &Setup) -> Option<Setup> {
+    let ring = Unworn::of(uniform).ring()?;
+    let (border, edge, grid) = (ring.stick_radius, ring.contact_radius, &uniform.grid);
+    let (cells, radius) = (grid.cells(), grid.radius());
+    let is_held = matches!(uniform.drive.normal(), Control::Force(_));
+    let graded = match thin_ring(grid, border, edge) {
         Some(within) => RadialGrid::ringed(cells, [border, edge], within, radius),
-        None if moves => RadialGrid::graded(cells, border, radius),
+        None if is_held && uniform.wear.is_some() => RadialGrid::graded(cells, border, radius),
         None => return None,
     };
-    Some(uniform.on(grid.ok()?.without_border()))
+    Some(uniform.on(graded.ok()?.without_border()))
+}
+
+/// Placed by what a coarser run has worn.
+fn around_scar(uniform: &Setup, from: Option<&Simulation>) -> Option<Setup> {
+    uniform.wear?;
+    uniform.drive.tangential()?;
+    let (cells, radius) = (uniform.grid.cells(), uniform.grid.radius());
+    let coarse = RadialGrid::uniform(cells_of_pilot(cells), radius).ok()?;
+    let run = pilot(&uniform.on(coarse), from, SCAR_PERIODS, SCAR_STEPS)?;
+    let grid = placing::place(&run.setup().grid, &run.state.wear, cells, &uniform.indenter);
+    Some(uniform.on(grid?))
+}
+
+fn cells_of_pilot(cells: usize) -> usize {
+    let [fewest, most] = PILOT_CELLS;
+    cells.clamp(fewest, most)
 }
 
 /// How many cells a ring from `border` to `edge` (m) is to get that has fewer than [`RING_CELLS`] on a `grid`; none
@@ -145,18 +177,15 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
     Some(setup.on(grid.ok()?))
 }
 
-/// Runs one period and reads where g reaches `depth`: by a parabola in x² through the last three
-/// nodes inside, which no longer wear.
-fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
-    let period = setup.drive.cycles_to_settle();
-    let affordable = PILOT_WORK / (period * setup.drive.turns_of_the_faster());
-    let most = affordable.clamp(FEWEST_PILOT_STEPS, PILOT_STEPS);
+/// The run over some `periods` of the motion, with at most so many `steps` a cycle.
+fn pilot(setup: &Setup, from: Option<&Simulation>, periods: u32, steps: u32) -> Option<Simulation> {
+    let cycles = periods * setup.drive.cycles_to_settle();
+    let affordable = PILOT_WORK / (cycles * setup.drive.turns_of_the_faster());
     let setup = Setup {
-        steps_per_cycle: setup.steps_per_cycle.min(most),
+        steps_per_cycle: steps.min(affordable.max(FEWEST_STEPS)),
         integrator: Integrator::Direct,
         ..setup.clone()
     };
-    let period = f64::from(period);
     let mut run = match from {
         None => Simulation::begin(setup).ok()?,
         Some(simulation) => {
@@ -164,7 +193,13 @@ fn pilot(setup: &Setup, from: Option<&Simulation>, depth: f64) -> Option<f64> {
             Simulation::resume(setup, state).ok()?
         }
     };
-    run.advance_to(run.cycle() + period).ok()?;
+    run.advance_to(run.cycle() + f64::from(cycles)).ok()?;
+    Some(run)
+}
+
+/// The radius, m, where g reaches `depth` after a pilot `run`: by a parabola in x² through the last three nodes inside,
+/// which no longer wear.
+fn border(run: &Simulation, depth: f64) -> Option<f64> {
     let (g, t) = (&run.profile_1d(), run.setup().grid.squares());
     let k = g
         .iter()

@@ -10,8 +10,8 @@ use crate::math::invalid::{Invalid, positive};
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Spacing {
-    /// Cells that narrow towards the stick border from both sides, one node on it. Where the motion
-    /// leaves no permanent stick zone, uniform.
+    /// Narrow cells where wear is steep: towards the border of a permanent stick zone, one node on it, or where a
+    /// pilot run wears.
     Graded,
     /// Cells of equal width, as in the paper.
     Uniform,

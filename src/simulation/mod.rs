@@ -56,6 +56,7 @@ pub mod contact;
 pub mod drive;
 mod model;
 mod moments;
+pub(crate) mod placing;
 mod reconfigure;
 pub mod running_in;
 mod saved;

@@ -7,14 +7,13 @@ use std::time::Instant;
 
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
-use super::placing;
 use super::rung::{Rung, Top, run};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::Integrator;
+use crate::simulation::{Integrator, placing};
 
 /// The order by which the next rung is chosen.
 const EXPECTED_ORDER: f64 = 1.7;

@@ -7,7 +7,6 @@ mod estimate;
 mod ladder;
 mod level;
 mod outcome;
-mod placing;
 mod resolve;
 mod rung;
 

@@ -32,7 +32,7 @@ const NARROWEST: f64 = 1.0 / 15_000.0;
 
 /// The grid of `cells` cells for a scar like that of `wear` (m) on the coarser `grid`. A node stands on the flat tip's edge
 /// of the `indenter`. `None` if nothing has worn.
-pub(super) fn place(
+pub(crate) fn place(
     grid: &RadialGrid,
     wear: &[f64],
     cells: usize,

@@ -8,6 +8,7 @@ use super::outcome::{Difference, Outcome};
 use super::rung::run;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
+use crate::simulation::Spacing;
 
 /// The fewest cells and steps that a twin is any good with.
 const COARSEST: (usize, u32) = (8, 4);
@@ -66,7 +67,14 @@ impl Level {
 /// The run as a scenario with `factor` times its cells and steps, including the changes made to it.
 fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
     let loaded = session.loaded();
-    let level = Level::of(loaded);
+    let mut level = Level::of(loaded);
+    let setup = session.simulation().setup();
+    // Cells that a pilot has placed keep their spacing: another pilot would place those of the twin elsewhere, and the
+    // difference would be that of the places. A node on a stick border is found anew, and so are nodes after a change.
+    let is_placed = setup.spacing == Spacing::Graded && setup.grid.border().is_none();
+    if is_placed && session.changes().is_empty() {
+        level.nodes = Some(setup.grid.clone());
+    }
     let whole = |number: f64, least: f64| (number * factor).round().max(least).to_string();
     let changes = session.changes().iter().map(|change| {
         let scaled = match (change.key(), change.value().parse::<f64>()) {

@@ -108,7 +108,7 @@ fn around_ring(uniform: &Setup) -> Option<Setup> {
     Some(uniform.on(graded.ok()?.without_border()))
 }
 
-/// Placed by what a coarser run has worn.
+/// With cells placed by the scar of a coarser run.
 fn around_scar(uniform: &Setup, from: Option<&Simulation>) -> Option<Setup> {
     uniform.wear?;
     uniform.drive.tangential()?;
@@ -177,7 +177,7 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
     Some(setup.on(grid.ok()?))
 }
 
-/// The run over some `periods` of the motion, with at most so many `steps` a cycle.
+/// Runs `setup` over `periods` of the motion, with at most `steps` steps a cycle.
 fn pilot(setup: &Setup, from: Option<&Simulation>, periods: u32, steps: u32) -> Option<Simulation> {
     let cycles = periods * setup.drive.cycles_to_settle();
     let affordable = PILOT_WORK / (cycles * setup.drive.turns_of_the_faster());

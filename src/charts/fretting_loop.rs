@@ -100,6 +100,9 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         let across = symmetric(chart.curves.iter().flat_map(|curve| &curve.xs));
         let upwards = symmetric(chart.curves.iter().flat_map(|curve| &curve.ys));
         (chart.x.bounds, chart.y.bounds) = (Some(across), Some(upwards));
+        // Where it will be once it slips.
+        chart.x.expects = live.slip_border.unwrap_or(0.0);
+        chart.y.expects = live.friction * live.moment.normal_force;
         chart.points.push(here(run, live));
     }
     Ok(chart)

@@ -108,9 +108,9 @@ impl Axis {
     /// `data`, rounded outwards to the tick grid if `round` asks for it. Always finite,
     /// increasing, and positive on a log axis.
     pub fn resolve(&self, data: Option<[f64; 2]>, round: bool) -> [f64; 2] {
-        let ends = self
-            .bounds
-            .filter(|ends| ends.iter().all(|end| self.scale.has(*end)));
+        // Zeros alone do not tell a size.
+        let ends = self.bounds.filter(|ends| *ends != [0.0, 0.0]);
+        let ends = ends.filter(|ends| ends.iter().all(|end| self.scale.has(*end)));
         match (ends, data, self.scale) {
             (Some([a, b]), ..) => widened(a, b, 1e-9),
             (None, None | Some([0.0, 0.0]), Scale::Linear) if self.expects > 0.0 => {

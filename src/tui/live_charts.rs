@@ -69,14 +69,16 @@ impl LiveCharts {
         held.map(|held| held.bounds)
     }
 
-    /// Takes in the range of an axis in a frame at `cycle`, and returns the bounds that it has then.
+    /// Takes in the range of an axis in a frame at `cycle`, and returns the bounds that it has then. Where all is zero
+    /// yet, the size of what comes is unknown, and there are none.
     fn hold(
         &mut self,
         axis: (Panel, Option<Scale>),
         range: Option<[f64; 2]>,
         cycle: f64,
     ) -> Option<[f64; 2]> {
-        if let Some([low, high]) = range.filter(|_| !self.is_outdated) {
+        let tells = |range: &[f64; 2]| !self.is_outdated && *range != [0.0, 0.0];
+        if let Some([low, high]) = range.filter(tells) {
             let held = self.held.entry(axis).or_insert_with(|| Held {
                 bounds: sticky_bounds(None, low, high),
                 seen: [low, high],
@@ -219,6 +221,16 @@ fn may_last(calm: &Frame, frame: &Frame) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A run begins with a displacement of zero: that is not held as an axis of one metre.
+    #[test]
+    fn zeros_are_not_held() {
+        let mut charts = LiveCharts::default();
+        let axis = (Panel::Loop, None);
+        assert_eq!(charts.hold(axis, Some([0.0, 0.0]), 0.0), None);
+        assert_eq!(charts.hold(axis, Some([0.0, 2e-7]), 0.1), Some([0.0, 2e-7]));
+        assert_eq!(charts.hold(axis, Some([0.0, 0.0]), 0.2), Some([0.0, 2e-7]));
+    }
 
     /// A motion begins to one side, and swings to both.
     #[test]

@@ -136,8 +136,6 @@ fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     match chart.y.scale {
         // Five decades show more than the last trace of stress at the contact edge.
         Scale::Log => Some([low.max(1e-5 * high), high]),
-        // Nothing is there yet: the axis shows what is expected.
-        Scale::Linear if [low, high] == [0.0, 0.0] && chart.y.expects > 0.0 => None,
         Scale::Linear if has_spikes => {
             let curves = chart.curves.iter().filter(|curve| !curve.is_theory);
             let values = curves.flat_map(|curve| &curve.ys).chain(&chart.y.holds);

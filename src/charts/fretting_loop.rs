@@ -101,7 +101,8 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         let upwards = symmetric(chart.curves.iter().flat_map(|curve| &curve.ys));
         (chart.x.bounds, chart.y.bounds) = (Some(across), Some(upwards));
         // Where it will be once it slips.
-        chart.x.expects = live.slip_border.unwrap_or(0.0);
+        let slip_per_depth = run.theory.as_ref().map(|theory| theory.slip_per_depth);
+        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.moment.depth;
         chart.y.expects = live.friction * live.moment.normal_force;
         chart.points.push(here(run, live));
     }

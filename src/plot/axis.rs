@@ -301,6 +301,9 @@ mod tests {
             [1.0, 10.0]
         );
         assert_eq!(axis().resolve(None, true), [0.0, 1.0]);
+        let zeros = axis().bounds([0.0, 0.0]).expecting(3e-7);
+        let [lo, hi] = zeros.resolve(Some([0.0, 0.0]), true);
+        assert!(lo == 0.0 && (3e-7..4e-7).contains(&hi));
         let [lo, hi] = axis().bounds([3.0, 3.0]).resolve(data, false);
         assert!(lo < 3.0 && hi > 3.0);
     }

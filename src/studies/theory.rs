@@ -18,8 +18,8 @@ pub struct Theory {
     limit: Option<LimitingProfile>,
     unworn: Option<(PowerLaw, f64)>,
     cattaneo: Option<CattaneoMindlin>,
-    /// 1/κ = μE*/G*.
-    slip_per_depth: f64,
+    /// 1/κ = μE*/G*: u_x over depth from which the unworn indenter slips as a whole.
+    pub slip_per_depth: f64,
 }
 
 impl Theory {

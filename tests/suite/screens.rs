@@ -536,6 +536,12 @@ fn no_size_makes_any_preset_fail() {
             2 => Marker::HalfBlock,
             _ => Marker::Braille,
         };
+        let first = draw(&stage.app, 80, 24);
+        assert!(
+            !first.contains("u_x [m]"),
+            "{}: an axis of a metre\n{first}",
+            preset.name
+        );
         for keys in ["", ".", ",", "t", "c.", "c", "L<Tab>L<Tab>L<Tab>L<Tab>L"] {
             stage.press(keys);
             for (columns, rows) in [(20, 5), (40, 10), (43, 13), (80, 24), (131, 17), (220, 60)] {

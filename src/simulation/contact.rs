@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
-use super::drive::Target;
+use super::drive::{Target, Targets};
 use super::model::Model;
 use crate::contact::foundation::NormalContact;
 use crate::contact::normal;
@@ -86,15 +86,19 @@ pub(super) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Presses and shifts the indenter to what the drive asks for at `cycle`. Writes the contact `after`, and how far
-    /// each tangential spring slips, m.
-    pub fn solve(self, cycle: f64, after: &mut Contact, slip: &mut [f64]) -> Result<(), Cause> {
+    /// Presses and shifts the indenter to what the drive asks for. Writes the contact `after`, and how far each
+    /// tangential spring slips, m.
+    pub fn solve(
+        self,
+        targets: Targets,
+        after: &mut Contact,
+        slip: &mut [f64],
+    ) -> Result<(), Cause> {
         let Self { before, .. } = self;
-        let drive = &self.model.setup.drive;
-        self.press(cycle, after)?;
+        self.press(targets.normal, after)?;
         after.shift = before.shift;
-        let is_stiff = drive.rig_compliance() == 0.0;
-        let (increment, shift) = match drive.tangential_at(cycle) {
+        let is_stiff = self.model.setup.drive.rig_compliance() == 0.0;
+        let (increment, shift) = match targets.tangential {
             None => return Ok(()),
             Some(Target::Displacement(target)) if is_stiff => (target - before.shift, target),
             Some(target) => {
@@ -110,11 +114,11 @@ impl Problem<'_> {
         Ok(())
     }
 
-    /// Presses the indenter to what the drive asks for at `cycle`. The tangential springs stay as they are.
-    fn press(self, cycle: f64, contact: &mut Contact) -> Result<(), Cause> {
+    /// Presses the indenter to a target. The tangential springs stay as they are.
+    fn press(self, target: Target, contact: &mut Contact) -> Result<(), Cause> {
         let Self { model, g, .. } = self;
         let setup = &model.setup;
-        let depth = self.depth_at(cycle, contact)?;
+        let depth = self.depth_at(target, contact)?;
         let modulus = setup.material.normal_modulus();
         let normal = normal::press(&model.foundation, g, depth, modulus, &mut contact.load);
         if !model.foundation.most_force(normal.strongest).is_finite() {
@@ -149,10 +153,10 @@ impl Problem<'_> {
     }
 
     /// The depth, m: prescribed, or the one that carries the prescribed force.
-    fn depth_at(self, cycle: f64, contact: &mut Contact) -> Result<f64, Cause> {
+    fn depth_at(self, target: Target, contact: &mut Contact) -> Result<f64, Cause> {
         let Self { model, g, .. } = self;
         let setup = &model.setup;
-        let force = match setup.drive.normal_at(cycle) {
+        let force = match target {
             Target::Displacement(depth) => return Ok(depth),
             Target::Force(force) => force,
         };

@@ -343,7 +343,8 @@ impl Simulation {
             g: &g,
             before: &before.contact,
         };
-        problem.solve(cycle, &mut contact, &mut slip).ok()?;
+        let targets = model.setup.drive.targets(cycle);
+        problem.solve(targets, &mut contact, &mut slip).ok()?;
         Some(contact)
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Setup;
 use super::choices::Scheme;
+use super::drive::Targets;
 use super::state::State;
 
 /// A turning point this close to a regular moment, in steps, takes its place.
@@ -82,21 +83,22 @@ fn turn(setup: &Setup, touch: Touch, from: f64, until: f64) -> Option<f64> {
     touching.or(turn)
 }
 
-/// The ends of all steps of a period of the motion, in cycles from its beginning: found once as long as the contact
-/// leaves the turns where they are.
+/// The ends of all steps of a period of the motion, in cycles from its beginning, and what the motion asks for there:
+/// found once as long as the contact leaves the turns where they are.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Period {
     touch: Option<Touch>,
-    moments: Arc<[f64]>,
+    moments: Arc<[(f64, Targets)]>,
 }
 
 impl Period {
     /// Those of a period of `cycles`.
-    pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[f64]> {
+    pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[(f64, Targets)]> {
         if self.touch != Some(touch) {
             let after =
                 |&now: &f64| (now < cycles).then(|| next(setup, touch, now, true).0.min(cycles));
             let moments = std::iter::successors(after(&0.0), after);
+            let moments = moments.map(|moment| (moment, setup.drive.targets(moment)));
             (self.touch, self.moments) = (Some(touch), moments.collect());
         }
         Arc::clone(&self.moments)

@@ -38,6 +38,15 @@ pub enum Control<T = Oscillation> {
 /// A prescribed value at one moment.
 pub type Target = Control<f64>;
 
+/// What both directions are asked for at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Targets {
+    /// The normal direction.
+    pub normal: Target,
+    /// The tangential one, where it moves.
+    pub tangential: Option<Target>,
+}
+
 impl Control {
     /// The oscillation of whatever is prescribed.
     pub fn oscillation(&self) -> &Oscillation {
@@ -197,14 +206,13 @@ impl Drive {
         unevenness
     }
 
-    /// What the normal direction is asked for after `cycles`.
-    pub fn normal_at(&self, cycles: f64) -> Target {
-        self.normal.at(cycles * self.frequency_ratio())
-    }
-
-    /// What the tangential direction is asked for after `cycles`.
-    pub fn tangential_at(&self, cycles: f64) -> Option<Target> {
-        self.tangential.as_ref().map(|control| control.at(cycles))
+    /// What both directions are asked for after `cycles`.
+    pub fn targets(&self, cycles: f64) -> Targets {
+        let tangential = self.tangential.as_ref();
+        Targets {
+            normal: self.normal.at(cycles * self.frequency_ratio()),
+            tangential: tangential.map(|control| control.at(cycles)),
+        }
     }
 }
 
@@ -228,12 +236,12 @@ mod tests {
         let cycles = 3.3;
         let time = cycles * drive.period();
         let expected = 1e-6 + 1e-7 * (200.0 * time).sin();
-        let Target::Displacement(depth) = drive.normal_at(cycles) else {
+        let Target::Displacement(depth) = drive.targets(cycles).normal else {
             panic!("a displacement")
         };
         assert!((depth - expected).abs() < 1e-20);
         let expected = 1e-7 * (100.0 * time + 0.5).sin();
-        let Some(Target::Displacement(shift)) = drive.tangential_at(cycles) else {
+        let Some(Target::Displacement(shift)) = drive.targets(cycles).tangential else {
             panic!("a displacement")
         };
         assert!((shift - expected).abs() < 1e-20);
@@ -243,8 +251,8 @@ mod tests {
     fn the_ten_millionth_cycle_is_like_the_first() {
         let drive = drive(1.0);
         assert_eq!(
-            drive.tangential_at(0.25),
-            drive.tangential_at(10_000_000.25)
+            drive.targets(0.25).tangential,
+            drive.targets(10_000_000.25).tangential
         );
     }
 
@@ -319,6 +327,6 @@ mod tests {
         let normal = Oscillation::new(1e-6, 0.0, 10.0, 0.0).expect("a motion");
         let drive = Drive::new(Control::Displacement(normal), None);
         assert_eq!(drive.period(), TAU / 10.0);
-        assert_eq!(drive.tangential_at(1.0), None);
+        assert_eq!(drive.targets(1.0).tangential, None);
     }
 }

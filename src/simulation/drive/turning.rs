@@ -84,14 +84,11 @@ impl Drive {
             let (down, along) = rates(cycles);
             down + sign * along
         };
-        // Most steps lie so far from every turn that the steepest rate does not reach zero between their middle and
-        // an end.
         let steepest = TAU * (normal_weight * ratio + tangential_weight);
-        let reach = 1.001 * steepest * 0.5 * (until - from);
         let (down, along) = rates(0.5 * (from + until));
         [1.0, -1.0]
             .into_iter()
-            .filter(|&sign| (down + sign * along).abs() <= reach)
+            .filter(|&sign| may_cross(down + sign * along, steepest, from, until))
             .filter_map(|sign| first_crossing(|cycles| rate(sign, cycles), ratio, from, until))
             .reduce(f64::min)
     }
@@ -109,7 +106,9 @@ impl Drive {
         }
         let ratio = self.frequency_ratio();
         let above = |cycles: f64| normal.after_turns(cycles * ratio) - threshold;
-        first_crossing(above, ratio, from, until)
+        let steepest = normal.greatest_speed() * self.period();
+        may_cross(above(0.5 * (from + until)), steepest, from, until)
+            .then(|| first_crossing(above, ratio, from, until))?
     }
 
     /// g at the border of the permanent stick zone, m, where both displacements are prescribed: a
@@ -152,6 +151,12 @@ impl Drive {
     }
 }
 
+/// Whether a function with the value `middle` in the middle of a step may cross zero in it: most steps lie so far from
+/// every crossing that its steepest rate, per cycle, does not reach zero between the middle and an end.
+fn may_cross(middle: f64, steepest: f64, from: f64, until: f64) -> bool {
+    middle.abs() <= 1.001 * steepest * 0.5 * (until - from)
+}
+
 /// Where `function` first crosses zero after `from` and up to `until`, in cycles, of which one has `ratio` turns of
 /// the normal motion.
 fn first_crossing(function: impl Fn(f64) -> f64, ratio: f64, from: f64, until: f64) -> Option<f64> {
@@ -185,8 +190,9 @@ mod tests {
             .turning_point(8.0, [1.0; 2], 0.0, 1.0)
             .expect("a turn");
         let value = |cycles: f64| {
+            let targets = drive.targets(cycles);
             let (Target::Displacement(d), Some(Target::Displacement(u))) =
-                (drive.normal_at(cycles), drive.tangential_at(cycles))
+                (targets.normal, targets.tangential)
             else {
                 panic!("displacements")
             };

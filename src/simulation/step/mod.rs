@@ -84,7 +84,8 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
         g: &scratch.g,
         before: &state.contact,
     };
-    problem.solve(state.cycle, &mut solved, &mut scratch.increment.slip)?;
+    let targets = model.setup.drive.targets(state.cycle);
+    problem.solve(targets, &mut solved, &mut scratch.increment.slip)?;
     state.contact = solved;
     state.last.duration = 0.0;
     state.last.stiffness = 0.0;

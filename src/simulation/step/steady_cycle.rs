@@ -18,7 +18,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::contact;
-use super::super::drive::{Control, Oscillation};
+use super::super::drive::{Control, Oscillation, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::setup::Setup;
@@ -59,20 +59,20 @@ pub(super) fn cost(setup: &Setup) -> f64 {
     }
 }
 
-/// Solves the contact at `cycle` on the profile in `scratch`, into `spare`.
+/// Solves the contact that is asked for on the profile in `scratch`, into `spare`.
 fn solve(
     model: &Model,
     memory: &State,
     spare: &mut State,
     scratch: &mut Scratch,
-    cycle: f64,
+    targets: Targets,
 ) -> Result<(), Cause> {
     let problem = contact::Problem {
         model,
         g: &scratch.g,
         before: &memory.contact,
     };
-    problem.solve(cycle, &mut spare.contact, &mut scratch.increment.slip)
+    problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
 }
 
 /// Makes the contact in `spare` that of `memory`, at `cycle`.
@@ -92,8 +92,8 @@ fn period(
     let touch = Touch::on(&model.setup, memory, scratch.g.iter().copied());
     let moments = scratch.period.moments(&model.setup, touch, cycles);
     memory.cycle = 0.0;
-    for &moment in moments.iter() {
-        solve(model, memory, spare, scratch, moment)?;
+    for &(moment, targets) in moments.iter() {
+        solve(model, memory, spare, scratch, targets)?;
         take_over(memory, spare, moment);
     }
     memory.pressure.forget();
@@ -105,8 +105,8 @@ fn period(
     };
     let mut stiffness = vec![0.0; model.nodes()];
     let modulus = model.setup.material.normal_modulus();
-    for &moment in moments.iter() {
-        solve(model, memory, spare, scratch, moment)?;
+    for &(moment, targets) in moments.iter() {
+        solve(model, memory, spare, scratch, targets)?;
         wear(model, memory, spare, scratch, moment);
         let increment = &mut scratch.increment;
         steady.friction_work += increment.friction_work;
@@ -157,10 +157,11 @@ fn plain_cycle(
     swing: &Oscillation,
 ) -> Result<SteadyCycle, Cause> {
     memory.stats.evaluated_cycles += 1;
+    let start = model.setup.drive.targets(0.0);
     // First the normal contact, whatever the springs do; then the springs where the cycle ends.
-    solve(model, memory, spare, scratch, 0.0)?;
+    solve(model, memory, spare, scratch, start)?;
     settle_springs(&model.setup, memory, &spare.contact.load, swing);
-    solve(model, memory, spare, scratch, 0.0)?;
+    solve(model, memory, spare, scratch, start)?;
     take_over(memory, spare, 0.0);
 
     let increment = &mut scratch.increment;

@@ -123,7 +123,8 @@ fn attempt(
         g: &scratch.g,
         before: &state.contact,
     };
-    problem.solve(cycle, &mut next.contact, &mut scratch.increment.slip)?;
+    let targets = model.setup.drive.targets(cycle);
+    problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)?;
     wear(model, state, next, scratch, cycle);
     let seconds = model.seconds(cycle - state.cycle);
     Ok(scratch.increment.stiffness(model, seconds))

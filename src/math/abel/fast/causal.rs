@@ -69,7 +69,7 @@ impl Causal {
                     .for_each(|(left, decay)| *left *= decay);
                 let (inner, outer) = (one.min(other), one.max(other));
                 let sine = ((outer - inner) * (outer + inner)).sqrt() / outer;
-                let exact = powers.kernel.kink(inner / outer, sine);
+                let exact = (powers.kernel.kink)(inner / outer, sine);
                 weights[REACH - distance] = exact - left.iter().sum::<f64>();
             }
             weights

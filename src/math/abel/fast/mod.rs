@@ -45,7 +45,7 @@ mod powers;
 mod tests;
 
 use causal::{Causal, REACH, apart};
-use powers::{Kernel, Powers, fit};
+use powers::{ARC, Kernel, Powers, ROOT, WORN, fit};
 
 /// The error of a kernel that a run asks for.
 pub const TOLERANCE: f64 = 1e-8;
@@ -144,13 +144,13 @@ impl FastProduct {
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let nodes = grid.nodes();
         let inwards: Vec<f64> = nodes.iter().rev().copied().collect();
-        let roots = powers(nodes, Kernel::Root, tolerance)?;
+        let roots = powers(nodes, ROOT, tolerance)?;
         Some(Self {
             nodes: nodes.to_vec(),
             squares: grid.squares().to_vec(),
             inverse: inverse_widths(grid.squares()),
             profile: Causal::new(nodes, &roots),
-            displacement: Causal::new(nodes, &powers(nodes, Kernel::Arc, tolerance)?),
+            displacement: Causal::new(nodes, &powers(nodes, ARC, tolerance)?),
             stress: Causal::new(&inwards, &roots),
         })
     }
@@ -214,10 +214,10 @@ impl FastWorn {
             border,
             squares: squares.to_vec(),
             inverse: inverse_widths(&squares[..=border]),
-            inner: Causal::new(nodes, &powers(nodes, Kernel::Root, tolerance)?),
+            inner: Causal::new(nodes, &powers(nodes, ROOT, tolerance)?),
             x: x.to_vec(),
             inverse_z: inverse_widths(&z),
-            outer: Causal::new(&z, &powers(&z, Kernel::Worn, tolerance)?),
+            outer: Causal::new(&z, &powers(&z, WORN, tolerance)?),
             z,
         })
     }

@@ -41,12 +41,11 @@
 //!
 //! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(ν) V. The norm is that over dy,
 //! which for a kernel like y^(−1/2) is that of the relative error over ln y; the displacement is weighted like
-//! its derivative. Terms far out in the series are gathered beforehand, those of each octave by Gauss's rule. The
-//! A_m are then those of least squares over ln v of the kernel itself. K exponents leave an error near
+//! its derivative. Terms far out in the series are gathered in bunches beforehand. The A_m are then those of least squares over ln v of the kernel itself. K exponents leave an error near
 //! that of the best ones, exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale, Nonlinear and
 //! Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3), with no table and no search.
 
-use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, PI};
+use std::f64::consts::{FRAC_2_PI, PI};
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -57,99 +56,76 @@ pub(super) const LANES: usize = 4;
 pub(super) const MOST_GROUPS: usize = 14;
 
 /// Sample points of the fit over ln v, a number a unit of its logarithm.
-const SAMPLES: usize = 24;
+const SAMPLES: f64 = 24.0;
 
 /// ln v beyond which every power but ν = 0 has died.
 const FARTHEST: f64 = 60.0;
 
-/// Terms of the series that are taken one by one.
-const SINGLE: usize = 32;
+/// Terms of the series far out are gathered in bunches of this part of their number.
+const BUNCH: f64 = 0.07;
 
 /// Terms whose exponent times y_min is beyond this are left out.
 const LAST: f64 = 30.0;
 
-/// Points and weights of Gauss's rule on (−1, 1), those right of the middle.
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
-
 /// A kernel to be fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kernel {
-    /// Eqs. (1) and (3).
-    Root,
-    /// Eq. (2).
-    Arc,
-    /// Eq. (1) on the worn depth outside the border.
-    Worn,
-}
-
-impl Kernel {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kernel {
     /// κ: the integral of the whole kernel.
-    fn whole(self) -> f64 {
-        match self {
-            Self::Root | Self::Worn => 2.0,
-            Self::Arc => 0.5,
-        }
-    }
-
-    /// The density at v = exp(−y).
-    fn density(self, y: f64) -> f64 {
-        let (root, grown) = ((-(-y).exp_m1()).sqrt(), y.exp_m1().sqrt());
-        match self {
-            Self::Root => 1.0 / root,
-            Self::Arc => FRAC_2_PI * grown.atan(),
-            Self::Worn => 1.0 / grown + grown.atan(),
-        }
-    }
-
-    /// What an error is measured against: the density, or 1 where that vanishes at v = 1.
-    fn scale(self, y: f64) -> f64 {
-        match self {
-            Self::Arc => 1.0,
-            _ => self.density(y),
-        }
-    }
-
-    /// The integral from v to 1, of v = s² and 1 − v = c², both at hand without cancellation.
-    pub fn kink(self, s: f64, c: f64) -> f64 {
-        match self {
-            Self::Root => 2.0 * c,
-            Self::Arc => FRAC_2_PI * ((0.5 - s * s) * c.atan2(s) + 0.5 * s * c),
-            Self::Worn => 2.0 * c - s * c.atan2(s),
-        }
-    }
-
-    /// The term n of the power series, its constant apart: the exponent and its weight for the truncation.
-    fn term(self, n: f64) -> (f64, f64) {
-        // c_n by Stirling's series; the exponents need no more than a few digits of it.
-        let c = if n < 1.0 {
-            1.0
-        } else {
-            let inverse = 1.0 / n;
-            (1.0 - inverse * (0.125 - inverse * 0.007_812_5)) / (PI * n).sqrt()
-        };
-        match self {
-            Self::Root => (n, c),
-            Self::Arc => (n + 0.5, c * FRAC_1_PI),
-            Self::Worn => (n + 0.5, c * n / (n + 0.5)),
-        }
-    }
-
-    /// a and μ from A and ν.
-    fn integrated(self, exponent: f64, factor: f64) -> (f64, f64) {
-        match self {
-            Self::Worn => (factor / (2.0 * exponent + 1.0), exponent + 0.5),
-            _ => (factor / (exponent + 1.0), exponent + 1.0),
-        }
-    }
+    whole: f64,
+    /// The density of v = s² and 1 − v = c², both at hand without cancellation.
+    density: fn(f64, f64) -> f64,
+    /// Whether errors are relative to the density: where that vanishes at v = 1, they are not.
+    is_relative: bool,
+    /// The integral from v to 1, of s and c.
+    pub kink: fn(f64, f64) -> f64,
+    /// The first term of the power series but its constant, n.
+    first: f64,
+    /// The exponent of the term n less n.
+    shift: f64,
+    /// The weight of the term n for the truncation, in units of c_n.
+    weight: fn(f64) -> f64,
+    /// How many times ln v the logarithm of the variable is that the density is over: 1 of v, 2 of s.
+    per_logarithm: f64,
 }
+
+/// Eqs. (1) and (3).
+pub(super) const ROOT: Kernel = Kernel {
+    whole: 2.0,
+    density: |_, c| 1.0 / c,
+    is_relative: true,
+    kink: |_, c| 2.0 * c,
+    first: 1.0,
+    shift: 0.0,
+    weight: |_| 1.0,
+    per_logarithm: 1.0,
+};
+
+/// Eq. (2).
+pub(super) const ARC: Kernel = Kernel {
+    whole: 0.5,
+    density: |s, c| FRAC_2_PI * c.atan2(s),
+    is_relative: false,
+    kink: |s, c| FRAC_2_PI * ((0.5 - s * s) * c.atan2(s) + 0.5 * s * c),
+    first: 0.0,
+    shift: 0.5,
+    weight: |_| 1.0,
+    per_logarithm: 1.0,
+};
+
+/// Eq. (1) on the worn depth outside the border.
+pub(super) const WORN: Kernel = Kernel {
+    whole: 2.0,
+    density: |s, c| s / c + c.atan2(s),
+    is_relative: true,
+    kink: |s, c| 2.0 * c - s * c.atan2(s),
+    first: 1.0,
+    shift: 0.5,
+    weight: |n| n / (n + 0.5),
+    per_logarithm: 2.0,
+};
 
 /// Σ a_m v^(μ_m), κ among the a.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(super) struct Powers {
     /// The kernel that they stand for.
     pub kernel: Kernel,
@@ -165,26 +141,38 @@ pub(super) struct Powers {
 ///
 /// None if [`MOST_GROUPS`] do not suffice.
 pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers> {
-    let decades = (FARTHEST / nearest).ln();
-    let points = |number: f64| {
-        let number = number.ceil();
-        (0..=number as usize)
-            .map(|i| nearest * (decades * i as f64 / number).exp())
-            .collect::<Vec<f64>>()
+    let range = (FARTHEST / nearest).ln();
+    // What is fitted, and a check between.
+    let [samples, checks] = [SAMPLES, 1.37 * SAMPLES].map(|density| {
+        let number = (density * range).ceil();
+        let points = (0..=number as usize).map(|i| nearest * (range * i as f64 / number).exp());
+        points.collect::<Vec<f64>>()
+    });
+    let density = |y: f64| (kernel.density)((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
+    let scale = |y: f64| if kernel.is_relative { density(y) } else { 1.0 };
+    let target = |points: &[f64]| {
+        let values = points.iter().map(|&y| density(y) / scale(y));
+        DVector::from_iterator(points.len(), values)
     };
-    let samples = points(SAMPLES as f64 * decades);
-    // Elsewhere than where it was fitted.
-    let checks = points(1.37 * SAMPLES as f64 * decades);
     let balanced = balanced(kernel, nearest);
     (2..=MOST_GROUPS).find_map(|groups| {
         let exponents = truncated(&balanced, groups * LANES - 2)?;
-        let factors = least_squares(kernel, &exponents, &samples)?;
-        let worst = residual(kernel, &exponents, &factors, &checks);
+        let powers = |points: &[f64]| {
+            DMatrix::from_fn(points.len(), exponents.len(), |i, m| {
+                (-exponents[m] * points[i]).exp() / scale(points[i])
+            })
+        };
+        let qr = powers(&samples).qr();
+        let factors = qr
+            .r()
+            .solve_upper_triangular(&qr.q().tr_mul(&target(&samples)))?;
+        let worst = (powers(&checks) * &factors - target(&checks)).amax();
         // The nearest kinks are exact, those behind them are not: what that breaks off the integral is as much again.
         (2.0 * worst <= tolerance).then(|| {
+            let per = kernel.per_logarithm;
             let pairs = exponents.iter().zip(&factors);
-            let powers = pairs.map(|(&nu, &a)| kernel.integrated(nu, -a));
-            let (factors, exponents) = powers.chain([(kernel.whole(), 0.0)]).unzip();
+            let powers = pairs.map(|(nu, a)| (-a / (per * nu + 1.0), nu + 1.0 / per));
+            let (factors, exponents) = powers.chain([(kernel.whole, 0.0)]).unzip();
             Powers {
                 kernel,
                 nearest,
@@ -197,32 +185,32 @@ pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers
 
 /// V′ diag(ν) V of all modes, the weightiest first.
 fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
-    let first = usize::from(kernel != Kernel::Arc);
-    let mut terms: Vec<(f64, f64)> = (first..SINGLE).map(|n| kernel.term(n as f64)).collect();
-    let mut from = SINGLE as f64 - 0.5;
+    // ν and b of every bunch of terms.
+    let mut terms: Vec<(f64, f64)> = Vec::new();
+    let mut from = kernel.first;
     while from * nearest < LAST {
-        let half = 0.5 * from;
-        for (point, weight) in GAUSS {
-            for side in [-point, point] {
-                let (exponent, factor) = kernel.term(from + half * (1.0 + side));
-                terms.push((exponent, factor * weight * half));
-            }
-        }
-        from *= 2.0;
+        let count = (BUNCH * from).floor().max(1.0);
+        let n = from + 0.5 * (count - 1.0);
+        // c_n by Stirling's series; the exponents need no more than a few digits of it.
+        let c = if n < 1.0 {
+            1.0
+        } else {
+            (1.0 - (0.125 - 0.007_812_5 / n) / n) / (PI * n).sqrt()
+        };
+        let exponent = n + kernel.shift;
+        let weight = count * c * (kernel.weight)(n) * (-exponent * nearest).exp();
+        terms.push((exponent, weight.sqrt()));
+        from += count;
     }
-    let root = |(exponent, weight): (f64, f64)| (weight * (-exponent * nearest).exp()).sqrt();
     let gramian = DMatrix::from_fn(terms.len(), terms.len(), |i, k| {
-        root(terms[i]) * root(terms[k]) / (terms[i].0 + terms[k].0)
+        terms[i].1 * terms[k].1 / (terms[i].0 + terms[k].0)
     });
     let eigen = SymmetricEigen::new(gramian);
     let mut order: Vec<usize> = (0..terms.len()).collect();
     order.sort_by(|&i, &k| eigen.eigenvalues[k].total_cmp(&eigen.eigenvalues[i]));
     let modes = eigen.eigenvectors.select_columns(&order);
-    let mut weighted = modes.clone();
-    for (mut row, (exponent, _)) in weighted.row_iter_mut().zip(&terms) {
-        row *= *exponent;
-    }
-    modes.tr_mul(&weighted)
+    let exponents = DVector::from_iterator(terms.len(), terms.iter().map(|term| term.0));
+    modes.tr_mul(&(DMatrix::from_diagonal(&exponents) * &modes))
 }
 
 /// The exponents of the first `number` modes, and 0; `None` if there are fewer modes.
@@ -237,37 +225,13 @@ fn truncated(balanced: &DMatrix<f64>, number: usize) -> Option<Vec<f64>> {
     Some(exponents)
 }
 
-/// A_m of least squares at the points y of `samples`, in units of the kernel's scale.
-fn least_squares(kernel: Kernel, exponents: &[f64], samples: &[f64]) -> Option<Vec<f64>> {
-    let terms = DMatrix::from_fn(samples.len(), exponents.len(), |i, m| {
-        (-exponents[m] * samples[i]).exp() / kernel.scale(samples[i])
-    });
-    let target = samples.iter().map(|&y| kernel.density(y) / kernel.scale(y));
-    let qr = terms.qr();
-    let rotated = qr
-        .q()
-        .tr_mul(&DVector::from_iterator(samples.len(), target));
-    let solution = qr.r().solve_upper_triangular(&rotated)?;
-    Some(solution.iter().copied().collect())
-}
-
-/// The largest error at the points, in units of the kernel's scale.
-fn residual(kernel: Kernel, exponents: &[f64], factors: &[f64], points: &[f64]) -> f64 {
-    let errors = points.iter().map(|&y| {
-        let pairs = exponents.iter().zip(factors);
-        let sum: f64 = pairs.map(|(nu, a)| a * (-nu * y).exp()).sum();
-        ((sum - kernel.density(y)) / kernel.scale(y)).abs()
-    });
-    errors.fold(0.0, f64::max)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_impossible_is_refused() {
-        assert_eq!(fit(Kernel::Root, 3e-4, 1e-16), None);
+        assert!(fit(ROOT, 3e-4, 1e-16).is_none());
     }
 
     #[test]
@@ -277,7 +241,7 @@ mod tests {
                 if tolerance < 1e-10 && nearest < 1e-3 {
                     continue;
                 }
-                for kernel in [Kernel::Root, Kernel::Arc, Kernel::Worn] {
+                for kernel in [ROOT, ARC, WORN] {
                     let powers = fit(kernel, nearest, tolerance)
                         .unwrap_or_else(|| panic!("no fit to {tolerance:e} at {nearest}"));
                     assert!(powers.exponents.len() <= MOST_GROUPS * LANES);
@@ -287,7 +251,7 @@ mod tests {
                         let (s, c) = ((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
                         let pairs = powers.exponents.iter().zip(&powers.factors);
                         let sum: f64 = pairs.map(|(mu, a)| a * (-mu * y).exp()).sum();
-                        let error = sum - kernel.kink(s, c);
+                        let error = sum - (kernel.kink)(s, c);
                         // ∫₀¹ of the kernel's scale is at most 2.
                         assert!(
                             error.abs() <= 2.0 * tolerance + 1e-14,

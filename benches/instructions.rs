@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
 use anyhow::{Context, Result, bail, ensure};
-use mdr_tui::math::abel::{AbelMethod, AbelPlan, WornPlan, fast};
+use mdr_tui::math::abel::{AbelMethod, AbelPlan, fast};
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Simulation;
@@ -80,28 +80,17 @@ fn perform(what: &str, times: &str) -> Result<()> {
     };
     let values: Vec<f64> = grid.nodes().iter().map(|r| (3.0 * r * r).cos()).collect();
     let mut out = vec![0.0; grid.len()];
-    let transform: Transform = match (what, method) {
-        ("worn", "dense") => {
-            let plan = WornPlan::dense(&grid);
-            Box::new(move |from, to| plan.apply(from, to))
-        }
-        ("worn", _) => {
-            let plan = fast::FastWorn::new(&grid, fast::TOLERANCE).context("no plan")?;
-            Box::new(move |from, to| plan.profile(from, to))
-        }
-        _ => {
-            let plan = match method {
-                "fast" => AbelPlan::fast(&grid, fast::TOLERANCE).context("no plan")?,
-                "dense" => AbelPlan::dense(AbelMethod::Product, &grid),
-                method => AbelPlan::dense(method.parse()?, &grid),
-            };
-            match what {
-                "profile" => Box::new(move |from, to| plan.profile(from, to)),
-                "displacement" => Box::new(move |from, to| plan.displacement(from, to)),
-                "stress" => Box::new(move |from, to| plan.stress(from, to)),
-                _ => bail!("{what}: not a thing to count"),
-            }
-        }
+    let plan = match method {
+        "fast" => AbelPlan::fast(&grid, fast::TOLERANCE).context("no plan")?,
+        "dense" => AbelPlan::dense(AbelMethod::Product, &grid),
+        method => AbelPlan::dense(method.parse()?, &grid),
+    };
+    let transform: Transform = match what {
+        "profile" => Box::new(move |from, to| plan.profile(from, to)),
+        "worn" => Box::new(move |from, to| plan.image(from, to)),
+        "displacement" => Box::new(move |from, to| plan.displacement(from, to)),
+        "stress" => Box::new(move |from, to| plan.stress(from, to)),
+        _ => bail!("{what}: not a thing to count"),
     };
     for _ in 0..times {
         transform(black_box(&values), black_box(&mut out));

@@ -3,7 +3,7 @@
 //! `cargo bench --bench transforms`
 
 use divan::Bencher;
-use mdr_tui::math::abel::{AbelMethod, AbelPlan, WornPlan, fast};
+use mdr_tui::math::abel::{AbelMethod, AbelPlan, fast};
 use mdr_tui::math::grid::RadialGrid;
 
 fn main() {
@@ -98,14 +98,14 @@ mod fast_graded {
     #[divan::bench(args = LARGE)]
     fn worn(bencher: Bencher, cells: usize) {
         let grid = graded(cells);
-        let plan = fast::FastWorn::new(&grid, fast::TOLERANCE).expect("a plan");
-        apply(bencher, &grid, |f, g| plan.profile(f, g));
+        let plan = AbelPlan::fast(&grid, fast::TOLERANCE).expect("a plan");
+        apply(bencher, &grid, |f, g| plan.image(f, g));
     }
 
     #[divan::bench(args = SMALL)]
     fn dense_worn(bencher: Bencher, cells: usize) {
         let grid = graded(cells);
-        let plan = WornPlan::dense(&grid);
-        apply(bencher, &grid, |f, g| plan.apply(f, g));
+        let plan = AbelPlan::dense(AbelMethod::Product, &grid);
+        apply(bencher, &grid, |f, g| plan.image(f, g));
     }
 }

@@ -117,7 +117,7 @@ impl Simulation {
         if let Some(scar) = &model.setup.scar {
             let nodes = model.grid.nodes();
             state.wear = nodes.iter().map(|&r| scar.depth(r)).collect();
-            model.image(&state.wear, &mut state.image);
+            model.plan.image(&state.wear, &mut state.image);
             // Nobody knows by which work it was worn.
             state.ledger.initial_volume = model.volume(&state.wear);
             state.ledger.unexplained_volume = state.ledger.initial_volume;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
 use crate::math::abel::worn;
-use crate::math::abel::{AbelMethod, AbelPlan, WornPlan};
+use crate::math::abel::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
 use crate::math::vector::{vectorized, write_each};
@@ -22,8 +22,6 @@ pub(crate) struct Model {
 #[derive(Debug)]
 pub(crate) struct Operators {
     pub plan: AbelPlan,
-    /// From the worn depth to its share of g, where that is not the plan's Eq. (1).
-    worn: Option<WornPlan>,
     pub foundation: WinklerFoundation,
     pub grid: RadialGrid,
     /// 1/h, h the width of the cell around each node, 1/m.
@@ -40,20 +38,16 @@ impl Operators {
         let plan = AbelPlan::new(setup.method, &setup.grid);
         let nodes = setup.grid.nodes();
         let unworn: Arc<[f64]> = nodes.iter().map(|&r| setup.indenter.profile(r)).collect();
-        let (worn, unworn_1d) = if setup.method == AbelMethod::Product {
-            let image = nodes
-                .iter()
-                .map(|&x| setup.indenter.profile_1d(x))
-                .collect();
-            let border = setup.grid.border();
-            (border.map(|_| WornPlan::new(&setup.grid)), image)
-        } else {
-            let mut image = vec![0.0; nodes.len()];
-            plan.profile(&unworn, &mut image);
-            (None, image)
-        };
+        let mut unworn_1d = vec![0.0; nodes.len()];
+        match setup.method {
+            AbelMethod::Product => {
+                for (g, &x) in unworn_1d.iter_mut().zip(nodes) {
+                    *g = setup.indenter.profile_1d(x);
+                }
+            }
+            _ => plan.profile(&unworn, &mut unworn_1d),
+        }
         Self {
-            worn,
             foundation: WinklerFoundation::new(&setup.grid),
             per_width: setup.grid.widths().map(f64::recip).collect(),
             volume_weights: worn::volume_weights(&setup.grid),
@@ -96,14 +90,6 @@ impl Model {
     /// Tangential springs: one a node, none without tangential motion.
     pub fn springs(&self) -> usize {
         self.setup.springs()
-    }
-
-    /// Eq. (1) of a worn depth, m, into `image`, m.
-    pub fn image(&self, depth: &[f64], image: &mut [f64]) {
-        match &self.worn {
-            Some(operator) => operator.apply(depth, image),
-            None => self.plan.profile(depth, image),
-        }
     }
 
     /// g = g₀ + `image`, m, and `ahead` times the `growth` of the image on top of it.

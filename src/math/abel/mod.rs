@@ -48,14 +48,14 @@
 //! # }
 //! ```
 
-use std::sync::OnceLock;
+use std::fmt::Debug;
 
 use nalgebra::DMatrix;
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use super::grid::{MAX_CELLS, RadialGrid};
 use super::skyline::Skyline;
-use fast::{FastProduct, FastWorn};
+use fast::{Inwards, Worn};
 
 pub mod a;
 pub mod b;
@@ -143,22 +143,15 @@ impl AbelMethod {
     }
 }
 
-/// The weights of an operator on its nodes.
-type Weights = fn(&[f64]) -> DMatrix<f64>;
-
-/// A dense operator whose weights are computed when it is first applied: a run that has a [`WornPlan`] never needs
-/// the Eq. (1) of its method.
-#[derive(Debug)]
-struct Deferred {
-    weights: Weights,
-    nodes: Vec<f64>,
-    packed: OnceLock<Skyline>,
+/// One of the transforms on a grid, in a form of its own.
+pub trait Transform: Debug + Send + Sync {
+    /// Writes the `image` of nodal `values` from the node `first` on, or from one before it, which is returned.
+    fn apply_from(&self, first: usize, values: &[f64], image: &mut [f64]) -> usize;
 }
 
-impl Deferred {
-    fn packed(&self) -> &Skyline {
-        self.packed
-            .get_or_init(|| Skyline::pack(&(self.weights)(&self.nodes)))
+impl Transform for Skyline {
+    fn apply_from(&self, first: usize, values: &[f64], image: &mut [f64]) -> usize {
+        Self::apply_from(self, first, values, image)
     }
 }
 
@@ -166,55 +159,48 @@ impl Deferred {
 /// `cargo bench --bench transforms`: the three transforms do so from about 100 on, the worn depth from 200 on.
 const CROSSOVER: usize = 200;
 
-/// What `plan` makes in the [`fast`] form, to the first tolerance that is within reach; `None` if none is, or if the dense
-/// form is the quicker one.
-fn planned_fast<T>(
-    method: AbelMethod,
-    grid: &RadialGrid,
-    plan: impl FnMut(f64) -> Option<T>,
-) -> Option<T> {
-    let is_quicker = method.prefers_fast(grid.cells());
-    let tolerances = is_quicker.then_some(fast::TOLERANCES)?;
-    tolerances.into_iter().find_map(plan)
-}
-
-/// The three transforms of one method on one grid, ready to apply.
+/// The transforms of one method on one grid, ready to apply.
 #[derive(Debug)]
 pub struct AbelPlan {
     method: AbelMethod,
-    operators: Operators,
-}
-
-#[derive(Debug)]
-enum Operators {
-    Dense {
-        profile: Deferred,
-        displacement: Skyline,
-        stress: Skyline,
-    },
-    Fast(Box<FastProduct>),
+    profile: Box<dyn Transform>,
+    displacement: Box<dyn Transform>,
+    stress: Box<dyn Transform>,
+    /// Eq. (1) of the worn depth, see [`worn`], where it has a form of its own.
+    worn: Option<Box<dyn Transform>>,
 }
 
 impl AbelPlan {
-    /// Computes the weights of `method` on `grid`, in the quicker form.
+    /// Computes the weights of `method` on `grid`, in the quicker form: the [`fast`] one to the first tolerance that is
+    /// within reach.
     pub fn new(method: AbelMethod, grid: &RadialGrid) -> Self {
-        let fast = |tolerance| Self::fast(grid, tolerance);
-        let fast = planned_fast(method, grid, fast);
+        let tolerances = method
+            .prefers_fast(grid.cells())
+            .then_some(fast::TOLERANCES);
+        let mut tolerances = tolerances.into_iter().flatten();
+        let fast = tolerances.find_map(|tolerance| Self::fast(grid, tolerance));
         fast.unwrap_or_else(|| Self::dense(method, grid))
     }
 
     /// The product method on `grid` in the fast form, to a tolerance that [`fast`] explains; none if that is
     /// out of reach.
     pub fn fast(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
-        let fast = Box::new(FastProduct::new(grid, tolerance)?);
+        let [profile, displacement] = fast::outwards(grid, tolerance)?;
         Some(Self {
             method: AbelMethod::Product,
-            operators: Operators::Fast(fast),
+            profile: Box::new(profile),
+            displacement: Box::new(displacement),
+            stress: Box::new(Inwards::new(grid, tolerance)?),
+            worn: match grid.border() {
+                Some(border) => Some(Box::new(Worn::new(grid, border, tolerance)?)),
+                None => None,
+            },
         })
     }
 
     /// `method` on `grid` in the dense form.
     pub fn dense(method: AbelMethod, grid: &RadialGrid) -> Self {
+        type Weights = fn(&[f64]) -> DMatrix<f64>;
         let (profile, displacement, stress): (Weights, Weights, Weights) = match method {
             AbelMethod::Product => (product::profile, product::displacement, product::stress),
             AbelMethod::Benad => (benad::profile, benad::displacement, benad::stress),
@@ -222,17 +208,17 @@ impl AbelPlan {
             AbelMethod::B => (b::profile, b::displacement, b::stress),
             AbelMethod::APlusB => (benad::profile, b::displacement, benad::stress),
         };
+        let pack =
+            |weights: &DMatrix<f64>| -> Box<dyn Transform> { Box::new(Skyline::pack(weights)) };
         let nodes = grid.nodes();
-        let operators = Operators::Dense {
-            profile: Deferred {
-                weights: profile,
-                nodes: nodes.to_vec(),
-                packed: OnceLock::new(),
-            },
-            displacement: Skyline::pack(&displacement(nodes)),
-            stress: Skyline::pack(&stress(nodes)),
-        };
-        Self { method, operators }
+        let has_form = method == AbelMethod::Product && grid.border().is_some();
+        Self {
+            method,
+            profile: pack(&profile(nodes)),
+            displacement: pack(&displacement(nodes)),
+            stress: pack(&stress(nodes)),
+            worn: has_form.then(|| pack(&worn::profile(grid))),
+        }
     }
 
     /// The method that this plan computes.
@@ -242,18 +228,20 @@ impl AbelPlan {
 
     /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        match &self.operators {
-            Operators::Dense { profile, .. } => profile.packed().apply(f, g),
-            Operators::Fast(fast) => fast.profile(f, g),
-        }
+        self.profile.apply_from(0, f, g);
+    }
+
+    /// Eq. (1): the 1D image `g` of the worn depth, both nodal, m.
+    pub fn image(&self, depth: &[f64], g: &mut [f64]) {
+        self.worn
+            .as_ref()
+            .unwrap_or(&self.profile)
+            .apply_from(0, depth, g);
     }
 
     /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        match &self.operators {
-            Operators::Dense { displacement, .. } => displacement.apply(u, w),
-            Operators::Fast(fast) => fast.displacement(u, w),
-        }
+        self.displacement.apply_from(0, u, w);
     }
 
     /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
@@ -263,41 +251,7 @@ impl AbelPlan {
 
     /// The same from the node `first` on, or from one before it, which is returned.
     pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
-        match &self.operators {
-            Operators::Dense { stress, .. } => stress.apply_from(first, q, p),
-            Operators::Fast(fast) => fast.stress_from(first, q, p),
-        }
-    }
-}
-
-/// Eq. (1) on the worn depth, see [`worn`], on a grid with a border.
-#[derive(Debug, PartialEq)]
-pub enum WornPlan {
-    /// As a matrix.
-    Dense(Skyline),
-    /// In O(N).
-    Fast(Box<FastWorn>),
-}
-
-impl WornPlan {
-    /// Computes the weights, in the quicker form.
-    pub fn new(grid: &RadialGrid) -> Self {
-        let fast = |tolerance| FastWorn::new(grid, tolerance);
-        let fast = planned_fast(AbelMethod::Product, grid, fast);
-        fast.map_or_else(|| Self::dense(grid), |fast| Self::Fast(Box::new(fast)))
-    }
-
-    /// The dense form.
-    pub fn dense(grid: &RadialGrid) -> Self {
-        Self::Dense(Skyline::pack(&worn::profile(grid)))
-    }
-
-    /// The 1D image `g` of the worn depth, both nodal, m.
-    pub fn apply(&self, depth: &[f64], g: &mut [f64]) {
-        match self {
-            Self::Dense(weights) => weights.apply(depth, g),
-            Self::Fast(fast) => fast.profile(depth, g),
-        }
+        self.stress.apply_from(first, q, p)
     }
 }
 
@@ -319,17 +273,14 @@ mod tests {
         let grid = RadialGrid::uniform(20, 1.0).expect("a grid");
         for method in AbelMethod::ALL {
             let plan = AbelPlan::new(method, &grid);
-            let Operators::Dense {
-                profile,
-                displacement,
-                stress,
-            } = &plan.operators
-            else {
-                panic!("so few cells are dense");
-            };
-            let causal = profile.packed().looks_inwards_only()
-                && displacement.looks_inwards_only()
-                && stress.looks_outwards_only();
+            let [profile, displacement, stress]: [DMatrix<f64>; 3] = [
+                testing::matrix(21, |f, g| plan.profile(f, g)),
+                testing::matrix(21, |u, w| plan.displacement(u, w)),
+                testing::matrix(21, |q, p| plan.stress(q, p)),
+            ];
+            let causal = profile == profile.lower_triangle()
+                && displacement == displacement.lower_triangle()
+                && stress == stress.upper_triangle();
             let looks_ahead = matches!(method, AbelMethod::B | AbelMethod::Benad);
             assert_eq!(causal, !looks_ahead, "{method}");
         }

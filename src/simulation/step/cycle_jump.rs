@@ -215,7 +215,7 @@ impl Search<'_> {
         let buffers = &mut chebyshev::Buffers::default();
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
         let mut look = |memory: &mut State, wear: &[f64], image: &mut [f64]| {
-            model.image(wear, image);
+            model.plan.image(wear, image);
             memory.stats.transforms += 1;
             steady_cycle::cycle(model, memory, spare, scratch, image)
         };

@@ -76,7 +76,7 @@ const RUNAWAY: f64 = 10.0;
 
 /// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
 pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) -> Result<(), Cause> {
-    model.image(&state.wear, &mut state.image);
+    model.plan.image(&state.wear, &mut state.image);
     model.profile(&state.image, 0.0, &[], &mut scratch.g);
     let mut solved = state.contact.clone();
     let problem = contact::Problem {
@@ -129,7 +129,7 @@ fn accept(
             next.ledger.unexplained_volume += model.volume(&increment.depth);
         }
         // Eq. (1) is linear: only the growth is transformed.
-        model.image(&increment.depth, &mut next.last.growth);
+        model.plan.image(&increment.depth, &mut next.last.growth);
         write_each(
             &mut next.image,
             &state.image,

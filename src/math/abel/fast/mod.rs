@@ -36,6 +36,7 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
+use super::Transform;
 use super::kernel::leg;
 use crate::math::grid::RadialGrid;
 
@@ -53,33 +54,6 @@ pub const TOLERANCE: f64 = 1e-8;
 /// What it takes where cells are too narrow for that, the best first.
 pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 
-/// The three transforms of the product method.
-#[derive(Debug, PartialEq)]
-pub struct FastProduct {
-    nodes: Vec<f64>,
-    squares: Vec<f64>,
-    /// 1/Δt of the cells.
-    inverse: Vec<f64>,
-    profile: Causal,
-    displacement: Causal,
-    stress: Causal,
-}
-
-/// Eq. (1) on the worn depth, on a grid with a border.
-#[derive(Debug, PartialEq)]
-pub struct FastWorn {
-    border: usize,
-    squares: Vec<f64>,
-    /// 1/Δt of the cells within the border.
-    inverse: Vec<f64>,
-    inner: Causal,
-    /// x and z of the nodes from the border on, and 1/Δz of their cells.
-    x: Vec<f64>,
-    z: Vec<f64>,
-    inverse_z: Vec<f64>,
-    outer: Causal,
-}
-
 /// The powers for rows at `radii`: all but the nearest neighbours are theirs.
 fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
@@ -87,23 +61,6 @@ fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let least = pairs.map(|(&a, &b)| apart(a, b)).fold(1.0, f64::min);
     // The neighbours at that distance are far.
     fit(kernel, least * (1.0 - 1e-9), tolerance)
-}
-
-/// Writes `values[0]` and the sums, each times the square of its radius: Eqs. (1) and (2).
-#[inline(always)]
-fn outwards(operator: &Causal, values: &[f64], inverse: &[f64], squares: &[f64], out: &mut [f64]) {
-    operator.apply(
-        squares.len(),
-        #[inline(always)]
-        |first, jumps| write_jumps(values, inverse, first, jumps),
-        #[inline(always)]
-        |first, sums| {
-            let rows = out[first..].iter_mut().zip(&squares[first..]);
-            for ((out, square), sum) in rows.zip(sums) {
-                *out = values[0] + square * *sum;
-            }
-        },
-    );
 }
 
 /// 1/Δ of consecutive values.
@@ -138,39 +95,78 @@ fn write_jumps(values: &[f64], inverse: &[f64], first: usize, jumps: &mut [f64])
     }
 }
 
-impl FastProduct {
-    /// Plans the transforms on `grid`, with kernels to a relative `tolerance`; none if that is out of reach, below about
-    /// 1e-12 on ordinary grids, and more on grids with very narrow cells.
+/// Eq. (1) or (2): the first value and the sums, each times the square of its radius.
+#[derive(Debug)]
+pub(super) struct Outwards {
+    squares: Vec<f64>,
+    /// 1/Δt of the cells in which the values are not flat.
+    inverse: Vec<f64>,
+    sums: Causal,
+}
+
+impl Outwards {
+    fn new(grid: &RadialGrid, cells: usize, powers: &Powers) -> Self {
+        Self {
+            squares: grid.squares().to_vec(),
+            inverse: inverse_widths(&grid.squares()[..=cells]),
+            sums: Causal::new(grid.nodes(), powers),
+        }
+    }
+}
+
+/// Eqs. (1) and (2) on `grid`, with kernels to a relative `tolerance`; none if that is out of reach, below about 1e-12 on
+/// ordinary grids, and more on grids with very narrow cells.
+pub(super) fn outwards(grid: &RadialGrid, tolerance: f64) -> Option<[Outwards; 2]> {
+    let [root, arc] = [ROOT, ARC].map(|kernel| powers(grid.nodes(), kernel, tolerance));
+    let plan = |powers: &Powers| Outwards::new(grid, grid.cells(), powers);
+    Some([plan(&root?), plan(&arc?)])
+}
+
+impl Transform for Outwards {
+    fn apply_from(&self, _: usize, values: &[f64], image: &mut [f64]) -> usize {
+        self.sums.apply(
+            self.squares.len(),
+            #[inline(always)]
+            |first, jumps| write_jumps(values, &self.inverse, first, jumps),
+            #[inline(always)]
+            |first, sums| {
+                let rows = image[first..].iter_mut().zip(&self.squares[first..]);
+                for ((image, square), sum) in rows.zip(sums) {
+                    *image = values[0] + square * *sum;
+                }
+            },
+        );
+        0
+    }
+}
+
+/// Eq. (3).
+#[derive(Debug)]
+pub(super) struct Inwards {
+    nodes: Vec<f64>,
+    /// 1/Δt of the cells.
+    inverse: Vec<f64>,
+    sums: Causal,
+}
+
+impl Inwards {
+    /// Plans it on `grid` as [`outwards`].
     pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let nodes = grid.nodes();
         let inwards: Vec<f64> = nodes.iter().rev().copied().collect();
-        let roots = powers(nodes, ROOT, tolerance)?;
         Some(Self {
             nodes: nodes.to_vec(),
-            squares: grid.squares().to_vec(),
             inverse: inverse_widths(grid.squares()),
-            profile: Causal::new(nodes, &roots),
-            displacement: Causal::new(nodes, &powers(nodes, ARC, tolerance)?),
-            stress: Causal::new(&inwards, &roots),
+            sums: Causal::new(&inwards, &powers(nodes, ROOT, tolerance)?),
         })
     }
+}
 
-    /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
-    pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        outwards(&self.profile, f, &self.inverse, &self.squares, g);
-    }
-
-    /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
-    pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        outwards(&self.displacement, u, &self.inverse, &self.squares, w);
-    }
-
-    /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal, from the node `first` on or from one
-    /// before it, which is returned. `q` ends at the grid's edge.
-    pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
+impl Transform for Inwards {
+    fn apply_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
         let rows = self.nodes.len();
         let mut computed = rows;
-        self.stress.apply(
+        self.sums.apply(
             rows - first,
             #[inline(always)]
             |first, jumps| {
@@ -203,30 +199,40 @@ impl FastProduct {
     }
 }
 
-impl FastWorn {
-    /// Plans the operator on `grid`, with kernels to a relative `tolerance`; none without a border, or if the tolerance
-    /// is out of reach.
-    pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
-        let (border, nodes, squares) = (grid.border()?, grid.nodes(), grid.squares());
+/// Eq. (1) on the worn depth, on a grid with a border.
+#[derive(Debug)]
+pub(super) struct Worn {
+    border: usize,
+    inner: Outwards,
+    /// x and z of the nodes from the border on, and 1/Δz of their cells.
+    x: Vec<f64>,
+    z: Vec<f64>,
+    inverse_z: Vec<f64>,
+    outer: Causal,
+}
+
+impl Worn {
+    /// Plans it on `grid` as [`outwards`].
+    pub fn new(grid: &RadialGrid, border: usize, tolerance: f64) -> Option<Self> {
+        let nodes = grid.nodes();
         let x = &nodes[border..];
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         Some(Self {
             border,
-            squares: squares.to_vec(),
-            inverse: inverse_widths(&squares[..=border]),
-            inner: Causal::new(nodes, &powers(nodes, ROOT, tolerance)?),
+            inner: Outwards::new(grid, border, &powers(nodes, ROOT, tolerance)?),
             x: x.to_vec(),
             inverse_z: inverse_widths(&z),
             outer: Causal::new(&z, &powers(&z, WORN, tolerance)?),
             z,
         })
     }
+}
 
-    /// The 1D image `g` of the worn `depth`, both nodal, m.
-    pub fn profile(&self, depth: &[f64], g: &mut [f64]) {
-        let (within, beyond) = (&depth[..=self.border], &depth[self.border..]);
-        outwards(&self.inner, within, &self.inverse, &self.squares, g);
+impl Transform for Worn {
+    fn apply_from(&self, _: usize, depth: &[f64], g: &mut [f64]) -> usize {
+        self.inner.apply_from(0, depth, g);
         // F = (δ − δ_c)/z; at the border it is that of the next node: flat in the first cell.
+        let beyond = &depth[self.border..];
         let share = |i: usize| (beyond[i] - beyond[0]) / self.z[i];
         let slope = |i: usize| match self.inverse_z.get(i) {
             Some(inverse) if i > 0 => (share(i + 1) - share(i)) * inverse,
@@ -253,5 +259,6 @@ impl FastWorn {
                 }
             },
         );
+        0
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::super::testing::apply;
-use super::super::{kernel, product, worn};
+use super::super::{AbelPlan, kernel, product, worn};
 use std::f64::consts::FRAC_2_PI;
 
 use super::*;
@@ -90,7 +90,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
             product::stress(nodes),
         );
         for tolerance in TOLERANCES {
-            let fast = FastProduct::new(&grid, tolerance).expect("a plan");
+            let fast = AbelPlan::fast(&grid, tolerance).expect("a plan");
             for values in data(&grid) {
                 let all = variation(&values);
                 let scale = apply(&g, &all);
@@ -119,12 +119,11 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
 fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
     for grid in LADDER.into_iter().flat_map(grids) {
         let Some(border) = grid.border() else {
-            assert!(FastWorn::new(&grid, TOLERANCE).is_none());
             continue;
         };
         let (nodes, dense) = (grid.nodes(), worn::profile(&grid));
         for tolerance in TOLERANCES {
-            let fast = FastWorn::new(&grid, tolerance).expect("a plan");
+            let fast = AbelPlan::fast(&grid, tolerance).expect("a plan");
             for values in data(&grid) {
                 // The variation within, and beyond the border that of F.
                 let mut all = variation(&values[..=border]);
@@ -141,7 +140,7 @@ fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
                 all.extend((1..z.len()).map(|i| inside + z[i] * (first + shares[i - 1])));
                 let scale = apply(&dense, &all);
                 hold("worn", &dense, &values, tolerance, &scale, &|f, g| {
-                    fast.profile(f, g)
+                    fast.image(f, g)
                 });
             }
         }
@@ -157,7 +156,7 @@ fn causality_is_strict() {
             .collect()
     };
     for grid in grids(200) {
-        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+        let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
         let mut out = vec![f64::NAN; grid.len()];
         for first in [3, 31, 32, 33, 100] {
             let values = zeros_before(first, grid.len());
@@ -171,10 +170,9 @@ fn causality_is_strict() {
             fast.stress_from(0, &load, &mut out);
             assert!(out[grid.len() - first..].iter().all(|&p| p == 0.0));
         }
-        if let Some(fast) = FastWorn::new(&grid, TOLERANCE) {
-            let border = grid.border().expect("a border");
+        if let Some(border) = grid.border() {
             let values = zeros_before(border + 9, grid.len());
-            fast.profile(&values, &mut out);
+            fast.image(&values, &mut out);
             assert!(out[..border + 9].iter().all(|&g| g == 0.0));
         }
     }
@@ -184,7 +182,7 @@ fn causality_is_strict() {
 #[test]
 fn a_part_of_the_stress_is_that_of_the_whole() {
     for grid in grids(200) {
-        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+        let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
         // With a jump at the end, and with nothing on the outer nodes.
         for ends in [200, 120] {
             let load: Vec<f64> = (0..grid.len())
@@ -212,7 +210,7 @@ fn a_part_of_the_stress_is_that_of_the_whole() {
 #[test]
 fn a_constant_and_not_a_number_are_passed_on() {
     let grid = RadialGrid::uniform(100, 1.0).expect("a grid");
-    let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+    let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
     let mut out = vec![f64::NAN; 101];
     fast.profile(&[0.7; 101], &mut out);
     assert!(out.iter().all(|&g| g == 0.7));
@@ -226,7 +224,7 @@ fn a_constant_and_not_a_number_are_passed_on() {
 #[test]
 fn large_grids_are_no_trouble() {
     let grid = RadialGrid::uniform(100_000, 1.0).expect("a grid");
-    let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+    let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
     let mut out = vec![0.0; grid.len()];
     fast.profile(grid.squares(), &mut out);
     let is = |out: &[f64], exact: &dyn Fn(f64) -> f64| -> bool {
@@ -249,7 +247,7 @@ fn large_grids_keep_the_tolerance_node_by_node() {
     for grid in [uniform, RadialGrid::graded(cells, 0.3, 1.0)] {
         let grid = grid.expect("a grid");
         let (x, t) = (grid.nodes(), grid.squares());
-        let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+        let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
         let noise = data(&grid).pop().expect("data");
         // No cusp at the tip, and no jump at the end.
         let values: Vec<f64> = (0..=cells)
@@ -302,7 +300,7 @@ fn kinks_between_nodes_are_as_exact_as_the_tolerance() {
         for grid in [uniform, RadialGrid::graded(cells, 0.3, 1.0)] {
             let grid = grid.expect("a grid");
             let t = grid.squares();
-            let fast = FastProduct::new(&grid, TOLERANCE).expect("a plan");
+            let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
             let q: Vec<f64> = t.iter().map(|&t| load(t)).collect();
             let mut p = vec![f64::NAN; grid.len()];
             fast.stress_from(0, &q, &mut p);

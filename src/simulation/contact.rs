@@ -78,14 +78,19 @@ impl Contact {
 /// What the contact of a moment is solved from.
 #[derive(Clone, Copy)]
 pub(super) struct Problem<'a> {
-    pub model: &'a Model,
+    model: &'a Model,
     /// The 1D profile, m.
-    pub g: &'a [f64],
+    g: &'a [f64],
     /// Where the springs stood.
-    pub before: &'a Contact,
+    before: &'a Contact,
 }
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
+    /// That of springs on the profile `g` (m), which stood as in the contact `before`.
+    pub fn on(model: &'a Model, g: &'a [f64], before: &'a Contact) -> Self {
+        Self { model, g, before }
+    }
+
     /// Presses and shifts the indenter to what the drive asks for. Writes the contact `after`, and how far each
     /// tangential spring slips, m.
     pub fn solve(

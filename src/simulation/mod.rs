@@ -338,11 +338,7 @@ impl Simulation {
         let mut contact = contact::Contact::new(model.nodes(), springs);
         let (mut g, mut slip) = (vec![0.0; model.nodes()], vec![0.0; springs]);
         model.profile(&before.image, 0.0, &[], &mut g);
-        let problem = contact::Problem {
-            model,
-            g: &g,
-            before: &before.contact,
-        };
+        let problem = contact::Problem::on(model, &g, &before.contact);
         let targets = model.setup.drive.targets(cycle);
         problem.solve(targets, &mut contact, &mut slip).ok()?;
         Some(contact)

@@ -79,11 +79,7 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     model.plan.image(&state.wear, &mut state.image);
     model.profile(&state.image, 0.0, &[], &mut scratch.g);
     let mut solved = state.contact.clone();
-    let problem = contact::Problem {
-        model,
-        g: &scratch.g,
-        before: &state.contact,
-    };
+    let problem = contact::Problem::on(model, &scratch.g, &state.contact);
     let targets = model.setup.drive.targets(state.cycle);
     problem.solve(targets, &mut solved, &mut scratch.increment.slip)?;
     state.contact = solved;

@@ -67,11 +67,7 @@ fn solve(
     scratch: &mut Scratch,
     targets: Targets,
 ) -> Result<(), Cause> {
-    let problem = contact::Problem {
-        model,
-        g: &scratch.g,
-        before: &memory.contact,
-    };
+    let problem = contact::Problem::on(model, &scratch.g, &memory.contact);
     problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
 }
 

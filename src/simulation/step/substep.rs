@@ -118,11 +118,7 @@ fn attempt(
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<f64, Cause> {
-    let problem = contact::Problem {
-        model,
-        g: &scratch.g,
-        before: &state.contact,
-    };
+    let problem = contact::Problem::on(model, &scratch.g, &state.contact);
     let targets = model.setup.drive.targets(cycle);
     problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)?;
     wear(model, state, next, scratch, cycle);

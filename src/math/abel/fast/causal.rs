@@ -13,13 +13,13 @@
 //! The last digits differ between CPUs with and without fused multiply-add; on one machine they are always the same.
 
 use super::powers::{LANES, MOST_GROUPS, Powers};
-use crate::math::vector::{Fusing, vectorized, with_widest};
+use crate::math::vector::{Fusing, with_widest};
 
 /// A row's nearest rows are at most this many.
 pub(super) const REACH: usize = 8;
 
 /// Rows that are taken at a time, all that belongs to them in the innermost cache.
-const BLOCK: usize = 64;
+pub(super) const BLOCK: usize = 64;
 
 /// The operator. Memory: K + 8 numbers a row for K powers.
 #[derive(Debug, PartialEq)]
@@ -46,10 +46,7 @@ impl Causal {
             _ => (-exponent * step).exp(),
         };
         let decays_of = |j: usize| {
-            let step = match j {
-                0 => 0.0,
-                _ => apart(radii[j - 1], radii[j]),
-            };
+            let step = j.checked_sub(1).map_or(0.0, |i| apart(radii[i], radii[j]));
             let exponents = powers.exponents.iter();
             exponents.map(move |&exponent| decay(step, exponent))
         };
@@ -81,59 +78,52 @@ impl Causal {
         }
     }
 
-    /// Asks for the `jumps` of some rows and hands over their `sums`, block by block, each with the first row, until
-    /// `count` rows are done. Before the first jump all sums are zero.
-    #[inline(always)]
-    pub fn apply(
-        &self,
-        count: usize,
-        jumps: impl Fn(usize, &mut [f64]),
-        mut sums: impl FnMut(usize, &mut [f64]),
-    ) {
-        let mut state = [[0.0; LANES]; MOST_GROUPS];
-        let mut window = [0.0; REACH + BLOCK];
-        let mut lanes = [[0.0; LANES]; BLOCK];
-        let mut is_idle = true;
-        for first in (0..count).step_by(BLOCK) {
-            let rows = BLOCK.min(self.near.len() - first);
-            window.copy_within(BLOCK.., 0);
-            vectorized(
-                #[inline(always)]
-                || jumps(first, &mut window[REACH..][..rows]),
-            );
-            is_idle &= window[REACH..][..rows].iter().all(|&jump| jump == 0.0);
-            if is_idle {
-                sums(first, &mut [0.0; BLOCK][..rows]);
-                continue;
-            }
-            self.block(first, &window, &mut state, &mut lanes[..rows]);
-            vectorized(
-                #[inline(always)]
-                || {
-                    let mut block = [0.0; BLOCK];
-                    for (sum, [a, b, c, d]) in block.iter_mut().zip(&lanes) {
-                        *sum = (a + b) + (c + d);
-                    }
-                    sums(first, &mut block[..rows]);
-                },
-            );
+    /// A pass over the rows.
+    pub fn pass(&self) -> Pass<'_> {
+        Pass {
+            operator: self,
+            first: 0,
+            powers: [[0.0; LANES]; MOST_GROUPS],
+            window: [0.0; REACH + BLOCK],
+            is_idle: true,
         }
     }
+}
 
-    /// The number of groups is fixed at compile time, so that the state stays in registers.
-    fn block(
-        &self,
-        first: usize,
-        window: &[f64; REACH + BLOCK],
-        state: &mut [[f64; LANES]; MOST_GROUPS],
-        lanes: &mut [[f64; LANES]],
-    ) {
+/// A pass over the rows of an operator, block by block.
+pub(super) struct Pass<'a> {
+    operator: &'a Causal,
+    /// The row that comes next.
+    first: usize,
+    /// S of every power.
+    powers: [[f64; LANES]; MOST_GROUPS],
+    /// The jumps of the last rows, and those of the present block.
+    window: [f64; REACH + BLOCK],
+    /// Whether there was no jump yet.
+    is_idle: bool,
+}
+
+impl Pass<'_> {
+    /// Replaces the jumps in the next `rows` by their sums: a whole [`BLOCK`], or what is left.
+    pub fn sum(&mut self, rows: &mut [f64]) {
+        self.is_idle &= rows.iter().all(|&jump| jump == 0.0);
+        self.window.copy_within(BLOCK.., 0);
+        self.window[REACH..][..rows.len()].copy_from_slice(rows);
+        // Before the first jump all sums are zero.
+        if !self.is_idle {
+            self.sum_by_groups(rows);
+        }
+        self.first += rows.len();
+    }
+
+    /// The number of groups is fixed at compile time, so that the powers stay in registers.
+    fn sum_by_groups(&mut self, rows: &mut [f64]) {
         macro_rules! by_groups {
             ($($groups:literal),*) => {
-                match self.factors.len() {
+                match self.operator.factors.len() {
                     $($groups => with_widest(
                         #[inline(always)]
-                        |fusing| self.groups::<$groups>(fusing, first, window, state, lanes),
+                        |fusing| self.sum_groups::<$groups>(fusing, rows),
                     ),)*
                     // A fit has from 2 to MOST_GROUPS groups.
                     _ => unreachable!("no such number of groups"),
@@ -144,22 +134,14 @@ impl Causal {
     }
 
     #[inline(always)]
-    fn groups<const GROUPS: usize>(
-        &self,
-        fusing: Fusing,
-        first: usize,
-        window: &[f64; REACH + BLOCK],
-        state: &mut [[f64; LANES]; MOST_GROUPS],
-        lanes: &mut [[f64; LANES]],
-    ) {
-        let factors: &[_; GROUPS] = &self.factors.as_chunks().0[0];
-        let mut powers: [_; GROUPS] = std::array::from_fn(|group| state[group]);
-        let (decays, _) = self.decays[first * GROUPS..].as_chunks::<GROUPS>();
-        let rows = decays
-            .iter()
-            .zip(&self.near[first..])
-            .zip(window.windows(REACH + 1));
-        for (lanes, ((decays, near), window)) in lanes.iter_mut().zip(rows) {
+    fn sum_groups<const GROUPS: usize>(&mut self, fusing: Fusing, rows: &mut [f64]) {
+        let (operator, first) = (self.operator, self.first);
+        let factors: &[_; GROUPS] = &operator.factors.as_chunks().0[0];
+        let mut powers: [_; GROUPS] = std::array::from_fn(|group| self.powers[group]);
+        let (decays, _) = operator.decays[first * GROUPS..].as_chunks::<GROUPS>();
+        let inputs = decays.iter().zip(&operator.near[first..]);
+        let inputs = inputs.zip(self.window.windows(REACH + 1));
+        for (sum, ((decays, near), window)) in rows.iter_mut().zip(inputs) {
             let (near, before) = (near.as_chunks().0, window.as_chunks().0);
             let mut row = product(&near[0], &before[0]);
             row = fusing.multiply_add(&near[1], &before[1], &row);
@@ -169,9 +151,10 @@ impl Causal {
                 row = fusing.multiply_add(&factors[group], &decayed, &row);
                 powers[group] = decayed.map(|decayed| decayed + own);
             }
-            *lanes = row;
+            let [a, b, c, d] = row;
+            *sum = (a + b) + (c + d);
         }
-        state[..GROUPS].copy_from_slice(&powers);
+        self.powers[..GROUPS].copy_from_slice(&powers);
     }
 }
 

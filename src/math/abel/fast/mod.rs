@@ -39,13 +39,14 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use super::Transform;
 use super::kernel::leg;
 use crate::math::grid::RadialGrid;
+use crate::math::vector::vectorized;
 
 mod causal;
 mod powers;
 #[cfg(test)]
 mod tests;
 
-use causal::{Causal, REACH, apart};
+use causal::{BLOCK, Causal, REACH, apart};
 use powers::{ARC, Kernel, Powers, ROOT, WORN, fit};
 
 /// The error of a kernel that a run asks for.
@@ -71,28 +72,23 @@ fn inverse_widths(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Writes the jumps of slope at the nodes from `first` on, of values that are flat before and behind them all.
-#[inline(always)]
-fn write_jumps(values: &[f64], inverse: &[f64], first: usize, jumps: &mut [f64]) {
-    let cells = inverse.len();
-    let mut before = match first {
-        1.. if first <= cells => (values[first] - values[first - 1]) * inverse[first - 1],
-        _ => 0.0,
-    };
-    let own = cells.saturating_sub(first).min(jumps.len());
-    let (within, behind) = jumps.split_at_mut(own);
-    if own > 0 {
-        let pairs = values[first..].windows(2).zip(&inverse[first..]);
-        for (jump, (pair, inverse)) in within.iter_mut().zip(pairs) {
-            let slope = (pair[1] - pair[0]) * inverse;
-            *jump = slope - before;
-            before = slope;
-        }
-    }
-    behind.fill(0.0);
-    if let Some(last) = behind.first_mut() {
-        *last = -before;
-    }
+/// Writes the jumps of slope of the first `values`, with the `inverse` widths of their cells: they are flat before and
+/// behind them.
+fn write_jumps(values: &[f64], inverse: &[f64], jumps: &mut [f64]) {
+    let (within, behind) = jumps.split_at_mut(inverse.len());
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut before = 0.0;
+            for (jump, (pair, inverse)) in within.iter_mut().zip(values.windows(2).zip(inverse)) {
+                let slope = (pair[1] - pair[0]) * inverse;
+                *jump = slope - before;
+                before = slope;
+            }
+            behind.fill(0.0);
+            behind[0] = -before;
+        },
+    );
 }
 
 /// Eq. (1) or (2): the first value and the sums, each times the square of its radius.
@@ -124,18 +120,19 @@ pub(super) fn outwards(grid: &RadialGrid, tolerance: f64) -> Option<[Outwards; 2
 
 impl Transform for Outwards {
     fn apply_from(&self, _: usize, values: &[f64], image: &mut [f64]) -> usize {
-        self.sums.apply(
-            self.squares.len(),
-            #[inline(always)]
-            |first, jumps| write_jumps(values, &self.inverse, first, jumps),
-            #[inline(always)]
-            |first, sums| {
-                let rows = image[first..].iter_mut().zip(&self.squares[first..]);
-                for ((image, square), sum) in rows.zip(sums) {
-                    *image = values[0] + square * *sum;
-                }
-            },
-        );
+        write_jumps(values, &self.inverse, image);
+        let mut pass = self.sums.pass();
+        for (rows, squares) in image.chunks_mut(BLOCK).zip(self.squares.chunks(BLOCK)) {
+            pass.sum(rows);
+            vectorized(
+                #[inline(always)]
+                || {
+                    for (row, square) in rows.iter_mut().zip(squares) {
+                        *row = values[0] + square * *row;
+                    }
+                },
+            );
+        }
         0
     }
 }
@@ -164,38 +161,36 @@ impl Inwards {
 
 impl Transform for Inwards {
     fn apply_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
-        let rows = self.nodes.len();
-        let mut computed = rows;
-        self.sums.apply(
-            rows - first,
-            #[inline(always)]
-            |first, jumps| {
-                let nodes = rows - first - jumps.len();
-                write_jumps(q, &self.inverse, nodes, jumps);
-                for (jump, x) in jumps.iter_mut().zip(&self.nodes[nodes..]) {
-                    *jump *= x;
-                }
-                jumps.reverse();
-            },
-            #[inline(always)]
-            |first, sums| {
-                sums.reverse();
-                computed = rows - first - sums.len();
-                for (p, sum) in p[computed..].iter_mut().zip(sums) {
-                    *p = FRAC_1_PI * *sum;
-                }
-            },
-        );
-        let last = rows - 1;
+        let last = self.nodes.len() - 1;
+        if first > last {
+            return first;
+        }
+        let (p, nodes) = (&mut p[first..], &self.nodes[first..]);
+        // The first of these rows does not ask for its own jump.
+        write_jumps(&q[first..], &self.inverse[first..], p);
+        let mut pass = self.sums.pass();
+        for (rows, nodes) in p.rchunks_mut(BLOCK).zip(nodes.rchunks(BLOCK)) {
+            vectorized(
+                #[inline(always)]
+                || {
+                    for (row, x) in rows.iter_mut().zip(nodes) {
+                        *row *= FRAC_1_PI * x;
+                    }
+                    rows.reverse();
+                },
+            );
+            pass.sum(rows);
+            rows.reverse();
+        }
         let jump = FRAC_1_PI * q[last];
-        if jump != 0.0 && computed < rows {
-            let rim = self.nodes[last];
-            for (p, &r) in p[computed..last].iter_mut().zip(&self.nodes[computed..]) {
+        if jump != 0.0 {
+            let (rim, rows) = (self.nodes[last], last - first);
+            for (p, &r) in p[..rows].iter_mut().zip(nodes) {
                 *p += jump / leg(r, rim);
             }
-            p[last] += 2.0 * jump / leg(self.nodes[last - 1], rim);
+            p[rows] += 2.0 * jump / leg(self.nodes[last - 1], rim);
         }
-        computed
+        first
     }
 }
 
@@ -240,25 +235,23 @@ impl Transform for Worn {
         };
         let start = FRAC_PI_2 * share(1);
         let g = &mut g[self.border..];
-        self.outer.apply(
-            self.x.len(),
-            |first, jumps| {
-                let mut before = first.checked_sub(1).map_or(0.0, slope);
-                for (jump, i) in jumps.iter_mut().zip(first..) {
-                    let slope = slope(i);
-                    *jump = slope - before;
-                    before = slope;
+        let mut pass = self.outer.pass();
+        let (mut block, mut before) = ([0.0; BLOCK], 0.0);
+        for (first, rows) in (0..).step_by(BLOCK).zip(g.chunks_mut(BLOCK)) {
+            let sums = &mut block[..rows.len()];
+            for (jump, i) in sums.iter_mut().zip(first..) {
+                let slope = slope(i);
+                *jump = slope - before;
+                before = slope;
+            }
+            pass.sum(sums);
+            for ((row, sum), i) in rows.iter_mut().zip(sums).zip(first..) {
+                // Nothing at the border itself.
+                if i > 0 {
+                    *row += self.x[i] * (start + self.z[i] * *sum);
                 }
-            },
-            |first, sums| {
-                for (i, sum) in (first..).zip(sums) {
-                    // Nothing at the border itself.
-                    if i > 0 {
-                        g[i] += self.x[i] * (start + self.z[i] * *sum);
-                    }
-                }
-            },
-        );
+            }
+        }
         0
     }
 }

@@ -40,10 +40,11 @@
 //! ```
 //!
 //! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(ν) V. The norm is that over dy,
-//! which for a kernel like y^(−1/2) is that of the relative error over ln y; the displacement is weighted like
-//! its derivative. Terms far out in the series are gathered in bunches beforehand. The A_m are then those of least squares over ln v of the kernel itself. K exponents leave an error near
-//! that of the best ones, exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale, Nonlinear and
-//! Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3), with no table and no search.
+//! which for a kernel like y^(−1/2) is that of the relative error over ln y; all three have w_n = c_n, the displacement
+//! that of its derivative. Terms far out in the series are gathered in bunches beforehand. The A_m are then those of
+//! least squares over ln v of the kernel itself. K exponents leave an error near that of the best ones,
+//! exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale, Nonlinear and Adaptive Approximation, Springer,
+//! doi 10.1007/978-3-642-03413-8_3), with no table and no search.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -82,8 +83,6 @@ pub(super) struct Kernel {
     first: f64,
     /// The exponent of the term n less n.
     shift: f64,
-    /// The weight of the term n for the truncation, in units of c_n.
-    weight: fn(f64) -> f64,
     /// How many times ln v the logarithm of the variable is that the density is over: 1 of v, 2 of s.
     per_logarithm: f64,
 }
@@ -96,7 +95,6 @@ pub(super) const ROOT: Kernel = Kernel {
     kink: |_, c| 2.0 * c,
     first: 1.0,
     shift: 0.0,
-    weight: |_| 1.0,
     per_logarithm: 1.0,
 };
 
@@ -108,7 +106,6 @@ pub(super) const ARC: Kernel = Kernel {
     kink: |s, c| FRAC_2_PI * ((0.5 - s * s) * c.atan2(s) + 0.5 * s * c),
     first: 0.0,
     shift: 0.5,
-    weight: |_| 1.0,
     per_logarithm: 1.0,
 };
 
@@ -120,7 +117,6 @@ pub(super) const WORN: Kernel = Kernel {
     kink: |s, c| 2.0 * c - s * c.atan2(s),
     first: 1.0,
     shift: 0.5,
-    weight: |n| n / (n + 0.5),
     per_logarithm: 2.0,
 };
 
@@ -198,7 +194,7 @@ fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
             (1.0 - (0.125 - 0.007_812_5 / n) / n) / (PI * n).sqrt()
         };
         let exponent = n + kernel.shift;
-        let weight = count * c * (kernel.weight)(n) * (-exponent * nearest).exp();
+        let weight = count * c * (-exponent * nearest).exp();
         terms.push((exponent, weight.sqrt()));
         from += count;
     }

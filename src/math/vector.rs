@@ -29,6 +29,8 @@ pub struct Fusing(bool);
 
 impl Fusing {
     /// a b + c of every lane.
+    ///
+    /// By index: tests are not optimised across units of code, where each iterator would be a call.
     #[inline(always)]
     pub fn multiply_add<const LANES: usize>(
         self,
@@ -37,10 +39,10 @@ impl Fusing {
         c: &[f64; LANES],
     ) -> [f64; LANES] {
         let mut sums = *c;
-        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *sum = match self.0 {
-                true => a.mul_add(*b, *sum),
-                false => a * b + *sum,
+        for lane in 0..LANES {
+            sums[lane] = match self.0 {
+                true => a[lane].mul_add(b[lane], sums[lane]),
+                false => a[lane] * b[lane] + sums[lane],
             };
         }
         sums

@@ -149,7 +149,10 @@ impl Pass<'_> {
             for group in 0..GROUPS {
                 let decayed = product(&decays[group], &powers[group]);
                 row = fusing.multiply_add(&factors[group], &decayed, &row);
-                powers[group] = decayed.map(|decayed| decayed + own);
+                powers[group] = decayed;
+                for power in &mut powers[group] {
+                    *power += own;
+                }
             }
             let [a, b, c, d] = row;
             *sum = (a + b) + (c + d);
@@ -160,5 +163,9 @@ impl Pass<'_> {
 
 #[inline(always)]
 fn product(a: &[f64; LANES], b: &[f64; LANES]) -> [f64; LANES] {
-    std::array::from_fn(|i| a[i] * b[i])
+    let mut product = *a;
+    for lane in 0..LANES {
+        product[lane] *= b[lane];
+    }
+    product
 }

@@ -16,9 +16,9 @@
 //! [`kink`] adds what a kink between two nodes does, and [`worn`] transforms the worn part of a profile that has a
 //! permanent stick zone. A [`field`] is nodal values with their kinks, and has all its images.
 //!
-//! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, made once for a grid and
-//! applied with the caller's buffers. The dense form is three matrices: O(N²) kernel evaluations to set up, at most N²/2
-//! multiply-adds to apply, 1.5 N² numbers. The product method has a form in O(N) as well: see [`fast`].
+//! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, and with a border a fourth,
+//! for Eq. (1) of the worn depth, made once for a grid and applied with the caller's buffers. The dense form of each is a
+//! matrix: O(N²) kernel evaluations to set up, at most N²/2 multiply-adds to apply, N²/2 numbers. The product method has a form in O(N) as well: see [`fast`].
 //!
 //! | method | Eq. (1) | Eq. (2) | Eq. (3) | causal |
 //! |---|---|---|---|---|
@@ -55,7 +55,7 @@ use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use super::grid::{MAX_CELLS, RadialGrid};
 use super::skyline::Skyline;
-use fast::{Inwards, Worn};
+use fast::{Inwards, Outwards, Worn};
 
 pub mod a;
 pub mod b;
@@ -185,14 +185,16 @@ impl AbelPlan {
     /// The product method on `grid` in the fast form, to a tolerance that [`fast`] explains; none if that is
     /// out of reach.
     pub fn fast(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
-        let [profile, displacement] = fast::outwards(grid, tolerance)?;
+        let [roots, arcs] =
+            [fast::ROOT, fast::ARC].map(|kernel| fast::powers(grid.nodes(), kernel, tolerance));
+        let (roots, arcs) = (roots?, arcs?);
         Some(Self {
             method: AbelMethod::Product,
-            profile: Box::new(profile),
-            displacement: Box::new(displacement),
-            stress: Box::new(Inwards::new(grid, tolerance)?),
+            profile: Box::new(Outwards::new(grid, grid.cells(), &roots)),
+            displacement: Box::new(Outwards::new(grid, grid.cells(), &arcs)),
+            stress: Box::new(Inwards::new(grid, &roots)),
             worn: match grid.border() {
-                Some(border) => Some(Box::new(Worn::new(grid, border, tolerance)?)),
+                Some(border) => Some(Box::new(Worn::new(grid, border, &roots, tolerance)?)),
                 None => None,
             },
         })

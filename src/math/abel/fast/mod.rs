@@ -47,7 +47,8 @@ mod powers;
 mod tests;
 
 use causal::{BLOCK, Causal, REACH, apart};
-use powers::{ARC, Kernel, Powers, ROOT, WORN, fit};
+pub(super) use powers::{ARC, ROOT};
+use powers::{Kernel, Powers, WORN, fit};
 
 /// The error of a kernel that a run asks for.
 pub const TOLERANCE: f64 = 1e-8;
@@ -55,8 +56,9 @@ pub const TOLERANCE: f64 = 1e-8;
 /// What it takes where cells are too narrow for that, the best first.
 pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 
-/// The powers for rows at `radii`: all but the nearest neighbours are theirs.
-fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
+/// The powers for rows at `radii`, with a kernel to a relative `tolerance`: all but the nearest neighbours are theirs.
+/// None if that is out of reach, below about 1e-12 on ordinary grids, and more on grids with very narrow cells.
+pub(super) fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
     let pairs = pairs.filter(|(inner, _)| **inner > 0.0);
     let least = pairs.map(|(&a, &b)| apart(a, b)).fold(1.0, f64::min);
@@ -101,21 +103,14 @@ pub(super) struct Outwards {
 }
 
 impl Outwards {
-    fn new(grid: &RadialGrid, cells: usize, powers: &Powers) -> Self {
+    /// Plans it for values that are flat behind the first `cells`.
+    pub fn new(grid: &RadialGrid, cells: usize, powers: &Powers) -> Self {
         Self {
             squares: grid.squares().to_vec(),
             inverse: inverse_widths(&grid.squares()[..=cells]),
             sums: Causal::new(grid.nodes(), powers),
         }
     }
-}
-
-/// Eqs. (1) and (2) on `grid`, with kernels to a relative `tolerance`; none if that is out of reach, below about 1e-12 on
-/// ordinary grids, and more on grids with very narrow cells.
-pub(super) fn outwards(grid: &RadialGrid, tolerance: f64) -> Option<[Outwards; 2]> {
-    let [root, arc] = [ROOT, ARC].map(|kernel| powers(grid.nodes(), kernel, tolerance));
-    let plan = |powers: &Powers| Outwards::new(grid, grid.cells(), powers);
-    Some([plan(&root?), plan(&arc?)])
 }
 
 impl Transform for Outwards {
@@ -147,15 +142,14 @@ pub(super) struct Inwards {
 }
 
 impl Inwards {
-    /// Plans it on `grid` as [`outwards`].
-    pub fn new(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
+    pub fn new(grid: &RadialGrid, roots: &Powers) -> Self {
         let nodes = grid.nodes();
         let inwards: Vec<f64> = nodes.iter().rev().copied().collect();
-        Some(Self {
+        Self {
             nodes: nodes.to_vec(),
             inverse: inverse_widths(grid.squares()),
-            sums: Causal::new(&inwards, &powers(nodes, ROOT, tolerance)?),
-        })
+            sums: Causal::new(&inwards, roots),
+        }
     }
 }
 
@@ -207,14 +201,13 @@ pub(super) struct Worn {
 }
 
 impl Worn {
-    /// Plans it on `grid` as [`outwards`].
-    pub fn new(grid: &RadialGrid, border: usize, tolerance: f64) -> Option<Self> {
-        let nodes = grid.nodes();
-        let x = &nodes[border..];
+    /// Plans it with the `roots` of Eq. (1), and powers of its own to the `tolerance`; none if that is out of reach.
+    pub fn new(grid: &RadialGrid, border: usize, roots: &Powers, tolerance: f64) -> Option<Self> {
+        let x = &grid.nodes()[border..];
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         Some(Self {
             border,
-            inner: Outwards::new(grid, border, &powers(nodes, ROOT, tolerance)?),
+            inner: Outwards::new(grid, border, roots),
             x: x.to_vec(),
             inverse_z: inverse_widths(&z),
             outer: Causal::new(&z, &powers(&z, WORN, tolerance)?),

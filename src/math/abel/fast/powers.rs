@@ -70,7 +70,7 @@ const LAST: f64 = 30.0;
 
 /// A kernel to be fitted.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Kernel {
+pub(in super::super) struct Kernel {
     /// κ: the integral of the whole kernel.
     whole: f64,
     /// The density of v = s² and 1 − v = c², both at hand without cancellation.
@@ -88,7 +88,7 @@ pub(super) struct Kernel {
 }
 
 /// Eqs. (1) and (3).
-pub(super) const ROOT: Kernel = Kernel {
+pub(in super::super) const ROOT: Kernel = Kernel {
     whole: 2.0,
     density: |_, c| 1.0 / c,
     is_relative: true,
@@ -99,7 +99,7 @@ pub(super) const ROOT: Kernel = Kernel {
 };
 
 /// Eq. (2).
-pub(super) const ARC: Kernel = Kernel {
+pub(in super::super) const ARC: Kernel = Kernel {
     whole: 0.5,
     density: |s, c| FRAC_2_PI * c.atan2(s),
     is_relative: false,
@@ -122,7 +122,7 @@ pub(super) const WORN: Kernel = Kernel {
 
 /// Σ a_m v^(μ_m), κ among the a.
 #[derive(Debug, Clone)]
-pub(super) struct Powers {
+pub(in super::super) struct Powers {
     /// The kernel that they stand for.
     pub kernel: Kernel,
     /// They do so for v ≤ exp(−this).

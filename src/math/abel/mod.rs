@@ -144,7 +144,7 @@ impl AbelMethod {
 }
 
 /// One of the transforms on a grid, in a form of its own.
-pub trait Transform: Debug + Send + Sync {
+trait Transform: Debug + Send + Sync {
     /// Writes the `image` of nodal `values` from the node `first` on, or from one before it, which is returned.
     fn apply_from(&self, first: usize, values: &[f64], image: &mut [f64]) -> usize;
 }

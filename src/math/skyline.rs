@@ -96,16 +96,12 @@ impl Skyline {
         }
     }
 
-    /// Writes the product with `input` into `output`, both of the operator's size.
-    /// Whatever `output` held before is overwritten.
-    pub fn apply(&self, input: &[f64], output: &mut [f64]) {
-        self.apply_from(0, input, output);
-    }
-
-    /// The same for the rows of the panel that has the row `first`, and of those after it; returns the first of them.
+    /// Writes the product with `input`, of the operator's size, into `output`, which may have room for the first rows only:
+    /// the rows of the panel that has the row `first`, and those after it; returns the first of them. Whatever they held
+    /// before is overwritten.
     pub fn apply_from(&self, first: usize, input: &[f64], output: &mut [f64]) -> usize {
         debug_assert_eq!(input.len(), self.size);
-        debug_assert_eq!(output.len(), self.size);
+        debug_assert!(output.len() <= self.size);
         let panel = (first / ROWS).min(self.panels.len());
         let finite = with_widest(
             #[inline(always)]
@@ -121,7 +117,7 @@ impl Skyline {
     #[inline(always)]
     fn multiply(&self, fusing: Fusing, first: usize, input: &[f64], output: &mut [f64]) -> bool {
         let support = support(input);
-        let start = (first * ROWS).min(self.size);
+        let start = (first * ROWS).min(output.len());
         let output = &mut output[start..];
         let (whole, rest) = output.as_chunks_mut();
         let (whole_panels, last) = self.panels[first..].split_at(whole.len());
@@ -129,7 +125,7 @@ impl Skyline {
             let (at, columns) = panel.within(&support);
             *output = sum_columns(fusing, &self.entries[at], &input[columns]);
         }
-        for panel in last {
+        for panel in last.iter().take(1) {
             let (at, columns) = panel.within(&support);
             let sums = sum_columns(fusing, &self.entries[at], &input[columns]);
             rest.copy_from_slice(&sums[..rest.len()]);
@@ -183,7 +179,7 @@ mod tests {
         let packed = Skyline::pack(&dense);
         assert_eq!(packed.to_dense(), dense);
         let mut output = [f64::NAN; 3];
-        packed.apply(&[1.0, 10.0, 100.0], &mut output);
+        packed.apply_from(0, &[1.0, 10.0, 100.0], &mut output);
         assert_eq!(output, [1.0, 32.0, 540.0]);
     }
 
@@ -202,7 +198,7 @@ mod tests {
                 });
                 let input: Vec<f64> = (0..size).map(|j| (j as f64 * 1.7).sin()).collect();
                 let mut output = vec![f64::NAN; size];
-                Skyline::pack(&dense).apply(&input, &mut output);
+                Skyline::pack(&dense).apply_from(0, &input, &mut output);
                 let expected = &dense * nalgebra::DVector::from_column_slice(&input);
                 for (found, expected) in output.iter().zip(&expected) {
                     assert!((found - expected).abs() < 1e-12 * size as f64);
@@ -215,7 +211,7 @@ mod tests {
     fn not_a_number_is_passed_on_not_skipped() {
         let packed = Skyline::pack(&example());
         let mut output = [0.0; 3];
-        packed.apply(&[0.0, f64::NAN, 0.0], &mut output);
+        packed.apply_from(0, &[0.0, f64::NAN, 0.0], &mut output);
         assert_eq!(output[0], 0.0);
         assert!(output[1].is_nan() && output[2].is_nan());
     }
@@ -233,7 +229,7 @@ mod tests {
             let mut input = vec![0.0; 45];
             input[support.clone()].fill(1.5);
             let mut output = vec![f64::NAN; 45];
-            packed.apply(&input, &mut output);
+            packed.apply_from(0, &input, &mut output);
             let expected = &dense * nalgebra::DVector::from_column_slice(&input);
             assert_eq!(output, expected.as_slice(), "{support:?}");
         }

@@ -93,9 +93,10 @@ impl Increment {
         );
     }
 
-    /// The slip of the surface by Eq. (2).
-    pub fn slip_of_surface(&mut self, model: &Model) {
-        model.plan.displacement(&self.slip, &mut self.surface_slip);
+    /// The slip of the surface by Eq. (2), at the first `nodes`.
+    pub fn slip_of_surface(&mut self, model: &Model, nodes: usize) {
+        let surface = &mut self.surface_slip[..nodes];
+        model.plan.displacement(&self.slip, surface);
     }
 
     /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
@@ -238,7 +239,7 @@ impl Increment {
     pub fn find_sliding(&mut self, model: &Model, contacts: [&Contact; 2], stuck: usize) {
         let [before, after] = contacts.map(|contact| contact.normal.nodes);
         let nodes = (before.max(after) + 1).min(self.surface_slip.len());
-        self.slip_of_surface(model);
+        self.slip_of_surface(model, nodes);
         // Nothing slips within the innermost spring that does.
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;
@@ -265,6 +266,7 @@ impl Increment {
     /// where its sign stays, half of τ where it turned and now works with the slip. Returns the number of transforms: 0
     /// where nothing slips there, which is so in most steps.
     pub fn mean_of_shear(&mut self, model: &Model, contacts: [&Contact; 2], zone: usize) -> u64 {
+        let zone = zone.min(self.nodes.end);
         let nodes = self.nodes.start.min(zone)..zone;
         let slips = &self.surface_slip[nodes.clone()];
         if slips.iter().all(|&slip| slip == 0.0) {

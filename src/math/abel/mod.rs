@@ -145,7 +145,8 @@ impl AbelMethod {
 
 /// One of the transforms on a grid, in a form of its own.
 trait Transform: Debug + Send + Sync {
-    /// Writes the `image` of nodal `values` from the node `first` on, or from one before it, which is returned.
+    /// Writes the `image` of nodal `values` from the node `first` on, or from one before it, which is returned. Where the
+    /// image looks inwards, it may be that of the first nodes only.
     fn apply_from(&self, first: usize, values: &[f64], image: &mut [f64]) -> usize;
 }
 
@@ -241,7 +242,8 @@ impl AbelPlan {
             .apply_from(0, depth, g);
     }
 
-    /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal.
+    /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal. `w` may have the
+    /// first nodes only.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
         self.displacement.apply_from(0, u, w);
     }
@@ -268,6 +270,23 @@ mod tests {
             assert_eq!(method.name().parse(), Ok(method));
         }
         assert!("c".parse::<AbelMethod>().is_err());
+    }
+
+    #[test]
+    fn a_shorter_displacement_is_that_of_the_first_nodes() {
+        let grid = RadialGrid::uniform(150, 1.0).expect("a grid");
+        let fast = AbelPlan::fast(&grid, fast::TOLERANCE).expect("a plan");
+        let dense = AbelMethod::ALL.map(|method| AbelPlan::dense(method, &grid));
+        let u: Vec<f64> = (0..151).map(|j| (f64::from(j) * 1.7).sin()).collect();
+        for plan in dense.iter().chain([&fast]) {
+            let mut all = vec![f64::NAN; 151];
+            plan.displacement(&u, &mut all);
+            for nodes in [1, 2, 15, 16, 17, 64, 65, 128, 150] {
+                let mut first = vec![f64::NAN; nodes];
+                plan.displacement(&u, &mut first);
+                assert_eq!(first, all[..nodes], "{} {nodes}", plan.method());
+            }
+        }
     }
 
     #[test]

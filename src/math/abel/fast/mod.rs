@@ -77,7 +77,7 @@ fn inverse_widths(values: &[f64]) -> Vec<f64> {
 /// Writes the jumps of slope of the first `values`, with the `inverse` widths of their cells: they are flat before and
 /// behind them.
 fn write_jumps(values: &[f64], inverse: &[f64], jumps: &mut [f64]) {
-    let (within, behind) = jumps.split_at_mut(inverse.len());
+    let (within, behind) = jumps.split_at_mut(inverse.len().min(jumps.len() - 1));
     vectorized(
         #[inline(always)]
         || {

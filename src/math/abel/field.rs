@@ -55,9 +55,10 @@ impl Field {
     ) -> usize {
         let first = plan.stress_from(first, &self.nodal, p);
         if has_kinks(plan) && first < p.len() {
-            kink::add_to_stress(&self.kinks, &grid.squares()[first..], &mut p[first..]);
-            // Kinks cancel beyond the edge but for rounding.
-            p[touching.max(first)..].fill(0.0);
+            let (within, beyond) = p.split_at_mut(touching.max(first));
+            kink::add_to_stress(&self.kinks, &grid.squares()[first..], &mut within[first..]);
+            // Kinks cancel there but for rounding.
+            beyond.fill(0.0);
         }
         first
     }

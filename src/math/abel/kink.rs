@@ -119,9 +119,9 @@ pub fn add_to_stress(kinks: &[Kink], squares: &[f64], p: &mut [f64]) {
             // By value: the loop writes, and would read them anew for every node.
             for &Kink { at, jump } in kinks {
                 let weight = FRAC_2_PI * jump;
-                let end = squares.partition_point(|&t| t < at);
-                for (value, &t) in p[..end].iter_mut().zip(squares) {
-                    *value += weight * (at - t).sqrt();
+                // Nothing behind the kink.
+                for (value, &t) in p.iter_mut().zip(squares) {
+                    *value += weight * (at - t).max(0.0).sqrt();
                 }
             }
         },

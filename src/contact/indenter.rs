@@ -12,15 +12,19 @@ use crate::math::invalid::{Invalid, positive};
 /// A shape of revolution.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Indenter {
-    /// f = r²/(2R).
+    /// f = (r² − b²)/(2R) outside a flat tip of radius b.
     Paraboloid {
         /// R, m.
         radius: f64,
+        /// b, m; 0 of a whole paraboloid.
+        tip_radius: f64,
     },
-    /// f = r tan θ.
+    /// f = (r − b) tan θ outside a flat tip of radius b.
     Cone {
         /// θ, rad, between the surface and the cone's flank.
         angle: f64,
+        /// b, m; 0 of a whole cone.
+        tip_radius: f64,
     },
     /// f = A rⁿ.
     Power {
@@ -33,20 +37,6 @@ pub enum Indenter {
     FlatPunch {
         /// The punch's radius, m.
         radius: f64,
-    },
-    /// f = (r² − b²)/(2R) outside a flat tip of radius b.
-    TruncatedParaboloid {
-        /// R, m.
-        radius: f64,
-        /// b, m.
-        tip_radius: f64,
-    },
-    /// f = (r − b) tan θ outside a flat tip of radius b.
-    TruncatedCone {
-        /// θ, rad.
-        angle: f64,
-        /// b, m.
-        tip_radius: f64,
     },
     /// f = (r − b)²/(2R) outside a flat face of radius b: a punch whose edge is rounded.
     RoundedPunch {
@@ -62,12 +52,14 @@ pub enum Indenter {
 impl Indenter {
     /// A paraboloid with radius of curvature R in m.
     pub fn paraboloid(radius: f64) -> Result<Self, Invalid> {
-        positive("radius", radius).map(|radius| Self::Paraboloid { radius })
+        let tip_radius = 0.0;
+        positive("radius", radius).map(|radius| Self::Paraboloid { radius, tip_radius })
     }
 
     /// A cone whose flank rises by `angle` rad, greater than 0 and less than π/2.
     pub fn cone(angle: f64) -> Result<Self, Invalid> {
-        check_angle(angle).map(|angle| Self::Cone { angle })
+        let tip_radius = 0.0;
+        check_angle(angle).map(|angle| Self::Cone { angle, tip_radius })
     }
 
     /// f = `coefficient` · r^`exponent`, with an exponent from 1 to 20.
@@ -90,7 +82,7 @@ impl Indenter {
 
     /// A paraboloid of curvature radius R in m, cut flat at a tip radius in m.
     pub fn truncated_paraboloid(radius: f64, tip_radius: f64) -> Result<Self, Invalid> {
-        Ok(Self::TruncatedParaboloid {
+        Ok(Self::Paraboloid {
             radius: positive("radius", radius)?,
             tip_radius: positive("tip_radius", tip_radius)?,
         })
@@ -98,7 +90,7 @@ impl Indenter {
 
     /// A cone of the given angle in rad, cut flat at a tip radius in m.
     pub fn truncated_cone(angle: f64, tip_radius: f64) -> Result<Self, Invalid> {
-        Ok(Self::TruncatedCone {
+        Ok(Self::Cone {
             angle: check_angle(angle)?,
             tip_radius: positive("tip_radius", tip_radius)?,
         })
@@ -119,44 +111,40 @@ impl Indenter {
 
     /// f₀(r), m. A flat punch ends at its rim: there is nothing to ask beyond.
     pub fn profile(&self, r: f64) -> f64 {
-        if self.flat_face().is_some_and(|face| r <= face) {
+        if r <= self.tip_radius() {
             return 0.0;
         }
         match *self {
             Self::Table(ref measured) => measured.profile(r),
-            Self::Paraboloid { radius } => r * r / (2.0 * radius),
-            Self::Cone { angle } => r * angle.tan(),
+            Self::Paraboloid { radius, tip_radius } => {
+                (r - tip_radius) * (r + tip_radius) / (2.0 * radius)
+            }
+            Self::Cone { angle, tip_radius } => (r - tip_radius) * angle.tan(),
             Self::Power {
                 coefficient,
                 exponent,
             } => coefficient * r.powf(exponent),
             Self::FlatPunch { .. } => 0.0,
-            Self::TruncatedParaboloid { radius, tip_radius } => {
-                (r - tip_radius) * (r + tip_radius) / (2.0 * radius)
-            }
-            Self::TruncatedCone { angle, tip_radius } => (r - tip_radius) * angle.tan(),
             Self::RoundedPunch { radius, tip_radius } => (r - tip_radius).powi(2) / (2.0 * radius),
         }
     }
 
     /// g₀(x), m: Eq. (1) of the paper in closed form.
     pub fn profile_1d(&self, x: f64) -> f64 {
-        if self.flat_face().is_some_and(|face| x <= face) {
+        if x <= self.tip_radius() {
             return 0.0;
         }
         match *self {
             Self::Table(ref measured) => measured.profile_1d(x),
-            Self::Paraboloid { radius } => x * x / radius,
-            Self::Cone { angle } => FRAC_PI_2 * x * angle.tan(),
+            Self::Paraboloid { radius, tip_radius } => {
+                x * ((x - tip_radius) * (x + tip_radius)).sqrt() / radius
+            }
+            Self::Cone { angle, tip_radius } => (tip_radius / x).acos() * x * angle.tan(),
             Self::Power {
                 coefficient,
                 exponent,
             } => kappa(exponent) * coefficient * x.powf(exponent),
             Self::FlatPunch { .. } => 0.0,
-            Self::TruncatedParaboloid { radius, tip_radius } => {
-                x * ((x - tip_radius) * (x + tip_radius)).sqrt() / radius
-            }
-            Self::TruncatedCone { angle, tip_radius } => x * angle.tan() * (tip_radius / x).acos(),
             Self::RoundedPunch { radius, tip_radius } => {
                 let root = ((x - tip_radius) * (x + tip_radius)).sqrt();
                 x / radius * (root - tip_radius * (tip_radius / x).acos())
@@ -170,17 +158,15 @@ impl Indenter {
         let height = height.max(0.0);
         match *self {
             Self::Table(ref measured) => measured.radius_at(height),
-            Self::Paraboloid { radius } => (2.0 * radius * height).sqrt(),
-            Self::Cone { angle } => height / angle.tan(),
+            Self::Paraboloid { radius, tip_radius } => {
+                tip_radius.hypot((2.0 * radius * height).sqrt())
+            }
+            Self::Cone { angle, tip_radius } => tip_radius + height / angle.tan(),
             Self::Power {
                 coefficient,
                 exponent,
             } => (height / coefficient).powf(exponent.recip()),
             Self::FlatPunch { radius } => radius,
-            Self::TruncatedParaboloid { radius, tip_radius } => {
-                tip_radius.hypot((2.0 * radius * height).sqrt())
-            }
-            Self::TruncatedCone { angle, tip_radius } => tip_radius + height / angle.tan(),
             Self::RoundedPunch { radius, tip_radius } => {
                 tip_radius + (2.0 * radius * height).sqrt()
             }
@@ -203,13 +189,24 @@ impl Indenter {
         }
     }
 
-    /// The radius of the flat face, m, where there is one.
-    pub fn flat_face(&self) -> Option<f64> {
+    /// R of a whole paraboloid, m: by Hertz, that of a ball.
+    pub fn ball_radius(&self) -> Option<f64> {
         match *self {
-            Self::TruncatedParaboloid { tip_radius, .. }
-            | Self::TruncatedCone { tip_radius, .. }
-            | Self::RoundedPunch { tip_radius, .. } => Some(tip_radius),
+            Self::Paraboloid {
+                radius,
+                tip_radius: 0.0,
+            } => Some(radius),
             _ => None,
+        }
+    }
+
+    /// The radius of the flat face that rises at its edge, m; 0 where there is none.
+    pub fn tip_radius(&self) -> f64 {
+        match *self {
+            Self::Paraboloid { tip_radius, .. }
+            | Self::Cone { tip_radius, .. }
+            | Self::RoundedPunch { tip_radius, .. } => tip_radius,
+            _ => 0.0,
         }
     }
 
@@ -224,12 +221,12 @@ impl Indenter {
     /// The shape's name, as a scenario spells it.
     pub fn name(&self) -> &'static str {
         match self {
+            Self::Paraboloid { .. } if self.tip_radius() > 0.0 => "truncated-paraboloid",
             Self::Paraboloid { .. } => "paraboloid",
+            Self::Cone { .. } if self.tip_radius() > 0.0 => "truncated-cone",
             Self::Cone { .. } => "cone",
             Self::Power { .. } => "power",
             Self::FlatPunch { .. } => "flat-punch",
-            Self::TruncatedParaboloid { .. } => "truncated-paraboloid",
-            Self::TruncatedCone { .. } => "truncated-cone",
             Self::RoundedPunch { .. } => "rounded-punch",
             Self::Table(_) => "table",
         }

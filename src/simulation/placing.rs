@@ -52,7 +52,8 @@ pub(crate) fn place(
         .map(|i| inverse(&sum, nodes, total * i as f64 / cells as f64))
         .collect();
     (placed[0], placed[cells]) = (0.0, radius);
-    if let Some(tip) = indenter.flat_face().filter(|&tip| tip < radius) {
+    let tip = indenter.tip_radius();
+    if tip > 0.0 && tip < radius {
         let after = placed.partition_point(|&r| r < tip).clamp(2, cells - 1);
         let nearest = match tip - placed[after - 1] < placed[after] - tip {
             true => after - 1,

@@ -45,7 +45,7 @@ impl Theory {
             return theory;
         }
         theory.stick_radius = Unworn::of(setup).melan().map(|(_, radius)| radius);
-        let Indenter::Paraboloid { radius } = setup.indenter else {
+        let Some(radius) = setup.indenter.ball_radius() else {
             return theory;
         };
         let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
@@ -140,8 +140,9 @@ fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
 /// The profile as a power of r, where it is one.
 fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
     match *indenter {
-        Indenter::Paraboloid { radius } => Some(PowerLaw::paraboloid(radius)),
-        Indenter::Cone { angle } => Some(PowerLaw::cone(angle.tan())),
+        _ if indenter.tip_radius() > 0.0 => None,
+        Indenter::Paraboloid { radius, .. } => Some(PowerLaw::paraboloid(radius)),
+        Indenter::Cone { angle, .. } => Some(PowerLaw::cone(angle.tan())),
         Indenter::Power {
             coefficient,
             exponent,
@@ -178,9 +179,7 @@ mod tests {
     fn the_border_of_gross_slip_is_that_of_mindlin() {
         let scenario = Scenario::load("mindlin", &[]).expect("a preset");
         let setup = scenario.setup();
-        let Indenter::Paraboloid { radius } = setup.indenter else {
-            panic!("no paraboloid");
-        };
+        let radius = setup.indenter.ball_radius().expect("a ball");
         let material = &setup.material;
         for load in [0.1, 20.0, 300.0] {
             let a = (3.0 * load * radius / (4.0 * material.normal_modulus())).cbrt();

@@ -355,7 +355,7 @@ proptest! {
         ];
         let indenter = load(preset::ALL[preset].name, &[]).setup().indenter.clone();
         // A punch ends its own domain, and a tip of its own size must lie within any other.
-        let free = indenter.rim().is_none() && indenter.flat_face().is_none();
+        let free = indenter.rim().is_none() && indenter.tip_radius() == 0.0;
         let domain = domain.filter(|_| free);
         assignments.extend(domain.map(|domain| ("numerics.domain_radius", number(domain))));
         assignments.extend(grid.map(|grid| ("numerics.grid", Spacing::NAMES[grid].to_owned())));

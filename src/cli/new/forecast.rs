@@ -3,7 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use crate::contact::indenter::Indenter;
 use crate::plot::units::{format_value, plain};
 use crate::scenario::Scenario;
 use crate::simulation::drive::{Control, Oscillation};
@@ -29,7 +28,7 @@ impl<'a> Forecast<'a> {
     }
 
     fn is_ball(&self) -> bool {
-        matches!(self.setup.indenter, Indenter::Paraboloid { .. })
+        self.setup.indenter.ball_radius().is_some()
     }
 
     /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella

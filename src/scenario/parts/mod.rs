@@ -282,8 +282,7 @@ impl Parts<'_> {
         if let Indenter::Table(measured) = indenter {
             self.check_measured(measured, radius)?;
         }
-        let face = indenter.flat_face();
-        if face.is_some_and(|tip_radius| tip_radius >= radius) {
+        if indenter.tip_radius() >= radius {
             let edge = show(&Value::Float(radius));
             let rule = format!("must be less than the domain's edge, {edge} m");
             return Err(self.refuse("indenter.tip_radius", rule));

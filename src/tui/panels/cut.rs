@@ -282,10 +282,7 @@ mod tests {
             "motion.normal.mean=1e-6".into(),
         ];
         let scenario = Scenario::load("hertz", &sets).expect("a scenario");
-        let radius = match scenario.setup().indenter {
-            crate::contact::indenter::Indenter::Paraboloid { radius } => radius,
-            ref other => panic!("{other:?}"),
-        };
+        let radius = scenario.setup().indenter.ball_radius().expect("a ball");
         let mut setup = scenario.setup().clone();
         setup.grid = crate::math::grid::RadialGrid::uniform(200, 3e-4).expect("a grid");
         let simulation = Simulation::new(setup).expect("a contact");

@@ -154,20 +154,16 @@ fn slopes(nodes: &[f64], values: &[f64]) -> Vec<f64> {
         return vec![secants[0]; 2];
     }
     let limited = |slope: f64, before: f64, after: f64| {
-        if before * after <= 0.0 {
+        if before * after <= 0.0 || slope * before <= 0.0 {
             return 0.0;
         }
         let most = 3.0 * before.abs().min(after.abs());
-        slope.abs().min(most).copysign(before) * f64::from(u8::from(slope * before > 0.0))
+        slope.abs().min(most).copysign(before)
     };
     // At an end the parabola through the first three points, no steeper than three secants.
     let end = |near: f64, next: f64, width: f64, beyond: f64| {
         let slope = near + width * (near - next) / (width + beyond);
-        if slope * near <= 0.0 {
-            0.0
-        } else {
-            slope.abs().min(3.0 * near.abs()).copysign(near)
-        }
+        limited(slope, near, near)
     };
     let mut slopes = vec![0.0; nodes.len()];
     slopes[0] = end(secants[0], secants[1], widths[0], widths[1]);

@@ -59,27 +59,19 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], kinks: &mut Vec<
     let least = CLOSEST * (t[1] - t[0]);
     let chord = (v[1] - v[0]) / (t[1] - t[0]);
     let (mut at, mut value, mut slope) = (t[0], v[0], chord);
+    let mut bend = |at, jump| kinks.push(Kink { at, jump });
     for &(next, height) in inner {
         if !(next > at + least && next < t[1] - least) {
             continue;
         }
         let steepness = (height - value) / (next - at);
-        kinks.push(Kink {
-            at,
-            jump: steepness - slope,
-        });
+        bend(at, steepness - slope);
         (at, value, slope) = (next, height, steepness);
     }
     if at > t[0] {
         let steepness = (v[1] - value) / (t[1] - at);
-        kinks.push(Kink {
-            at,
-            jump: steepness - slope,
-        });
-        kinks.push(Kink {
-            at: t[1],
-            jump: chord - steepness,
-        });
+        bend(at, steepness - slope);
+        bend(t[1], chord - steepness);
     }
 }
 

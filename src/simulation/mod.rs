@@ -262,8 +262,10 @@ impl Simulation {
     /// Looks for the end of the next step.
     fn look_ahead(&self) -> (f64, bool) {
         let g = self.model.profile_from_axis(&self.state.image);
-        let touch = moments::Touch::on(self.setup(), &self.state, g);
-        moments::next(self.setup(), touch, self.state.cycle, self.state.steps > 0)
+        let (setup, state) = (self.setup(), &self.state);
+        let touch = moments::Touch::on(setup, state, g);
+        let turning = |from, until| touch.turning_point(setup, from, until);
+        moments::next(setup, touch, state.cycle, state.steps > 0, turning)
     }
 
     /// One step into the spare state, which becomes the present one if all went well.

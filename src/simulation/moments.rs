@@ -14,10 +14,8 @@ const SLIVER: f64 = 0.1;
 /// What the contact has to do with when the motion turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Touch {
-    /// κ.
-    stick_ratio: f64,
-    /// What an amplitude of each direction is in displacement.
-    yields: [f64; 2],
+    /// What says where the motion turns: κ, and what an amplitude of each direction is in displacement.
+    turning: (f64, [f64; 2]),
     /// The lowest point of the 1D profile, m; −∞ where the motion never comes up to the axis.
     tip: f64,
 }
@@ -32,12 +30,17 @@ impl Touch {
         } else {
             g.fold(axis, f64::min)
         };
-        let radius = state.contact.normal.radius;
+        let (material, radius) = (&setup.material, state.contact.normal.radius);
         Self {
-            stick_ratio: setup.material.stick_ratio(),
-            yields: setup.drive.yields(&setup.material, radius),
+            turning: (material.stick_ratio(), setup.drive.yields(material, radius)),
             tip,
         }
+    }
+
+    /// The first turning point after `from` and up to `until`.
+    pub fn turning_point(self, setup: &Setup, from: f64, until: f64) -> Option<f64> {
+        let (stick_ratio, yields) = self.turning;
+        (setup.drive).turning_point(stick_ratio, yields, from, until)
     }
 }
 
@@ -47,9 +50,15 @@ pub(super) fn rounding(setup: &Setup, cycle: f64) -> f64 {
 }
 
 /// The end of the step that begins at the cycle `now`, and whether the motion turns or touches there: the next
-/// even part of a cycle, or before it the next such point, if the scheme minds. Only a run `under_way` passes
-/// over a part that is very near.
-pub(super) fn next(setup: &Setup, touch: Touch, now: f64, under_way: bool) -> (f64, bool) {
+/// even part of a cycle, or before it the next such point, if the scheme minds; `turning` finds the first of the turning
+/// points after a moment and up to another one. Only a run `under_way` passes over a part that is very near.
+pub(super) fn next(
+    setup: &Setup,
+    touch: Touch,
+    now: f64,
+    under_way: bool,
+    turning: impl Fn(f64, f64) -> Option<f64>,
+) -> (f64, bool) {
     let steps = setup.steps_in_a_cycle();
     let rounding = rounding(setup, now);
     // The tolerance outgrows the rounding of late cycles, so that every step gets on.
@@ -62,8 +71,11 @@ pub(super) fn next(setup: &Setup, touch: Touch, now: f64, under_way: bool) -> (f
     // The end of a cycle is never passed over: histories count on it.
     let passable = |moment: f64| moment.fract() != 0.0;
     let next = |regular: f64| {
-        let turn = turn(setup, touch, now + rounding, regular + sliver);
-        match turn {
+        let (from, until) = (now + rounding, regular + sliver);
+        let turn = turning(from, until);
+        let before = turn.unwrap_or(until);
+        let touching = setup.drive.touching_point(touch.tip, from, before);
+        match touching.or(turn) {
             Some(turn) if (turn - regular).abs() <= rounding => (regular, true),
             Some(turn) if turn < regular || passable(regular) => (turn, true),
             _ => (regular, false),
@@ -75,31 +87,36 @@ pub(super) fn next(setup: &Setup, touch: Touch, now: f64, under_way: bool) -> (f
     next(regular)
 }
 
-/// The first point at which the motion turns, or contact is made or lost.
-fn turn(setup: &Setup, touch: Touch, from: f64, until: f64) -> Option<f64> {
-    let drive = &setup.drive;
-    let turn = drive.turning_point(touch.stick_ratio, touch.yields, from, until);
-    let touching = drive.touching_point(touch.tip, from, turn.unwrap_or(until));
-    touching.or(turn)
-}
-
 /// The ends of all steps of a period of the motion, in cycles from its beginning, and what the motion asks for there:
 /// found once as long as the contact leaves the turns where they are.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Period {
     touch: Option<Touch>,
+    /// Where the motion turns, in cycles: where contact is lost, only the touches move.
+    turns: Vec<f64>,
     moments: Arc<[(f64, Targets)]>,
 }
 
 impl Period {
     /// Those of a period of `cycles`.
     pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[(f64, Targets)]> {
-        if self.touch != Some(touch) {
-            let after =
-                |&now: &f64| (now < cycles).then(|| next(setup, touch, now, true).0.min(cycles));
+        let before = self.touch.replace(touch);
+        if before.map(|before| before.turning) != Some(touch.turning) {
+            let end = cycles + SLIVER;
+            let after = |&now: &f64| touch.turning_point(setup, now + rounding(setup, now), end);
+            self.turns = std::iter::successors(after(&0.0), after).collect();
+        }
+        if before != Some(touch) {
+            let turning = |from, until| {
+                let next = self.turns.partition_point(|&turn| turn <= from);
+                self.turns.get(next).copied().filter(|&turn| turn <= until)
+            };
+            let after = |&now: &f64| {
+                (now < cycles).then(|| next(setup, touch, now, true, turning).0.min(cycles))
+            };
             let moments = std::iter::successors(after(&0.0), after);
             let moments = moments.map(|moment| (moment, setup.drive.targets(moment)));
-            (self.touch, self.moments) = (Some(touch), moments.collect());
+            self.moments = moments.collect();
         }
         Arc::clone(&self.moments)
     }

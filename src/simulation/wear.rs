@@ -93,12 +93,6 @@ impl Increment {
         );
     }
 
-    /// The slip of the surface by Eq. (2), at the first `nodes`.
-    pub fn slip_of_surface(&mut self, model: &Model, nodes: usize) {
-        let surface = &mut self.surface_slip[..nodes];
-        model.plan.displacement(&self.slip, surface);
-    }
-
     /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
     ///
     /// Wear that answers to the stress with ∂Δf/∂τ feeds back with z at a node with cells of the width h, ρ the
@@ -239,7 +233,8 @@ impl Increment {
     pub fn find_sliding(&mut self, model: &Model, contacts: [&Contact; 2], stuck: usize) {
         let [before, after] = contacts.map(|contact| contact.normal.nodes);
         let nodes = (before.max(after) + 1).min(self.surface_slip.len());
-        self.slip_of_surface(model, nodes);
+        let surface_slip = &mut self.surface_slip[..nodes];
+        model.plan.displacement(&self.slip, surface_slip);
         // Nothing slips within the innermost spring that does.
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;

@@ -30,8 +30,9 @@ pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scr
     if model.setup.wear.is_some() {
         // Method B's stress looks one node across.
         let end = (contact.normal.nodes + 1).min(model.nodes());
-        increment.slip_of_surface(model, end);
-        let first = leading(&increment.surface_slip[..end], |&slip| slip == 0.0);
+        let surface_slip = &mut increment.surface_slip[..end];
+        model.plan.displacement(&increment.slip, surface_slip);
+        let first = leading(surface_slip, |&slip| slip == 0.0);
         increment.nodes = first..end;
         traction::shear(model, contact, 0, &mut increment.shear);
         scratch.transforms += 2;

@@ -139,7 +139,7 @@ impl Indenter {
             Self::Paraboloid { radius, tip_radius } => {
                 x * ((x - tip_radius) * (x + tip_radius)).sqrt() / radius
             }
-            Self::Cone { angle, tip_radius } => (tip_radius / x).acos() * x * angle.tan(),
+            Self::Cone { angle, tip_radius } => x * angle.tan() * (tip_radius / x).acos(),
             Self::Power {
                 coefficient,
                 exponent,

@@ -150,7 +150,7 @@ impl LoopTally {
         self.opened |= contact_radius == 0.0;
         let crossing = || {
             let share = force_before / (force_before - force);
-            unloaded(simulation).unwrap_or(shift_before + share * (shift - shift_before))
+            unloaded(simulation, [force_before, force]).unwrap_or(shift_before + share * (shift - shift_before))
         };
         let into = if force_before > 0.0 && force <= 0.0 {
             &mut self.falling
@@ -222,17 +222,22 @@ fn moment(simulation: &Simulation) -> [f64; 3] {
 }
 
 /// Returns the displacement at which F_x passes through zero in the last step, m. F_x bends so much in the longest
-/// steps that a straight line misses it by 6 %. `None` if the contact cannot be solved there.
-fn unloaded(simulation: &Simulation) -> Option<f64> {
+/// steps that a straight line misses it by 6 %. At its `ends` the force is known, N. `None` if the contact cannot be
+/// solved between them.
+fn unloaded(simulation: &Simulation, ends: [f64; 2]) -> Option<f64> {
     let model = simulation.model_of_last_step();
     let mut found = None;
-    let force = |share: f64| {
-        let Some(contact) = simulation.within_last_step(&model, share) else {
-            return f64::NAN;
-        };
-        let force = contact.tangential_force(&model);
-        found = Some(sensed(&model.setup, contact.shift, force));
-        force
+    let force = |share: f64| match share {
+        0.0 => ends[0],
+        1.0 => ends[1],
+        between => {
+            let contact = simulation.within_last_step(&model, between);
+            contact.map_or(f64::NAN, |contact| {
+                let force = contact.tangential_force(&model);
+                found = Some(sensed(&model.setup, contact.shift, force));
+                force
+            })
+        }
     };
     root::bracketed(force, 0.0, 1.0, 1e-4)?;
     found

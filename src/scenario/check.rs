@@ -34,24 +34,24 @@ pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), Refusal> {
 fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: &mut Faults) {
     let is_force = table.get("control").and_then(Value::as_str) == Some("force");
     for (name, value) in table.iter_mut() {
-        let name = echo(name);
-        let (path, shown) = (values::join(path, &name), values::join(shown, &name));
+        let path = values::join(path, name);
+        let shown = || values::join(shown, &echo(name));
         if path == "changes" {
             changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
             if let Some(rule) = broken(value, parameter, is_force) {
-                faults.note(&shown, origin.refuse(&shown, &show(value), rule));
+                faults.note(&shown(), origin.refuse(&shown(), &show(value), rule));
             }
         } else if schema::is_section(&path) {
             match value {
-                Value::Table(inner) => section(inner, &path, &shown, origin, faults),
+                Value::Table(inner) => section(inner, &path, &shown(), origin, faults),
                 other => {
                     let rule = format!("must be a table, [{path}]");
-                    faults.note(&shown, origin.refuse(&shown, &show(other), rule));
+                    faults.note(&shown(), origin.refuse(&shown(), &show(other), rule));
                 }
             }
         } else {
-            faults.note(&shown, unknown(origin.name(), &path, &shown));
+            faults.note(&shown(), unknown(origin.name(), &path, &shown()));
             // What was meant is not missing as well.
             for (meant, _) in hints::meant(&path) {
                 faults.blame(meant);

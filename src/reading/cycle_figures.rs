@@ -150,7 +150,8 @@ impl LoopTally {
         self.opened |= contact_radius == 0.0;
         let crossing = || {
             let share = force_before / (force_before - force);
-            unloaded(simulation, [force_before, force]).unwrap_or(shift_before + share * (shift - shift_before))
+            unloaded(simulation, [force_before, force])
+                .unwrap_or(shift_before + share * (shift - shift_before))
         };
         let into = if force_before > 0.0 && force <= 0.0 {
             &mut self.falling

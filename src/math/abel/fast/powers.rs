@@ -2,51 +2,34 @@
 //!
 //! # Formula
 //!
-//! Seen from row j, all that the transforms ask of a cell at t_k = x_k² is the ratio v = t_k/t_j (v = t_j/t_k
-//! for the stress). Their kernels, as densities over v or over s = √v,
+//! Seen from row j, all that the transforms ask of a kink at t_k = x_k² is the ratio v = t_k/t_j (v = t_j/t_k for the
+//! stress). The image of a kink (see [`super::kink`](super::super::kink)), as a function of v or of s = √v, is
 //!
 //! ```text
-//! profile, stress   (1 − v)^(−1/2)                       over dv
-//! displacement      (2/π) acos √v                        over dv
-//! worn depth        s/√(1 − s²) + acos s                 over ds
+//! profile, stress   2 √(1 − v)                                = 2 − v − Σ_{n≥2} c_n vⁿ
+//! displacement      (2/π) { (½ − v) acos s + ½ s √(1 − v) }   = ½ − v + Σ_{n≥1} c_n v^(n+½)
+//! worn depth        2 √(1 − v) − s acos s                     = 2 − (π/2) s − Σ_{n≥2} c_n vⁿ
 //! ```
 //!
-//! are smooth in ln v away from v = 1, so that for v ≤ exp(−y_min) each is Σ A_m v^(ν_m). What a kink needs (see
-//! [`super::kink`](super::super::kink)) is the integral,
-//!
-//! ```text
-//! ∫ᵥ¹ = κ − Σ a_m v^(μ_m),   a = A/(ν + 1), μ = ν + 1    (over ds: a = A/(2ν + 1), μ = ν + ½)
-//! ```
-//!
-//! with the exact κ = ∫₀¹: 2 for profile, stress and worn depth, 1/2 for the displacement.
+//! with c_n > 0. Away from v = 1 it is smooth in ln v, so that for v ≤ exp(−y_min) a sum Σ a_m v^(μ_m) stands for it.
 //!
 //! # Exponents
 //!
-//! But for their constant, all three kernels (the second with its sign turned) are power series with positive
-//! terms only, from c_n = (2n)!/(4ⁿ n!²):
+//! The two before the sum are its own. With v = e^(−y) the rest is the impulse response of a symmetric system,
+//! b′ exp(−y diag μ) b with b = √c, and balanced truncation gives the few modes that matter for y ≥ y_min (B. C. Moore
+//! (1981), IEEE Trans. Autom. Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its Gramian
 //!
 //! ```text
-//! profile, stress   1 + Σ_{n≥1} c_n vⁿ
-//! displacement      1 − (2/π) Σ_{n≥0} c_n/(2n+1) v^(n+½)
-//! worn depth        π/2 + Σ_{n≥1} c_n 2n/(2n+1) v^(n+½)
+//! P_ik = b_i b_k/(μ_i + μ_k),   b_i² = c_i exp(−μ_i y_min),
 //! ```
 //!
-//! With v = e^(−y) such a series is the impulse response of a symmetric system, b′ exp(−y diag ν) b with
-//! b = √w, and balanced truncation gives the few modes that matter for y ≥ y_min (B. C. Moore (1981), IEEE
-//! Trans. Autom. Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its Gramian
-//!
-//! ```text
-//! P_ik = b_i b_k/(ν_i + ν_k),   b_i² = w_i exp(−ν_i y_min),
-//! ```
-//!
-//! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(ν) V. The norm is that over dy,
-//! which for a kernel like y^(−1/2) is that of the relative error over ln y; all three have w_n = c_n, the displacement
-//! that of its derivative. Terms far out in the series are gathered in bunches beforehand. The A_m are then those of
-//! least squares over ln v of the kernel itself. K exponents leave an error near that of the best ones,
-//! exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale, Nonlinear and Adaptive Approximation, Springer,
-//! doi 10.1007/978-3-642-03413-8_3), with no table and no search.
+//! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(μ) V. They need no more of c_n
+//! than that it falls as n^(−3/2); that of the displacement falls faster, and takes as few. Terms far out in the series
+//! are gathered in bunches beforehand. The a_m are then those of least squares over ln v of the image itself. K exponents
+//! leave an error near that of the best ones, exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale,
+//! Nonlinear and Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3), with no table and no search.
 
-use std::f64::consts::{FRAC_2_PI, PI};
+use std::f64::consts::FRAC_2_PI;
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -57,10 +40,14 @@ pub(super) const LANES: usize = 4;
 pub(super) const MOST_GROUPS: usize = 14;
 
 /// Sample points of the fit over ln v, a number a unit of its logarithm.
-const SAMPLES: f64 = 24.0;
+const SAMPLES: f64 = 32.0;
 
-/// ln v beyond which every power but ν = 0 has died.
+/// ln v beyond which every power but v⁰ has died.
 const FARTHEST: f64 = 60.0;
+
+/// Two kinks that make a cell nearly cancel, their errors less so: the cells of smooth data, of jumps and of noise are
+/// held to the tolerance by kinks that are this many times better.
+const RESERVE: f64 = 32.0;
 
 /// Terms of the series far out are gathered in bunches of this part of their number.
 const BUNCH: f64 = 0.07;
@@ -71,56 +58,36 @@ const LAST: f64 = 30.0;
 /// A kernel to be fitted.
 #[derive(Debug, Clone, Copy)]
 pub(in super::super) struct Kernel {
-    /// κ: the integral of the whole kernel.
-    whole: f64,
-    /// The density of v = s² and 1 − v = c², both at hand without cancellation.
-    density: fn(f64, f64) -> f64,
-    /// Whether errors are relative to the density: where that vanishes at v = 1, they are not.
-    is_relative: bool,
-    /// The integral from v to 1, of s and c.
+    /// The image of a kink, of s = √v and c = √(1 − v): both at hand without cancellation.
     pub kink: fn(f64, f64) -> f64,
-    /// The first term of the power series but its constant, n.
-    first: f64,
-    /// The exponent of the term n less n.
-    shift: f64,
-    /// How many times ln v the logarithm of the variable is that the density is over: 1 of v, 2 of s.
-    per_logarithm: f64,
+    /// The second exponent of its series, after 0.
+    second: f64,
+    /// The third, from which on they go up in ones.
+    third: f64,
 }
 
 /// Eqs. (1) and (3).
 pub(in super::super) const ROOT: Kernel = Kernel {
-    whole: 2.0,
-    density: |_, c| 1.0 / c,
-    is_relative: true,
     kink: |_, c| 2.0 * c,
-    first: 1.0,
-    shift: 0.0,
-    per_logarithm: 1.0,
+    second: 1.0,
+    third: 2.0,
 };
 
 /// Eq. (2).
 pub(in super::super) const ARC: Kernel = Kernel {
-    whole: 0.5,
-    density: |s, c| FRAC_2_PI * c.atan2(s),
-    is_relative: false,
     kink: |s, c| FRAC_2_PI * ((0.5 - s * s) * c.atan2(s) + 0.5 * s * c),
-    first: 0.0,
-    shift: 0.5,
-    per_logarithm: 1.0,
+    second: 1.0,
+    third: 1.5,
 };
 
 /// Eq. (1) on the worn depth outside the border.
 pub(super) const WORN: Kernel = Kernel {
-    whole: 2.0,
-    density: |s, c| s / c + c.atan2(s),
-    is_relative: true,
     kink: |s, c| 2.0 * c - s * c.atan2(s),
-    first: 1.0,
-    shift: 0.5,
-    per_logarithm: 2.0,
+    second: 0.5,
+    third: 2.0,
 };
 
-/// Σ a_m v^(μ_m), κ among the a.
+/// Σ a_m v^(μ_m).
 #[derive(Debug, Clone)]
 pub(in super::super) struct Powers {
     /// The kernel that they stand for.
@@ -138,63 +105,39 @@ pub(in super::super) struct Powers {
 /// None if [`MOST_GROUPS`] do not suffice.
 pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers> {
     let range = (FARTHEST / nearest).ln();
-    // What is fitted, and a check between.
-    let [samples, checks] = [SAMPLES, 1.37 * SAMPLES].map(|density| {
-        let number = (density * range).ceil();
-        let points = (0..=number as usize).map(|i| nearest * (range * i as f64 / number).exp());
-        points.collect::<Vec<f64>>()
+    let last = (SAMPLES * range).ceil();
+    let samples = DVector::from_fn(last as usize + 1, |i, _| {
+        nearest * (range * i as f64 / last).exp()
     });
-    let density = |y: f64| (kernel.density)((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
-    let scale = |y: f64| if kernel.is_relative { density(y) } else { 1.0 };
-    let target = |points: &[f64]| {
-        let values = points.iter().map(|&y| density(y) / scale(y));
-        DVector::from_iterator(points.len(), values)
-    };
+    let kinks = samples.map(|y| (kernel.kink)((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt()));
     let balanced = balanced(kernel, nearest);
     (2..=MOST_GROUPS).find_map(|groups| {
-        let exponents = truncated(&balanced, groups * LANES - 2)?;
-        let powers = |points: &[f64]| {
-            DMatrix::from_fn(points.len(), exponents.len(), |i, m| {
-                (-exponents[m] * points[i]).exp() / scale(points[i])
-            })
-        };
-        let qr = powers(&samples).qr();
-        let factors = qr
-            .r()
-            .solve_upper_triangular(&qr.q().tr_mul(&target(&samples)))?;
-        let worst = (powers(&checks) * &factors - target(&checks)).amax();
-        // The nearest kinks are exact, those behind them are not: what that breaks off the integral is as much again.
-        (2.0 * worst <= tolerance).then(|| {
-            let per = kernel.per_logarithm;
-            let pairs = exponents.iter().zip(&factors);
-            let powers = pairs.map(|(nu, a)| (-a / (per * nu + 1.0), nu + 1.0 / per));
-            let (factors, exponents) = powers.chain([(kernel.whole, 0.0)]).unzip();
-            Powers {
-                kernel,
-                nearest,
-                exponents,
-                factors,
-            }
+        let mut exponents = truncated(&balanced, groups * LANES - 2)?;
+        exponents.extend([0.0, kernel.second]);
+        let powers = DMatrix::from_fn(samples.len(), exponents.len(), |i, m| {
+            (-exponents[m] * samples[i]).exp()
+        });
+        let qr = powers.clone().qr();
+        let factors = qr.r().solve_upper_triangular(&qr.q().tr_mul(&kinks))?;
+        let worst = (powers * &factors - &kinks).amax();
+        (RESERVE * worst <= tolerance).then(|| Powers {
+            kernel,
+            nearest,
+            exponents,
+            factors: factors.as_slice().to_vec(),
         })
     })
 }
 
-/// V′ diag(ν) V of all modes, the weightiest first.
+/// V′ diag(μ) V of all modes, the weightiest first.
 fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
-    // ν and b of every bunch of terms.
+    // μ and b of every bunch of terms.
     let mut terms: Vec<(f64, f64)> = Vec::new();
-    let mut from = kernel.first;
+    let mut from = kernel.third;
     while from * nearest < LAST {
         let count = (BUNCH * from).floor().max(1.0);
-        let n = from + 0.5 * (count - 1.0);
-        // c_n by Stirling's series; the exponents need no more than a few digits of it.
-        let c = if n < 1.0 {
-            1.0
-        } else {
-            (1.0 - (0.125 - 0.007_812_5 / n) / n) / (PI * n).sqrt()
-        };
-        let exponent = n + kernel.shift;
-        let weight = count * c * (-exponent * nearest).exp();
+        let exponent = from + 0.5 * (count - 1.0);
+        let weight = count * exponent.powf(-1.5) * (-exponent * nearest).exp();
         terms.push((exponent, weight.sqrt()));
         from += count;
     }
@@ -209,16 +152,12 @@ fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
     modes.tr_mul(&(DMatrix::from_diagonal(&exponents) * &modes))
 }
 
-/// The exponents of the first `number` modes, and 0; `None` if there are fewer modes.
+/// The exponents of the first `number` modes; `None` if there are fewer modes.
 fn truncated(balanced: &DMatrix<f64>, number: usize) -> Option<Vec<f64>> {
-    if number > balanced.nrows() {
-        return None;
-    }
-    let block = balanced.view((0, 0), (number, number)).into_owned();
-    let mut exponents: Vec<f64> = block.symmetric_eigenvalues().iter().copied().collect();
-    exponents.push(0.0);
-    exponents.sort_by(f64::total_cmp);
-    Some(exponents)
+    (number <= balanced.nrows()).then(|| {
+        let block = balanced.view((0, 0), (number, number)).into_owned();
+        block.symmetric_eigenvalues().iter().copied().collect()
+    })
 }
 
 #[cfg(test)]

@@ -166,11 +166,6 @@ impl Row {
     }
 }
 
-/// The commands that have keys.
-pub fn with_keys() -> impl Iterator<Item = &'static Row> {
-    COMMANDS.iter().filter(|row| !row.keys.is_empty())
-}
-
 /// The user's own keys, which override those of the table.
 static OWN: OnceLock<Vec<(Key, Command)>> = OnceLock::new();
 

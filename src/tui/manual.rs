@@ -30,7 +30,6 @@ pub fn roff() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::command::with_keys;
 
     #[test]
     fn every_command_stands_in_one_group_and_is_not_cut() {
@@ -41,7 +40,8 @@ mod tests {
             assert!(row.help.chars().count() <= 58, "{}", row.help);
             seen += 1;
         }
-        assert_eq!(seen, with_keys().count());
+        let with_keys = COMMANDS.iter().filter(|row| !row.keys.is_empty());
+        assert_eq!(seen, with_keys.count());
     }
 
     #[test]

@@ -160,7 +160,7 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let activity = match &frame.activity {
         Activity::Paused if frame.present.is_some() => "◂ past",
         Activity::Running => "▶ running",
-        Activity::Paused => "⏸ paused",
+        Activity::Paused => "‖ paused",
         Activity::Done => "■ done",
         Activity::Stopped(_) => "! stopped",
     };

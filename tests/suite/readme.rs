@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use mdr_tui::scenario::preset;
-use mdr_tui::tui::command::with_keys;
 use mdr_tui::tui::footer;
+use mdr_tui::tui::manual;
 
 use crate::test_dir::{TestDir, has};
 
@@ -27,7 +27,7 @@ fn it_is_short_and_names_what_there_is() {
 fn the_manual_page_has_every_key() {
     let page = TestDir::new().done("man");
     assert_eq!(page.matches(".SH KEYS").count(), 1);
-    for row in with_keys() {
+    for row in manual::groups().flat_map(|(_, rows)| rows) {
         let help = row.help.replace('-', "\\-");
         has(&page, &help);
     }

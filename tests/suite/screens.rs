@@ -459,7 +459,7 @@ fn the_status_line_begins_sensibly_however_narrow() {
     for columns in 40..=130 {
         let text = shot("li2019-fig3", ",,", (columns, 10));
         let status = text.lines().next().expect("a status line");
-        assert!(status.starts_with(" ⏸ paused "), "{columns}: {status}");
+        assert!(status.starts_with(" ‖ paused "), "{columns}: {status}");
         let parts: Vec<&str> = status.split('│').map(str::trim).collect();
         let is_told = parts[1].starts_with("cycle 2.00/199.24");
         assert!(is_told, "{columns}: {status}");

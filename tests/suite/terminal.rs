@@ -105,7 +105,7 @@ fn it_runs_pauses_switches_resizes_and_quits() {
             let last = usize::from(rows) - 1;
             // Where there is room, the title ends the line.
             let title = if columns < 100 { "" } else { " Dual oscil" };
-            lines[0].starts_with(" ⏸ paused")
+            lines[0].starts_with(" ‖ paused")
                 && lines[0].contains(title)
                 && lines[last].contains("q quit")
         });

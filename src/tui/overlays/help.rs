@@ -1,29 +1,32 @@
 //! The help: keys and what they do, one per row, in groups. The palette searches in it.
 
+use std::cell::Cell;
+
 use super::*;
-use crate::tui::command::{Row, with_keys};
+use crate::tui::command::Row;
 use crate::tui::manual::groups;
 
-/// The help, scrolled down by some lines.
+/// The help, scrolled down by some lines: by no more than there are, which it learns as it is drawn.
 #[derive(Debug, Default)]
 pub struct Help {
-    first: u16,
+    first: Cell<u16>,
 }
 
 impl Help {
     pub(super) fn press(&mut self, key: Key) -> Answer {
-        let (first, last) = (self.first, 2 * with_keys().count() as u16);
-        self.first = match (key, command::of_key(key)) {
+        let first = self.first.get();
+        let first = match (key, command::of_key(key)) {
             (Key::Named(Named::PageUp), _) => first.saturating_sub(PAGE as u16),
-            (Key::Named(Named::PageDown), _) => (first + PAGE as u16).min(last),
+            (Key::Named(Named::PageDown), _) => first.saturating_add(PAGE as u16),
             (Key::Named(Named::Home), _) => 0,
-            (Key::Named(Named::End), _) => last,
+            (Key::Named(Named::End), _) => u16::MAX,
             (_, Some(Command::Up)) => first.saturating_sub(1),
-            (_, Some(Command::Down)) => (first + 1).min(last),
+            (_, Some(Command::Down)) => first.saturating_add(1),
             (_, Some(Command::Back | Command::Help | Command::Accept)) => return Answer::Close,
             (_, Some(Command::Search)) => return Answer::Watch(Command::Search),
             (_, other) => return leave_for(other),
         };
+        self.first.set(first);
         Answer::Stay
     }
 
@@ -49,7 +52,8 @@ impl Help {
         let size = (columns as u16 * WIDTH, rows as u16 + 2);
         let mut inside = canvas.popup(title, size);
         let below = (rows as u16).saturating_sub(inside.area.height);
-        let first = self.first.min(below);
+        let first = self.first.get().min(below);
+        self.first.set(first);
         let places = Layout::horizontal(vec![Fill(1); columns]).split(inside.area);
         for (part, place) in lines.chunks(rows.max(1)).zip(places.iter()) {
             let part = Paragraph::new(part.to_vec()).scroll((first, 0));

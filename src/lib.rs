@@ -53,7 +53,6 @@ pub mod charts;
 pub mod cli;
 pub mod contact;
 pub mod export;
-#[cfg(debug_assertions)]
 mod failpoint;
 pub mod figure;
 pub mod guide;

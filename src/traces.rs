@@ -146,6 +146,9 @@ pub struct Loop {
 }
 
 impl Loop {
+    /// The fewest points that show one.
+    pub const SHORTEST: usize = 9;
+
     /// Whether the indenter moves to the right at its end.
     pub fn rises(&self) -> bool {
         !matches!(self.shifts[..], [.., before, now] if before > now)

@@ -20,9 +20,6 @@ pub static RECIPE: Recipe = Recipe {
 /// How much of its width is left free beside a loop, on paper.
 const MARGIN: f64 = 0.05;
 
-/// The fewest points of a loop on paper.
-const SHORTEST: usize = 9;
-
 /// The range of values; as far on both sides of zero where they are on both.
 fn symmetric<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> [f64; 2] {
     let finite = || values.clone().copied().filter(|value| value.is_finite());
@@ -44,7 +41,7 @@ fn loops(run: &Run) -> Vec<Curve> {
         states => states.iter().map(|state| state.cycle()).collect(),
     };
     let count = ends.len();
-    let fewest = run.pick(1, SHORTEST);
+    let fewest = run.pick(1, Loop::SHORTEST);
     let mut curves = Vec::new();
     for (k, end) in ends.into_iter().enumerate() {
         let one = run.loop_at(end);
@@ -55,24 +52,18 @@ fn loops(run: &Run) -> Vec<Curve> {
         let sensed = sensed.filter(|(u, _)| u.is_finite());
         let (sensed, forces): (Vec<f64>, Vec<f64>) = sensed.unzip();
         let is_sensed = sensed.len() >= fewest;
-        let (name, sensor, roles) = match count {
-            1 => {
-                let name = if is_sensed { "contact" } else { "" };
-                let roles = [Role::Shear, Role::Unworn];
-                (name.to_owned(), "rig's sensor".to_owned(), roles)
-            }
-            _ => {
-                let name = format!("{end} cycles");
-                let sensor = format!("{name} (rig's sensor)");
-                (name, sensor, [Role::Series(count - 1 - k); 2])
-            }
+        let alone = if is_sensed { "contact" } else { "" };
+        let (name, role) = named(k, count, end, (alone, Role::Shear));
+        let (sensor, of_sensor) = match count {
+            1 => ("rig's sensor".to_owned(), Role::Unworn),
+            _ => (format!("{name} (rig's sensor)"), role),
         };
         if is_sensed {
-            let curve = Curve::new(sensor, sensed, forces, roles[1]);
+            let curve = Curve::new(sensor, sensed, forces, of_sensor);
             curves.push(curve.dashed_if(run.live.is_none()));
         }
         // The contact's comes last: another figure takes that as its ghost.
-        curves.push(Curve::new(name, one.shifts, one.forces, roles[0]));
+        curves.push(Curve::new(name, one.shifts, one.forces, role));
     }
     curves
 }

@@ -57,11 +57,3 @@ pub fn worn(run: &Run, times: Option<f64>) -> Vec<Curve> {
         Some((worn.radii, ys, errors))
     })
 }
-
-/// The last cycle that ghosts tell of.
-pub(super) fn end(run: &Run) -> f64 {
-    run.ghosts
-        .iter()
-        .map(|ghost| ghost.end())
-        .fold(0.0, f64::max)
-}

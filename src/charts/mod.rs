@@ -189,15 +189,19 @@ fn of_states(run: &Run, column: &str, alone: &str, role: Role) -> Vec<Curve> {
     let states = run.states.iter().enumerate();
     let curves = states.filter_map(|(k, state)| {
         let (radii, values) = (state.column("r_m")?, state.column(column)?);
-        if count == 1 {
-            return Some(Curve::new(alone, radii, values, role));
-        }
-        let name = format!("{} cycles", state.cycle());
-        // The last state has the same, the darkest ink, however many there are.
-        let role = Role::Series(count - 1 - k);
+        let (name, role) = named(k, count, state.cycle(), (alone, role));
         Some(Curve::new(name, radii, values, role))
     });
     curves.collect()
+}
+
+/// Name and role of the `k`th of `count` states, which ends at `cycle`; those of one that is `alone`.
+fn named(k: usize, count: usize, cycle: f64, alone: (&str, Role)) -> (String, Role) {
+    match count {
+        1 => (alone.0.to_owned(), alone.1),
+        // The last state has the same, the darkest ink, however many there are.
+        _ => (format!("{cycle} cycles"), Role::Series(count - 1 - k)),
+    }
 }
 
 /// The shape that ends all wear at this depth: its worn depth, or that magnified by `times` on top of the unworn
@@ -245,7 +249,8 @@ fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     let live = run.live.as_ref()?;
     let seen = run.history.as_ref().and_then(Table::last_cycle);
     let end = seen.unwrap_or(0.0).max(live.planned_cycles.unwrap_or(0.0));
-    Some([0.0, round_end(end.max(ghosts::end(run)))])
+    let of_ghosts = run.ghosts.iter().map(|ghost| ghost.end());
+    Some([0.0, round_end(of_ghosts.fold(end, f64::max))])
 }
 
 /// How many times what is at most `deepest` is drawn magnified, so that it takes no more than `height`: 1, 2, 5,

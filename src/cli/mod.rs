@@ -87,7 +87,6 @@ pub fn main() -> ExitCode {
 }
 
 fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
-    #[cfg(debug_assertions)]
     crate::failpoint::hit("command");
     match arguments.command {
         None => explore::explore(&arguments.explore, None)?,

@@ -8,16 +8,14 @@ use serde_json::{Value, json};
 use super::args::Presets;
 use super::results;
 use crate::scenario::Refusal;
-use crate::scenario::nearest::hint;
 use crate::scenario::preset::{self, Preset};
 
 /// Lists the presets or prints one.
 pub fn presets(options: &Presets) -> Result<()> {
     if let Some(name) = &options.name {
         let Some(found) = preset::find(name) else {
-            let hint = hint(name, preset::ALL.iter().map(|preset| preset.name));
             let place = format!("presets {}", name.escape_debug());
-            bail!(Refusal::new(place, "no such preset").or(hint));
+            bail!(Refusal::new(place, "no such preset").or(preset::hint(name)));
         };
         return Ok(write!(io::stdout(), "{}", found.text)?);
     }

@@ -1,7 +1,6 @@
 //! `mdr-tui stability`: how much wear per cycle each method tolerates.
 
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
 
 use anyhow::{Result, bail};
 
@@ -21,8 +20,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         let rule = "nothing wears: the scenario needs [wear], and contact at its start";
         bail!(Refusal::new(&options.scenario, rule));
     };
-    let stop = stop::signal()?;
-    let go_on = || !stop.load(Ordering::Relaxed);
+    let go_on = stop::signal().map(stop::unless)?;
     let lines = lines(&study, options, &go_on)?;
     let interrupted = !go_on();
     let (cycles, steps) = (number(options.cycles), options.steps);

@@ -1,7 +1,7 @@
 //! Signals that ask a run to stop.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
 use signal_hook::consts::{
@@ -27,6 +27,11 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
 /// twice.
 pub fn patient_signal() -> Result<Arc<AtomicBool>> {
     set_by(&[SIGINT, SIGTERM, SIGHUP], &[SIGINT])
+}
+
+/// Whether to go on: as long as this is not set.
+pub fn unless(stop: Arc<AtomicBool>) -> impl Fn() -> bool {
+    move || !stop.load(Ordering::Relaxed)
 }
 
 /// A flag that these signals set; the second of those that end `at_once` ends the process. Under `nohup` a run

@@ -1,7 +1,6 @@
 //! `mdr-tui trade`: speed against accuracy, measured on this machine.
 
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
 
 use anyhow::{Context, Result, bail, ensure};
 
@@ -34,8 +33,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
     let wears = scenario.setup().wear.is_some();
     ensure!(wears, Refusal::new(&options.scenario, rule));
-    let stop = stop::signal()?;
-    let go_on = || !stop.load(Ordering::Relaxed);
+    let go_on = stop::signal().map(stop::unless)?;
     let found = run(&scenario, cycles, options, &go_on)?;
     let found = found.context("interrupted before the reference was computed: no results");
     let (trials, notes) = &found?;

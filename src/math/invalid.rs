@@ -25,13 +25,6 @@ impl Invalid {
             rule: rule.into(),
         }
     }
-
-    /// Refuses `name`, since `field` names one of `names`.
-    pub fn choice(field: &'static str, name: &str, names: &[&str]) -> Self {
-        let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
-        let rule = format!("must be one of {}", names.join(", "));
-        Self::new(field, format!("{name:?}"), rule)
-    }
 }
 
 /// Passes a finite number, refuses NaN and infinities.

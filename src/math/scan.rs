@@ -108,6 +108,12 @@ pub fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
     all[(at + places).rem_euclid(all.len() as isize) as usize]
 }
 
+/// The root of the mean square; 0 of nothing.
+pub fn rms(values: &[f64]) -> f64 {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (squares / values.len().max(1) as f64).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -58,6 +58,14 @@ const DIVERGING: [Rgb; 7] = [
     [178, 24, 43],
 ];
 
+/// The colour at a `share` of the way from one to another.
+pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
+    [0, 1, 2].map(|k| {
+        let [from, to] = [from[k], to[k]].map(f64::from);
+        (from + share * (to - from)).round() as u8
+    })
+}
+
 impl ColorMap {
     /// The colour at a share of the range, 0 to 1.
     pub fn color(self, share: f64) -> Rgb {
@@ -68,11 +76,7 @@ impl ColorMap {
         let last = stops.len() - 1;
         let at = share.clamp(0.0, 1.0) * last as f64;
         let before = (at as usize).min(last - 1);
-        let part = at - before as f64;
-        [0, 1, 2].map(|k| {
-            let [from, to] = [stops[before][k], stops[before + 1][k]].map(f64::from);
-            (from + part * (to - from)).round() as u8
-        })
+        mixed(stops[before], stops[before + 1], at - before as f64)
     }
 
     /// The range of colours for values from `low` up to `high`: colours of both signs have white at zero.

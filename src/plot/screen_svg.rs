@@ -10,7 +10,7 @@ use ratatui::style::{Color, Modifier};
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
-use super::colormap::{NAMED, Rgb};
+use super::colormap::{NAMED, Rgb, mixed};
 
 /// What the terminal's own colours look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,20 +76,11 @@ impl Look {
         if cell.modifier.contains(Modifier::REVERSED) {
             std::mem::swap(&mut fore, &mut back);
         }
-        let bold = cell.modifier.contains(Modifier::BOLD);
-        let mut look = Self { fore, back, bold };
         if cell.modifier.contains(Modifier::DIM) {
-            look.fore = look.mixed(DIM);
+            fore = mixed(back, fore, DIM);
         }
-        look
-    }
-
-    /// This share of its colour on its background.
-    fn mixed(self, share: f64) -> Rgb {
-        [0, 1, 2].map(|k| {
-            let [fore, back] = [self.fore[k], self.back[k]].map(f64::from);
-            (back + share * (fore - back)).round() as u8
-        })
+        let bold = cell.modifier.contains(Modifier::BOLD);
+        Self { fore, back, bold }
     }
 }
 
@@ -151,7 +142,7 @@ impl Drawing {
             '█' => self.area(color, (x, y), h),
             '▀' => self.area(color, (x, y), 0.5 * h),
             '▄' => self.area(color, (x, y + 0.5 * h), 0.5 * h),
-            '░' => self.area(look.mixed(0.25), (x, y), h),
+            '░' => self.area(mixed(look.back, look.fore, 0.25), (x, y), h),
             _ => {
                 let Some([left, right, up, down]) = arms(sign) else {
                     return false;

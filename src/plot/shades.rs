@@ -2,7 +2,7 @@
 
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Style};
-use ratatui::text::Span;
+use ratatui::text::{Line, Span};
 
 use super::colormap::{ColorMap, NAMED};
 use super::theme::{Depth, Look, Theme};
@@ -58,12 +58,19 @@ pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     has_blocks(theme).then_some(color)
 }
 
-/// All shades for a key, or the `signs` that stand for them where there are no colours.
-pub fn key(theme: &Theme, map: ColorMap, signs: [char; SHADES]) -> [Span<'static>; SHADES] {
-    std::array::from_fn(|shade| match color(theme, map, shade) {
+/// All shades for a key between its ends, or the `signs` that stand for them where there are no colours.
+pub fn key(
+    theme: &Theme,
+    map: ColorMap,
+    signs: [char; SHADES],
+    [from, to]: [String; 2],
+) -> Line<'static> {
+    let shades = (0..SHADES).map(|shade| match color(theme, map, shade) {
         Some(color) => Span::styled(" ", Style::new().bg(color)),
         None => Span::raw(signs[shade].to_string()),
-    })
+    });
+    let from = std::iter::once(Span::raw(from));
+    from.chain(shades).chain([Span::raw(to)]).collect()
 }
 
 /// Colours the upper and the lower half of a cell; what has no colour stays as it is.

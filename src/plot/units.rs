@@ -26,12 +26,9 @@ fn prefix(max: f64, unit: &str) -> (&'static str, f64) {
 
 /// The power of a unit's first symbol (3 for `m³`, 1 for `N/m`); `None` where no prefix applies.
 fn leading_power(unit: &str) -> Option<i32> {
-    let end = unit
-        .find(|c: char| !c.is_alphabetic())
-        .unwrap_or(unit.len());
-    let (symbol, rest) = unit.split_at(end);
+    let rest = unit.trim_start_matches(char::is_alphabetic);
     // Other words (cycles, %, deg) stand alone.
-    takes_prefix(symbol).then_some(())?;
+    takes_prefix(unit.strip_suffix(rest)?).then_some(())?;
     match rest.trim_start_matches('^').chars().next() {
         Some('²' | '2') => Some(2),
         Some('³' | '3') => Some(3),

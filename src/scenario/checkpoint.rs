@@ -13,7 +13,6 @@
 //! contents reveal a damaged file.
 
 use std::borrow::Cow;
-use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -56,7 +55,7 @@ struct Body<'a, E> {
     origin: Cow<'a, str>,
     scenario: String,
     changes: Cow<'a, [Change]>,
-    pending: VecDeque<Change>,
+    pending: Vec<Change>,
     goals: Cow<'a, [f64]>,
     saved: Saved,
     log: Cow<'a, Log>,
@@ -194,7 +193,7 @@ fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String
         simulation,
         log,
         changes: changes.to_vec(),
-        pending: VecDeque::new(),
+        pending: Vec::new(),
         unchanged: None,
         statements: Vec::new(),
         goals: Vec::new(),

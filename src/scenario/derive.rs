@@ -44,9 +44,7 @@ impl Unworn<'_> {
     /// the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and what lies outside bears nothing,
     /// F_z = 2E* ∫₀ᶜ (d − g) dx. None if it is beyond [`ROOM_TO_SINK`] times the depth at the `start` (m).
     fn settled_depth(&self, start: f64) -> Option<f64> {
-        let Control::Displacement(shift) = self.drive.tangential()? else {
-            return None;
-        };
+        let shift = self.drive.tangential()?.displacement()?;
         let yielding = shift.amplitude() * self.material.stick_ratio();
         let profile = |x: f64| self.indenter.profile_1d(x);
         let borne = |c: f64| {

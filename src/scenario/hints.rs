@@ -66,10 +66,8 @@ pub(super) fn instead(parameter: &Parameter, value: &Value) -> String {
         .iter()
         .find(|known| known.also.contains(&typed.as_str()));
     let near = || nearest(&typed, words.iter().map(|known| known.word));
-    match known.map(|known| known.word).or_else(near) {
-        Some(meant) if words.len() > 1 => format!("; did you mean \"{meant}\"?"),
-        _ => String::new(),
-    }
+    let meant = known.map(|known| known.word).or_else(near);
+    meant.map_or_else(String::new, |meant| format!("; did you mean \"{meant}\"?"))
 }
 
 #[cfg(test)]

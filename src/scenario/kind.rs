@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Deserializer};
 use toml::Value;
 
-use super::values::{literal, number};
+use super::values::number;
 
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
@@ -53,7 +53,6 @@ impl Kind {
             Self::Whole => "a whole number".into(),
             Self::Flag => "true or false".into(),
             Self::Text => "a text".into(),
-            Self::Choice([only]) => format!("\"{}\"", only.word),
             Self::Choice(words) => {
                 let words = words.iter().map(|known| format!("\"{}\"", known.word));
                 format!("one of {}", words.collect::<Vec<_>>().join(", "))
@@ -161,17 +160,6 @@ impl Default {
         match self {
             Self::Written(value) | Self::Implied(value) => Some(value),
             Self::None | Self::Derived(_) => None,
-        }
-    }
-}
-
-/// As a scenario has it, or as described.
-impl fmt::Display for Default {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::None => Ok(()),
-            Self::Written(value) | Self::Implied(value) => f.write_str(&literal(value)),
-            Self::Derived(words) => f.write_str(words),
         }
     }
 }

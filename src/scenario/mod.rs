@@ -78,7 +78,8 @@ impl Scenario {
         match preset::find(name_or_path) {
             Some(preset) => Self::from_toml(preset.text, preset.name, sets),
             None => {
-                let rule = format!("no such preset; {}", preset::hint(name_or_path));
+                let hint = preset::hint(name_or_path);
+                let rule = format!("no such preset; {hint} (a path ends in .toml or contains a /)");
                 Err(Refusal::new(echo(name_or_path), rule))
             }
         }

@@ -57,9 +57,8 @@ pub fn is_path(text: &str) -> bool {
 }
 
 /// A hint for the unknown `name`.
-pub(super) fn hint(name: &str) -> String {
-    let hint = nearest::hint(name, ALL.iter().map(|preset| preset.name));
-    format!("{hint} (a path ends in .toml or contains a /)")
+pub fn hint(name: &str) -> String {
+    nearest::hint(name, ALL.iter().map(|preset| preset.name))
 }
 
 impl Preset {

@@ -60,13 +60,10 @@ impl Parameter {
 
     /// What it means, with the unit.
     pub fn described(&self) -> String {
-        let range = match self.kind {
-            Kind::Choice(_) => format!(", {}", self.kind.wanted()),
-            _ => String::new(),
-        };
-        match self.unit {
-            "" => format!("{}{range}", self.meaning),
-            unit => format!("{}, {unit}", self.meaning),
+        match (self.kind, self.unit) {
+            (Kind::Choice(_), _) => format!("{}, {}", self.meaning, self.kind.wanted()),
+            (_, "") => self.meaning.to_owned(),
+            (_, unit) => format!("{}, {unit}", self.meaning),
         }
     }
 
@@ -168,9 +165,7 @@ pub(super) struct Schema {
 }
 
 pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
-    let table = toml::Deserializer::parse(include_str!("keys.toml"));
-    let schema = table.and_then(Schema::deserialize);
-    schema.expect("the table of keys is whole")
+    toml::from_str(include_str!("keys.toml")).expect("the table of keys is whole")
 });
 
 /// All keys, in the order in which a scenario is written.

@@ -3,8 +3,6 @@
 //! The explorer and the headless commands both drive this, so the same scenario and the same
 //! changes give the same bits.
 
-use std::collections::VecDeque;
-
 use thiserror::Error;
 
 use super::changes::{Change, MOST_CHANGES};
@@ -46,7 +44,7 @@ pub struct Session {
     /// What is noted of it.
     pub(super) log: Log,
     pub(super) changes: Vec<Change>,
-    pub(super) pending: VecDeque<Change>,
+    pub(super) pending: Vec<Change>,
     /// What steps were cut short for so far, in cycles.
     pub(super) goals: Vec<f64>,
     /// The run before the changes of the present cycle, which are made together: each further one is made again with
@@ -69,15 +67,13 @@ impl Session {
             return Err(SessionError::Unresolved(accuracy));
         }
         let simulation = Simulation::new(scenario.setup().clone())?;
-        let mut pending: Vec<Change> = scenario.changes().to_vec();
-        pending.sort_by(|a, b| a.at_cycle.total_cmp(&b.at_cycle));
         let mut session = Self {
             scenario: scenario.clone(),
-            loaded: scenario,
             log: Log::of(&simulation),
             simulation,
             changes: Vec::new(),
-            pending: pending.into(),
+            pending: scenario.changes().to_vec(),
+            loaded: scenario,
             unchanged: None,
             statements: Vec::new(),
             goals: Vec::new(),
@@ -129,7 +125,7 @@ impl Session {
     /// One step or jump that ends at `cycle` at the latest, and where the next recorded change is to be
     /// made; then the changes that are due.
     pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {
-        let change = self.pending.front().map(|change| change.at_cycle);
+        let change = self.pending.first().map(|change| change.at_cycle);
         // A scenario that records a run says where its steps were cut short.
         let now = self.simulation.cycle();
         let recorded = self.loaded.run().shortened_at.iter().copied();

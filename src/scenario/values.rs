@@ -51,7 +51,7 @@ pub(crate) fn join(path: &str, key: &str) -> String {
 }
 
 /// Splits a dotted path into its table and its key.
-pub(super) fn split(path: &str) -> (&str, &str) {
+pub(crate) fn split(path: &str) -> (&str, &str) {
     path.rsplit_once('.').unwrap_or(("", path))
 }
 

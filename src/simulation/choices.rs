@@ -2,8 +2,6 @@
 
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
-use crate::math::invalid::{Invalid, positive};
-
 /// Where the nodes lie.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
@@ -60,18 +58,6 @@ impl Integrator {
     /// The names in scenarios and files.
     pub const NAMES: &[&str] = Self::VARIANTS;
 
-    /// The integrator of a name, with the tolerance of its jumps: greater than 0, at most 0.1.
-    pub fn new(name: &str, tolerance: f64) -> Result<Self, Invalid> {
-        match name {
-            "direct" => Ok(Self::Direct),
-            "cycle-jump" if positive("tolerance", tolerance)? > 0.1 => {
-                Err(Invalid::new("tolerance", tolerance, "must be at most 0.1"))
-            }
-            "cycle-jump" => Ok(Self::CycleJump { tolerance }),
-            _ => Err(Invalid::choice("integrator", name, Self::NAMES)),
-        }
-    }
-
     /// The name in scenarios and files.
     pub fn name(self) -> &'static str {
         self.into()
@@ -112,18 +98,6 @@ impl Stability {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_integrator_needs_a_name_and_a_tolerance() {
-        for &name in Integrator::NAMES {
-            let integrator = Integrator::new(name, 1e-3).expect("an integrator");
-            assert_eq!(integrator.name(), name);
-        }
-        let field = |name, tolerance| Integrator::new(name, tolerance).map_err(|e| e.field);
-        assert_eq!(field("jump", 1e-3), Err("integrator"));
-        assert_eq!(field("cycle-jump", 0.0), Err("tolerance"));
-        assert_eq!(field("cycle-jump", 0.2), Err("tolerance"));
-    }
 
     #[test]
     fn names_read_back() {

@@ -1,7 +1,7 @@
 //! The parts that a run is assembled from.
 
 use super::choices::{Integrator, Scheme, Spacing, Stability};
-use super::drive::{Control, Drive};
+use super::drive::{Drive, Oscillation};
 use super::running_in::RunningIn;
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
@@ -64,10 +64,7 @@ impl Setup {
 
     /// The largest depth of the motion, m, where the displacement is prescribed.
     pub fn largest_depth(&self) -> Option<f64> {
-        match self.drive.normal() {
-            Control::Displacement(oscillation) => Some(oscillation.highest()),
-            Control::Force(_) => None,
-        }
+        self.drive.normal().displacement().map(Oscillation::highest)
     }
 
     /// Steps in a cycle, but for those that end where the motion turns: a normal motion that is faster than the

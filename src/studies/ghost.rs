@@ -8,9 +8,6 @@ use crate::scenario::columns::Columns;
 use crate::scenario::{Refusal, printable};
 use crate::traces::{Axes, Loop, Table};
 
-/// The fewest rows of a history that show a loop.
-const SHORTEST_LOOP: usize = 9;
-
 /// The column of standard errors.
 const ERRORS: &str = "error";
 
@@ -187,7 +184,7 @@ impl Ghost {
 
     /// Adds a closed loop: u, m, and F, N.
     pub fn take_loop(&mut self, shifts: Vec<f64>, forces: Vec<f64>) {
-        if shifts.len() >= SHORTEST_LOOP {
+        if shifts.len() >= Loop::SHORTEST {
             self.add(Axes::LOOP, shifts, forces, None);
         }
     }

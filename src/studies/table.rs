@@ -9,9 +9,7 @@ use crate::scenario::scalars::{self, Value};
 pub enum Format {
     /// Words, to the left.
     Words,
-    /// Whole numbers, to the right.
-    Count,
-    /// Two digits and an exponent: 1.2e-3.
+    /// Numbers, to the right: whole ones as they are, others in two digits and an exponent, 1.2e-3.
     Rough,
     /// Two digits after the point.
     Fixed,
@@ -29,7 +27,7 @@ impl Format {
     fn aligned(self, text: &str, width: usize) -> String {
         match self {
             Self::Words => format!("{text:width$}"),
-            Self::Count | Self::Rough | Self::Fixed => format!("{text:>width$}"),
+            Self::Rough | Self::Fixed => format!("{text:>width$}"),
         }
     }
 
@@ -180,7 +178,7 @@ mod tests {
     fn table() -> Table {
         let mut table = Table::of(&[
             ("", "method", Format::Words),
-            ("", "N", Format::Count),
+            ("", "N", Format::Rough),
             ("g", "max", Format::Rough),
             ("g", "order", Format::Fixed),
         ]);

@@ -31,9 +31,9 @@ impl Theory {
             unworn: power_law(&setup.indenter).map(|shape| (shape, e_star)),
             ..Self::default()
         };
-        let (Control::Displacement(normal), Some(Control::Displacement(tangential))) =
-            (setup.drive.normal(), setup.drive.tangential())
-        else {
+        let drive = &setup.drive;
+        let tangential = drive.tangential().and_then(Control::displacement);
+        let Some((normal, tangential)) = drive.normal().displacement().zip(tangential) else {
             return theory;
         };
         // The closed forms begin with the unworn indenter on a stiff rig. For other waveforms than sines they hold at
@@ -87,9 +87,7 @@ impl Theory {
             worn.filter(|worn| worn.is_finite()).fold(0.0, f64::max)
         });
         let by_law = || {
-            let Control::Displacement(shift) = setup.drive.tangential()? else {
-                return None;
-            };
+            let shift = setup.drive.tangential()?.displacement()?;
             let unworn = Unworn::of(setup);
             let pressure = unworn.mean_pressure(unworn.deepest());
             let stress = setup.material.friction() * pressure;
@@ -97,10 +95,7 @@ impl Theory {
         };
         let reached = by_law().into_iter().chain(settled).reduce(f64::min)?;
         // A displacement holds no more than the depth that it presses to.
-        let most = match setup.drive.normal() {
-            Control::Displacement(depth) => depth.highest(),
-            Control::Force(_) => f64::INFINITY,
-        };
+        let most = setup.largest_depth().unwrap_or(f64::INFINITY);
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
@@ -133,7 +128,8 @@ impl Theory {
     }
 }
 
-fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
+/// The value at every radius.
+pub(super) fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
     radii.iter().map(|&r| value(r)).collect()
 }
 

@@ -262,12 +262,11 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
 
 /// One row per trial of `shown`, with a mark if it is on the front of all.
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
+    let of_run = "points steps_per_cycle tolerance time_s steps transforms";
     let errors = "error_rms volume_error work_error force_error stick_error";
     let mut table = Table::of(&[
         ("", "method scheme integrator", Format::Words),
-        ("", "points steps_per_cycle", Format::Count),
-        ("", "tolerance time_s", Format::Rough),
-        ("", "steps transforms", Format::Count),
+        ("", of_run, Format::Rough),
         ("against the reference", errors, Format::Rough),
         ("", "checks front", Format::Words),
     ]);

@@ -98,7 +98,6 @@ fn handle_events(
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
             event => event.ok(),
         };
-        #[cfg(debug_assertions)]
         crate::failpoint::hit("screen");
         let mut suspends = false;
         // Whatever else has come in is answered with the same drawing.

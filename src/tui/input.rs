@@ -1,14 +1,14 @@
 //! Reads the terminal in a thread of its own. Ctrl-C overtakes all waiting keys.
 
 use std::io;
-use std::os::fd::{AsFd, BorrowedFd};
+use std::os::fd::AsFd;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
 use nix::errno::Errno;
-use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
+use nix::poll::{PollFd, PollFlags, poll};
 
 use super::event::Event;
 use super::mouse::Mouse;
@@ -72,18 +72,20 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) 
     let (mut reader, mut mouse) = (Reader::default(), Mouse::default());
     let (mut bytes, mut inputs) = ([0; 4096], Vec::new());
     loop {
-        let ready = wait(stdin.as_fd(), reader.patience().or(Some(GLANCE)));
+        let mut fds = [PollFd::new(stdin.as_fd(), PollFlags::POLLIN)];
+        let ready = poll(&mut fds, reader.patience().unwrap_or(GLANCE));
         if waiting.is_closed.load(Ordering::SeqCst) {
             return;
         }
         match ready {
-            Ok(false) if reader.patience().is_none() => {}
-            Ok(false) => reader.rest(&mut inputs),
-            Ok(true) => match nix::unistd::read(stdin.as_fd(), &mut bytes) {
+            Ok(0) if reader.patience().is_none() => {}
+            Ok(0) => reader.rest(&mut inputs),
+            Ok(_) => match nix::unistd::read(stdin.as_fd(), &mut bytes) {
                 Ok(count @ 1..) => reader.take(&bytes[..count], &mut inputs),
                 Err(Errno::EINTR | Errno::EAGAIN) => {}
                 Ok(0) | Err(_) => return hang_up(events, waiting),
             },
+            Err(Errno::EINTR) => {}
             Err(_) => return hang_up(events, waiting),
         }
         for input in inputs.drain(..) {
@@ -111,19 +113,6 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) 
 fn hang_up(events: &Sender<Event>, waiting: &Waiting) {
     waiting.end();
     let _ = events.send(Event::HangUp);
-}
-
-/// Waits for bytes; returns false if none arrive in this many milliseconds.
-fn wait(terminal: BorrowedFd<'_>, patience: Option<u16>) -> nix::Result<bool> {
-    let timeout = patience.map_or(PollTimeout::NONE, PollTimeout::from);
-    loop {
-        let mut fds = [PollFd::new(terminal, PollFlags::POLLIN)];
-        match poll(&mut fds, timeout) {
-            Ok(count) => return Ok(count > 0),
-            Err(Errno::EINTR) => {}
-            Err(error) => return Err(error),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -55,19 +55,13 @@ pub enum Named {
 impl Key {
     /// The key with a name as it stands between angle brackets.
     pub(super) fn of_name(name: &str) -> Option<Self> {
-        match name {
-            "Space" => return Some(Self::Char(' ')),
-            "lt" => return Some(Self::Char('<')),
-            _ => {}
+        let with_ctrl = name.strip_prefix("C-").map(str::parse::<char>);
+        match (name, with_ctrl) {
+            ("Space", _) => Some(Self::Char(' ')),
+            ("lt", _) => Some(Self::Char('<')),
+            (_, Some(character)) => Some(Self::Ctrl(character.ok()?.to_ascii_lowercase())),
+            _ => name.parse().ok().map(Self::Named),
         }
-        if let Some(character) = name.strip_prefix("C-") {
-            let mut characters = character.chars();
-            return match (characters.next(), characters.next()) {
-                (Some(character), None) => Some(Self::Ctrl(character.to_ascii_lowercase())),
-                _ => None,
-            };
-        }
-        name.parse().ok().map(Self::Named)
     }
 }
 

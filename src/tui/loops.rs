@@ -13,10 +13,9 @@ use crate::traces::Loop;
 /// Maximum number of steps of the last loop.
 const CAPACITY: usize = 4096;
 
-/// Maximum number of stored loops, maximum points of each, and minimum points of a loop.
+/// Maximum number of stored loops, and maximum points of each.
 const MOST: usize = 24;
 const POINTS: usize = 64;
-const SHORTEST: usize = 9;
 
 /// The loops.
 #[derive(Debug, Clone, Default)]
@@ -46,7 +45,7 @@ impl Loops {
         let whole = (cycle + 1e-9).floor();
         let last = self.kept.last().map_or(0.0, |kept| kept.end);
         let ends = cycle - whole < 1e-9 && whole >= last + self.apart.max(1.0);
-        if !ends || self.steps.len() < SHORTEST {
+        if !ends || self.steps.len() < Loop::SHORTEST {
             return;
         }
         let (every, last) = (self.steps.len().div_ceil(POINTS), self.steps.len() - 1);

@@ -74,7 +74,6 @@ impl Stroke {
 /// Presses the keys one by one, each after the simulation has answered the one before, and prints
 /// the last screen.
 pub fn play(app: &mut App, script: &Script, events: &Receiver<Event>) -> Result<()> {
-    #[cfg(debug_assertions)]
     crate::failpoint::hit("script");
     let size = press(app, &script.strokes, script.size, events)?;
     let screen = match script.format {

@@ -1,5 +1,7 @@
 //! Ctrl-Z: suspends the process and returns the terminal to the shell until `fg`.
 
+use std::iter::successors;
+
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::{Pid, getpgid, getpid, getppid, getsid};
 
@@ -22,21 +24,13 @@ fn is_under_job_control(
     parent_of: impl Fn(Pid) -> Option<Pid>,
     whose: impl Fn(Pid) -> Option<(Pid, Pid)>,
 ) -> bool {
-    let Some((group, session)) = whose(process) else {
+    let Some(own) = whose(process) else {
         return false;
     };
-    let mut member = process;
     // More ancestors than any process has.
-    for _ in 0..100 {
-        let Some(parent) = parent_of(member) else {
-            return false;
-        };
-        match whose(parent) {
-            Some(place) if place == (group, session) => member = parent,
-            place => return place.is_some_and(|(_, other)| other == session),
-        }
-    }
-    false
+    let ancestors = successors(parent_of(process), |member| parent_of(*member)).take(100);
+    let other = ancestors.map(whose).find(|place| *place != Some(own));
+    other.flatten().is_some_and(|(_, session)| session == own.1)
 }
 
 /// The parent of a process. Where the system does not tell, only one's own is known.

@@ -133,18 +133,15 @@ impl Past {
     fn least_missed(&self) -> Option<usize> {
         // The cycles that the user has seen since, later stretches included.
         let mut age = 0.0;
-        let mut least: Option<(usize, f64)> = None;
-        for i in (1..self.kept.len().saturating_sub(1)).rev() {
+        let inner = (1..self.kept.len().saturating_sub(1)).rev();
+        let gaps = inner.filter_map(|i| {
             let [before, this, after] = [i - 1, i, i + 1].map(|i| &self.kept[i]);
             age += (after.cycle() - this.cycle()).max(0.0);
-            if before.stretch == after.stretch {
-                let gap = (after.cycle() - before.cycle()) / (age + 1.0);
-                if least.is_none_or(|(_, smallest)| gap <= smallest) {
-                    least = Some((i, gap));
-                }
-            }
-        }
-        least.map(|(i, _)| i)
+            let gap = (after.cycle() - before.cycle()) / (age + 1.0);
+            (before.stretch == after.stretch).then_some((gap, i))
+        });
+        let least = gaps.min_by(|(a, i), (b, k)| a.total_cmp(b).then(i.cmp(k)));
+        least.map(|(_, i)| i)
     }
 
     /// Goes one state back; `None` at the start. The present must have been stored.

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use mdr_tui::guide::TOPICS;
 use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::schema::{Kind, Parameter, parameters};
+use mdr_tui::scenario::schema::{Default, Kind, Parameter, parameters};
 use mdr_tui::tui::command::{COMMANDS, Row};
 use mdr_tui::tui::manual;
 
@@ -230,9 +230,13 @@ fn row(parameter: &Parameter) -> String {
             }
         }
     }
-    let default = match parameter.default.value() {
-        Some(_) => format!("`{}`", parameter.default),
-        None => parameter.default.to_string(),
+    let default = match (&parameter.default, parameter.default.value()) {
+        (_, Some(toml::Value::Float(small))) if (f64::MIN_POSITIVE..1e-3).contains(small) => {
+            format!("`{small:e}`")
+        }
+        (_, Some(value)) => format!("`{value}`"),
+        (Default::Derived(words), _) => (*words).to_owned(),
+        _ => String::new(),
     };
     format!("| `{}` | {meaning} | {default} |\n", parameter.key())
 }

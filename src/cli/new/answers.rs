@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use toml::Value;
 
-use crate::scenario::schema::{self, Kind};
+use crate::scenario::schema;
 use crate::scenario::{Refusal, Scenario, units, values, write};
 
 /// What `questions.toml` says.
@@ -117,8 +117,7 @@ pub struct Quantity {
 /// Reads a value of a key; a bare number is in `unit`.
 fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
     let text = text.trim();
-    let known = schema::find(key).filter(|known| known.kind == Kind::Number);
-    let known = known.ok_or_else(|| format!("{key} is no number"))?;
+    let known = schema::find(key).expect("a key of the table");
     let text = match text.parse::<f64>() {
         Ok(_) => format!("{text} {unit}").trim_end().to_owned(),
         Err(_) => text.to_owned(),

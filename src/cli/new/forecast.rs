@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::plot::units::{format_value, plain};
 use crate::scenario::Scenario;
-use crate::simulation::drive::{Control, Oscillation};
+use crate::simulation::drive::Oscillation;
 use crate::simulation::{Setup, Unworn};
 
 /// Seconds of a day.
@@ -21,10 +21,8 @@ impl<'a> Forecast<'a> {
     /// What is known of a scenario; `None` where nothing is moved by a displacement.
     pub fn of(scenario: &'a Scenario) -> Option<Self> {
         let setup = scenario.setup();
-        match setup.drive.tangential()? {
-            Control::Displacement(shift) => Some(Self { setup, shift }),
-            Control::Force(_) => None,
-        }
+        let shift = setup.drive.tangential()?.displacement()?;
+        Some(Self { setup, shift })
     }
 
     fn is_ball(&self) -> bool {

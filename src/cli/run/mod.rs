@@ -249,7 +249,6 @@ impl Job<'_> {
         self.job.record(session);
         self.checkpoint_if_due(session);
         self.take_snapshots(session, cycle + close)?;
-        #[cfg(debug_assertions)]
         if cycle < self.job.cycles {
             crate::failpoint::hit("run");
             // Far enough for a first checkpoint.

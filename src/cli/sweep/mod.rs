@@ -5,7 +5,6 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
@@ -140,8 +139,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let mine = shard.points(study.points()).count();
     refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
     let mut output = Output::open(&out, study, shard, options)?;
-    let stop = stop::patient_signal()?;
-    let go_on = || !stop.load(Ordering::Relaxed);
+    let go_on = stop::patient_signal().map(stop::unless)?;
     crate::panics::capture();
     let bar = progress::bar(mine, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));

@@ -8,8 +8,7 @@ use crate::studies::sweep::sensitivity;
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let pool = super::pool(options)?;
-    let stop = stop::patient_signal()?;
-    let go_on = || !stop.load(Ordering::Relaxed);
+    let go_on = stop::patient_signal().map(stop::unless)?;
     let found = sensitivity::run(study, &pool, &go_on)?;
     let found = found.context("interrupted before all runs had finished: nothing was saved")?;
     let table = &found.table;

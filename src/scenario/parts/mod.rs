@@ -117,11 +117,12 @@ impl Parts<'_> {
             scheme: schema::named(self.table, "numerics.scheme").unwrap_or(scheme),
             stability: self.choice("numerics.stability")?,
             steps_per_cycle: self.require("numerics.steps_per_cycle")?,
-            integrator: Integrator::new(
-                &self.require::<String>("numerics.integrator")?,
-                self.require("numerics.tolerance")?,
-            )
-            .map_err(self.refused("numerics"))?,
+            integrator: match self.require::<String>("numerics.integrator")?.as_str() {
+                "cycle-jump" => Integrator::CycleJump {
+                    tolerance: self.require("numerics.tolerance")?,
+                },
+                _ => Integrator::Direct,
+            },
         })
     }
 

@@ -55,6 +55,14 @@ impl Control {
         }
     }
 
+    /// That of a displacement; none of a force.
+    pub fn displacement(&self) -> Option<&Oscillation> {
+        match self {
+            Self::Displacement(oscillation) => Some(oscillation),
+            Self::Force(_) => None,
+        }
+    }
+
     /// The prescribed displacement or force after this many turns of the oscillation.
     fn at(&self, turns: f64) -> Target {
         let value = self.oscillation().after_turns(turns);

@@ -118,11 +118,8 @@ impl Drive {
     /// E. Melan's theorem for springs with friction: J. R. Barber, A. Klarbring, M. Ciavarella (2008),
     /// Int. J. Solids Struct. 45, 4577–4596.
     pub fn shakedown_depth(&self, stick_ratio: f64) -> Option<f64> {
-        let (Control::Displacement(normal), Some(Control::Displacement(tangential))) =
-            (&self.normal, &self.tangential)
-        else {
-            return None;
-        };
+        let normal = self.normal.displacement()?;
+        let tangential = self.tangential.as_ref()?.displacement()?;
         // What a rig leaves to the contact depends on its force, which wear changes.
         if self.compliance > 0.0 {
             return None;

@@ -18,7 +18,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::contact;
-use super::super::drive::{Control, Oscillation, Targets};
+use super::super::drive::{Oscillation, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::setup::Setup;
@@ -131,17 +131,13 @@ fn period(
 
 /// The tangential motion, where a cycle needs no steps.
 fn plain_swing(setup: &Setup) -> Option<&Oscillation> {
-    let still = setup.drive.normal().oscillation().amplitude() == 0.0;
-    let energetic = setup.wear.is_some_and(|law| law.follows_energy());
-    match setup.drive.tangential() {
-        Some(Control::Displacement(swing)) if still && energetic => Some(swing),
-        _ => None,
-    }
-    .filter(|swing| {
-        setup.scheme == Scheme::Trapezoid
-            && setup.drive.rig_compliance() == 0.0
-            && swing.waveform().has_two_strokes()
-    })
+    let swing = setup.drive.tangential()?.displacement()?;
+    let is_plain = setup.drive.normal().oscillation().amplitude() == 0.0
+        && setup.wear.is_some_and(|law| law.follows_energy())
+        && setup.scheme == Scheme::Trapezoid
+        && setup.drive.rig_compliance() == 0.0
+        && swing.waveform().has_two_strokes();
+    is_plain.then_some(swing)
 }
 
 /// A steady-state cycle of ±U at a depth that is held.

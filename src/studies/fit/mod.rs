@@ -24,6 +24,7 @@ use std::ops::Range;
 use anyhow::{Context, Result, anyhow, ensure};
 use serde::Serialize;
 
+use crate::math::scan::rms;
 use crate::scenario::session::SessionError;
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
@@ -338,10 +339,4 @@ fn first_errors(set: &Measured) -> Vec<f64> {
 fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
     let pairs = measured.values.iter().zip(simulated);
     pairs.map(|(value, simulated)| value - simulated).collect()
-}
-
-/// The root of the mean square.
-pub fn rms(values: &[f64]) -> f64 {
-    let squares: f64 = values.iter().map(|value| value * value).sum();
-    (squares / values.len().max(1) as f64).sqrt()
 }

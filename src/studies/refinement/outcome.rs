@@ -3,7 +3,7 @@
 
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
-use crate::math::scan::largest;
+use crate::math::scan::{largest, rms};
 use crate::scenario::session::Session;
 use crate::simulation::drive::Control;
 
@@ -133,12 +133,9 @@ impl Outcome {
         let (setup, moment) = (simulation.setup(), simulation.moment());
         let material = &setup.material;
         let sliding = material.friction() * moment.normal_force;
-        let sticking = match setup.drive.tangential() {
-            Some(Control::Displacement(shift)) => {
-                2.0 * material.tangential_modulus() * moment.contact_radius * shift.amplitude()
-            }
-            _ => f64::INFINITY,
-        };
+        let stiffness = 2.0 * material.tangential_modulus() * moment.contact_radius;
+        let shift = setup.drive.tangential().and_then(Control::displacement);
+        let sticking = shift.map_or(f64::INFINITY, |shift| stiffness * shift.amplitude());
         Self {
             grid: setup.grid.clone(),
             wear: simulation.worn_depth().to_vec(),
@@ -186,13 +183,15 @@ impl Outcome {
             volume: relative(self.volume - fine.volume, fine.volume),
             work: relative(self.work - fine.work, fine.work),
             force: relative(self.force - fine.force, force_scale),
-            pressure: rms((1..RADII)
-                .map(|i| inside * i as f64 / (RADII - 1) as f64)
-                .filter(|r| (r - stick).abs() > away && *r > away)
-                .map(|r| {
-                    let here = self.grid.interpolate(&self.pressure, r);
-                    (here, fine.grid.interpolate(&fine.pressure, r))
-                })),
+            pressure: relative_rms(
+                (1..RADII)
+                    .map(|i| inside * i as f64 / (RADII - 1) as f64)
+                    .filter(|r| (r - stick).abs() > away && *r > away)
+                    .map(|r| {
+                        let here = self.grid.interpolate(&self.pressure, r);
+                        (here, fine.grid.interpolate(&fine.pressure, r))
+                    }),
+            ),
         }
     }
 
@@ -203,27 +202,23 @@ impl Outcome {
         let Some((from, to)) = both.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
             return 0.0;
         };
-        let squares = (0..RADII).map(|i| {
+        let difference = |i: usize| {
             let r = from + (to - from) * i as f64 / (RADII - 1) as f64;
             let here = worn::interpolate(&self.grid, &self.wear, r);
             let there = worn::interpolate(&fine.grid, &fine.wear, r);
-            (here - there).powi(2)
-        });
-        (squares.sum::<f64>() / RADII as f64).sqrt()
+            here - there
+        };
+        rms(&(0..RADII).map(difference).collect::<Vec<_>>())
     }
 }
 
 /// The rms difference of pairs, relative to the largest of the second ones; 0 without any.
-fn rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let (mut sum, mut count, mut largest) = (0.0, 0, 0.0_f64);
-    for (here, there) in pairs {
-        sum += (here - there).powi(2);
-        count += 1;
-        largest = largest.max(there.abs());
-    }
-    match largest > 0.0 {
-        true => (sum / f64::from(count)).sqrt() / largest,
-        false => 0.0,
+fn relative_rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let pairs = pairs.map(|(here, there)| (here - there, there.abs()));
+    let (differences, sizes): (Vec<f64>, Vec<f64>) = pairs.unzip();
+    match largest(&sizes) {
+        0.0 => 0.0,
+        largest => rms(&differences) / largest,
     }
 }
 

@@ -122,27 +122,22 @@ impl Study {
         go_on: &dyn Fn() -> bool,
     ) -> Result<Option<Outcome>, SessionError> {
         let mut session = self.start(setting, wear_number)?;
-        let simulation = session.simulation();
-        let depth = simulation.setup().depth_scale(simulation.moment().depth);
-        let mut highest = 0.0_f64;
+        let depth = predict::depth(session.simulation());
+        let (mut outcome, mut highest) = (Outcome::default(), 0.0_f64);
         while session.simulation().cycle() < self.cycles {
             let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
             match session.advance_while(end, |_| go_on()) {
                 Err(SessionError::Breakdown(breakdown)) => {
-                    return Ok(Some(Outcome {
-                        sawtooth: None,
-                        exploded: Some((breakdown.cycle, breakdown.cause.to_string())),
-                    }));
+                    outcome.exploded = Some((breakdown.cycle, breakdown.cause.to_string()));
+                    return Ok(Some(outcome));
                 }
                 Err(SessionError::Interrupted) => return Ok(None),
                 other => other?,
             }
             highest = highest.max(sawtooth(session.simulation().worn_depth()) / depth);
         }
-        Ok(Some(Outcome {
-            sawtooth: (highest > VISIBLE).then_some(highest),
-            exploded: None,
-        }))
+        outcome.sawtooth = Some(highest).filter(|highest| *highest > VISIBLE);
+        Ok(Some(outcome))
     }
 
     /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.

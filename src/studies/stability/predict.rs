@@ -216,6 +216,7 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     (stiffest, most)
 }
 
-fn depth(simulation: &Simulation) -> f64 {
+/// What the depth of a sawtooth is measured in, m.
+pub(super) fn depth(simulation: &Simulation) -> f64 {
     simulation.setup().depth_scale(simulation.moment().depth)
 }

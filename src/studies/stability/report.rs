@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::predict::sawtooth_from;
 use super::{Line, Outcome, Setting};
 use crate::scenario::scalars::Value;
-use crate::studies::table::Format::{Count, Fixed, Rough, Words};
+use crate::studies::table::Format::{Fixed, Rough, Words};
 use crate::studies::table::Table;
 
 impl Outcome {
@@ -34,8 +34,7 @@ fn guard(line: &Line) -> &'static str {
 pub fn runs(lines: &[Line]) -> Table {
     let mut table = Table::of(&[
         ("", "method guard", Words),
-        ("", "points steps_per_cycle", Count),
-        ("", "wear_number", Rough),
+        ("", "points steps_per_cycle wear_number", Rough),
         ("", "outcome", Words),
         ("", "exploded_at_cycle", Fixed),
         ("", "sawtooth predicted_wear_number", Rough),
@@ -58,7 +57,7 @@ pub fn runs(lines: &[Line]) -> Table {
 pub fn boundaries(lines: &[Line]) -> Table {
     let mut table = Table::of(&[
         ("", "method guard", Words),
-        ("", "points", Count),
+        ("", "points", Rough),
         ("critical K", "predicted seen", Rough),
         ("critical K", "ratio", Fixed),
     ]);

@@ -33,9 +33,7 @@ pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     if let Some(depth) = setup.drive.shakedown_depth(ratio) {
         return Some(depth);
     }
-    let Control::Displacement(shift) = setup.drive.tangential()? else {
-        return None;
-    };
+    let shift = setup.drive.tangential()?.displacement()?;
     let unworn = Unworn::of(setup);
     let rig = setup.drive.rig_compliance();
     let steady = normal.oscillation().amplitude() == 0.0;

@@ -77,7 +77,6 @@ pub(super) fn run_scenario(
         Err(error) => return Some(failed(study, &error.to_string())),
     };
     let ended = catch_unwind(AssertUnwindSafe(|| {
-        #[cfg(debug_assertions)]
         crate::failpoint::hit("point");
         let ended = advance(&mut session, &study.stop, go_on);
         let reading = Reading::new(&session);

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use super::Design;
 use super::axis::{self, Axis, known_key};
 use crate::scenario::scalars::Scalar;
-use crate::scenario::values::literal;
+use crate::scenario::values::{self, literal};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::scenario::{assign, schema, units};
 
@@ -140,10 +140,7 @@ impl Study {
 
     /// Whether the motion that `key` belongs to prescribes a force, by what is set for all points or by the base.
     pub(super) fn is_force(&self, key: &str) -> bool {
-        let Some((motion, _)) = key.rsplit_once('.') else {
-            return false;
-        };
-        let control = format!("{motion}.control");
+        let control = values::join(values::split(key).0, "control");
         let control = match self.set.get(&control) {
             Some(value) => value.as_str().map(str::to_owned),
             None => self.base.value(&control),

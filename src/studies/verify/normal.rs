@@ -12,6 +12,7 @@ use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated::TruncatedParaboloid;
 use crate::reading::Curves;
 use crate::simulation::{Breakdown, Simulation};
+use crate::studies::theory::over;
 
 /// L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points` on which the contact radius a = 1
 /// and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third of a cell outside
@@ -37,9 +38,9 @@ impl Exact {
         Self {
             depth,
             mean_pressure: shape.force(1.0, depth) / PI,
-            f: nodal(grid, |r| shape.profile(r)),
-            g: nodal(grid, |x| shape.mdr_profile(x)),
-            p: nodal(grid, |r| shape.pressure(1.0, 1.0, r)),
+            f: over(grid.nodes(), |r| shape.profile(r)),
+            g: over(grid.nodes(), |x| shape.mdr_profile(x)),
+            p: over(grid.nodes(), |r| shape.pressure(1.0, 1.0, r)),
         }
     }
 
@@ -47,9 +48,9 @@ impl Exact {
         Self {
             depth: shape.depth(1.0),
             mean_pressure: shape.force(1.0) / PI,
-            f: nodal(grid, |r| shape.profile(r)),
-            g: nodal(grid, |x| shape.mdr_profile(x)),
-            p: nodal(grid, |r| shape.pressure(1.0, r)),
+            f: over(grid.nodes(), |r| shape.profile(r)),
+            g: over(grid.nodes(), |x| shape.mdr_profile(x)),
+            p: over(grid.nodes(), |r| shape.pressure(1.0, r)),
         }
     }
 
@@ -89,10 +90,6 @@ impl Exact {
         });
         Ok(errors.into())
     }
-}
-
-fn nodal(grid: &RadialGrid, of: impl Fn(f64) -> f64) -> Vec<f64> {
-    grid.nodes().iter().map(|&r| of(r)).collect()
 }
 
 /// Node, result and theory at the nodes up to a = 1.
@@ -159,7 +156,7 @@ pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Brea
     };
     let indenter = Indenter::flat_punch(1.0).expect("a shape");
     let pressure = simulated(method, &grid, indenter, punch.depth)?;
-    let theory = nodal(&grid, |r| punch.pressure(r));
+    let theory = over(grid.nodes(), |r| punch.pressure(r));
     let samples = inside(&grid, &pressure, &theory);
     Ok(vec![Errors::new(Some(punch.force() / PI), samples)])
 }

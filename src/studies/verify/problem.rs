@@ -50,9 +50,7 @@ pub struct Facts {
 
 /// What `problems.toml` says.
 static FACTS: LazyLock<HashMap<Problem, Facts>> = LazyLock::new(|| {
-    let table = toml::Deserializer::parse(include_str!("problems.toml"));
-    let facts = table.and_then(HashMap::deserialize);
-    facts.expect("the problems are whole")
+    toml::from_str(include_str!("problems.toml")).expect("the problems are whole")
 });
 
 impl Problem {

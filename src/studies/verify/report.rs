@@ -15,7 +15,7 @@ const ROOMY: usize = 2;
 pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
     let quantities = &problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
-    let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Count)];
+    let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Rough)];
     for quantity in quantities {
         let shown = shown(quantity, roomy).iter();
         columns.extend(shown.map(|&(name, format)| (*quantity, name, format)));
@@ -89,12 +89,11 @@ fn order(
 pub fn all_rows(outcomes: &[Outcome]) -> Table {
     let mut table = Table::of(&[
         ("", "problem quantity method", Format::Words),
-        ("", "points", Format::Count),
-        ("", "max", Format::Rough),
+        ("", "points max", Format::Rough),
         ("", "max_order", Format::Fixed),
         ("", "rms", Format::Rough),
         ("", "rms_order", Format::Fixed),
-        ("", "nodes nodes_left_out", Format::Count),
+        ("", "nodes nodes_left_out", Format::Rough),
         ("", "stopped_at_cycle", Format::Fixed),
         ("", "stopped_because", Format::Words),
     ]);
@@ -123,7 +122,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
 pub fn all_nodes(outcomes: &[Outcome]) -> Table {
     let mut table = Table::of(&[
         ("", "problem quantity method", Format::Words),
-        ("", "points", Format::Count),
+        ("", "points", Format::Rough),
         ("", "r_over_a", Format::Fixed),
         ("", "error", Format::Rough),
     ]);

@@ -187,9 +187,8 @@ fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
         return line;
     };
     let [low, high] = range_ends(range, quantity.unit, 3);
-    line.push_span(theme.printable(&format!("  {low} ")));
-    line.extend(shades::key(theme, ColorMap::Sequential, map::SIGNS));
-    line.push_span(theme.printable(&format!(" {high}")));
+    let ends = [format!("  {low} "), format!(" {high}")].map(|end| theme.printable(&end));
+    line.extend(shades::key(theme, ColorMap::Sequential, map::SIGNS, ends));
     if quantity.scale == Scale::Log {
         line.push_span(Span::styled("  log", quiet));
     }

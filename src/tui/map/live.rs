@@ -69,10 +69,9 @@ impl Live {
             loop {
                 thread::sleep(LOOK_INTERVAL);
                 let now = changed(&file);
-                if now == seen {
+                if std::mem::replace(&mut seen, now) == now {
                     continue;
                 }
-                seen = now;
                 // A file that is being replaced is read again the next time.
                 let _ = Record::of_file(&file)
                     .map(|rows| shared.with(|view| view.slice.renew(rows, &view.name)));

@@ -94,13 +94,9 @@ impl View {
     }
 
     fn turn_y(&mut self) {
-        let axes = self.slice.study.axes.len();
-        if let Some(y) = &mut self.slice.y {
-            *y = (*y + 1) % axes;
-            if *y == self.slice.x {
-                *y = (*y + 1) % axes;
-            }
-        }
+        let (x, axes) = (self.slice.x, self.slice.study.axes.len());
+        let next = |y: usize| (1..=axes).map(|by| (y + by) % axes).find(|y| *y != x);
+        self.slice.y = self.slice.y.and_then(next);
     }
 
     /// Moves along the axes that are not shown, the last of them fastest.

@@ -58,15 +58,13 @@ pub fn contact_state(moment: &Moment) -> (&'static str, &'static str, Role) {
 fn phase(moment: &Moment, speed: Option<f64>) -> String {
     let (what, _, role) = contact_state(moment);
     let is_in_contact = moment.contact_radius > 0.0 && moment.stick_radius.is_some();
-    let Some(speed) = speed.filter(|_| is_in_contact) else {
-        return what.into();
-    };
     let slips = role == Role::Slip;
     let verb = if slips { "sliding" } else { "pushed" };
-    match speed {
-        speed if speed.abs() < TURNS => format!("{what}: turning round"),
-        speed if speed > 0.0 => format!("{what}: {verb} right"),
-        _ => format!("{what}: {verb} left"),
+    match speed.filter(|_| is_in_contact) {
+        None => what.to_owned(),
+        Some(speed) if speed.abs() < TURNS => format!("{what}: turning round"),
+        Some(speed) if speed > 0.0 => format!("{what}: {verb} right"),
+        Some(_) => format!("{what}: {verb} left"),
     }
 }
 
@@ -244,12 +242,8 @@ fn stress_key(section: &Section, width: u16) -> Line<'static> {
         [name, format!(" {high}")],
         [" ".into(), format!(" {high}")],
     ];
-    let mut keys = words.into_iter().map(|[from, to]| {
-        let mut key = Line::raw(from);
-        key.extend(shades::key(theme, stress.colors(), shades::SIGNS));
-        key.push_span(to);
-        key
-    });
+    let key = |ends| shades::key(theme, stress.colors(), shades::SIGNS, ends);
+    let mut keys = words.into_iter().map(key);
     let fitting = keys.find(|key| key.width() <= usize::from(width));
     fitting.unwrap_or_default()
 }

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::charts::{A, C, Live, ghosts};
+use crate::math::scan::rms;
 use crate::plot::{Axis, Curve, nice_bounds};
 use crate::traces::Axes;
 use crate::tui::beside::{Comparison, name_of};
@@ -126,10 +127,4 @@ fn rows(
     ];
     let cell = |value: Option<String>| value.unwrap_or_else(|| "-".into());
     rows.map(|(name, values)| (name, values.map(cell)))
-}
-
-/// Root mean square of differences; 0 of none.
-fn rms(differences: &[f64]) -> f64 {
-    let squares: f64 = differences.iter().map(|d| d * d).sum();
-    (squares / differences.len().max(1) as f64).sqrt()
 }

@@ -8,7 +8,7 @@ use super::canvas::Canvas;
 use super::frame::Frame;
 use crate::charts::{self, Recipe};
 use crate::math::grid::interpolate;
-use crate::math::scan::largest;
+use crate::math::scan::{self, largest};
 use crate::plot::colormap::ColorMap;
 use crate::plot::shades::{self, has_blocks};
 use crate::plot::theme::{Depth, Look, Role, Theme};
@@ -53,17 +53,11 @@ pub struct Shown<'a> {
 
 /// The panels in reading order; the first four fill a small screen.
 macro_rules! panels {
-    ($($what:literal $name:ident: $recipe:expr, $picture:expr;)*) => {
+    ($($(#[$mark:meta])? $what:literal $name:ident: $recipe:expr, $picture:expr;)*) => {
         /// The panels of the explorer.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
         pub enum Panel {
-            $(#[doc = $what] $name,)*
-        }
-
-        impl Default for Panel {
-            fn default() -> Self {
-                Self::ALL[0]
-            }
+            $(#[doc = $what] $(#[$mark])? $name,)*
         }
 
         impl Panel {
@@ -88,7 +82,7 @@ macro_rules! panels {
 }
 
 panels! {
-    "The 3D profile." Profile: charts::profile::RECIPE, None;
+    #[default] "The 3D profile." Profile: charts::profile::RECIPE, None;
     "p and τ." Stresses: charts::stresses::RECIPE, None;
     "F_x over u_x." Loop: charts::fretting_loop::RECIPE, None;
     "Radii over cycles." Radii: charts::radii::RECIPE, None;
@@ -141,8 +135,7 @@ fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
             let values = curves.flat_map(|curve| &curve.ys).chain(&chart.y.holds);
             let mut values: Vec<f64> = values.copied().filter(|value| value.is_finite()).collect();
             clip_spikes(&mut values);
-            let low = values.iter().copied().reduce(f64::min)?;
-            Some([low, values.into_iter().fold(low, f64::max)])
+            scan::range(values)
         }
         Scale::Linear => Some([low, high]),
     }

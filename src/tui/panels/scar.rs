@@ -118,9 +118,9 @@ fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
         Some(sign) if sign > 0.0 => "slip →",
         Some(_) => "slip ←",
     };
-    let mut depths = Line::raw(" worn 0 ");
-    depths.extend(shades::key(&theme, ColorMap::Sequential, shades::SIGNS));
-    depths.push_span(theme.printable(&format!(" {}", value(deepest))));
+    let deepest = theme.printable(&format!(" {}", value(deepest)));
+    let ends = [" worn 0 ".to_owned(), deepest];
+    let depths = shades::key(&theme, ColorMap::Sequential, shades::SIGNS, ends);
     let mut row = Rect::new(area.x, area.bottom() - 1, area.width, 1);
     for part in [format!(" {bar} {} ", value(reach)), format!(" {slip} ")] {
         let part = Line::raw(theme.printable(&part));

@@ -143,7 +143,6 @@ impl Worker {
     pub fn serve(&mut self, orders: &Receiver<Order>) {
         self.publish();
         loop {
-            #[cfg(debug_assertions)]
             crate::failpoint::hit("worker");
             self.checkpoint_if_due();
             let wait = match self.is_awaited() {

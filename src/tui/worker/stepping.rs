@@ -65,7 +65,6 @@ impl Worker {
                 break;
             }
             let before = simulation.cycle();
-            #[cfg(debug_assertions)]
             if before > 5.0 {
                 crate::failpoint::hit("sixth cycle");
                 crate::failpoint::stall("long step");

@@ -209,6 +209,7 @@ mod tests {
     use crate::scenario::units::PRESCRIBED;
     use crate::scenario::{MOST_CYCLES, MOST_SNAPSHOTS};
     use crate::simulation::{Integrator, Scheme, Spacing, Stability};
+    use strum::VariantNames;
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
@@ -255,10 +256,10 @@ mod tests {
     #[test]
     fn the_table_is_that_of_the_program() {
         for (path, names) in [
-            ("numerics.method", AbelMethod::NAMES),
-            ("numerics.grid", Spacing::NAMES),
-            ("numerics.scheme", Scheme::NAMES),
-            ("numerics.stability", Stability::NAMES),
+            ("numerics.method", AbelMethod::VARIANTS),
+            ("numerics.grid", Spacing::VARIANTS),
+            ("numerics.scheme", Scheme::VARIANTS),
+            ("numerics.stability", Stability::VARIANTS),
             ("numerics.integrator", Integrator::NAMES),
         ] {
             let known = find(path).expect("a key");

@@ -65,9 +65,6 @@ impl Integrator {
 }
 
 impl Spacing {
-    /// Their names in scenarios and files.
-    pub const NAMES: &[&str] = Self::VARIANTS;
-
     /// The name in scenarios and files.
     pub fn name(self) -> &'static str {
         self.into()
@@ -78,21 +75,10 @@ impl Scheme {
     /// Every choice.
     pub const ALL: [Self; 2] = [Self::Trapezoid, Self::Euler];
 
-    /// Their names in scenarios and files.
-    pub const NAMES: &[&str] = Self::VARIANTS;
-
     /// The name in scenarios and files.
     pub fn name(self) -> &'static str {
         self.into()
     }
-}
-
-impl Stability {
-    /// Every choice.
-    pub const ALL: [Self; 2] = [Self::SubStep, Self::Off];
-
-    /// Their names in scenarios and files.
-    pub const NAMES: &[&str] = Self::VARIANTS;
 }
 
 #[cfg(test)]
@@ -101,14 +87,14 @@ mod tests {
 
     #[test]
     fn names_read_back() {
-        assert_eq!(Scheme::ALL.map(Scheme::name), Scheme::NAMES);
+        assert_eq!(Scheme::ALL.map(Scheme::name), Scheme::VARIANTS);
         for spacing in [Spacing::Graded, Spacing::Uniform, Spacing::Given] {
             assert_eq!(spacing.name().parse(), Ok(spacing));
         }
         for scheme in Scheme::ALL {
             assert_eq!(scheme.to_string().parse(), Ok(scheme));
         }
-        for stability in Stability::ALL {
+        for stability in [Stability::SubStep, Stability::Off] {
             assert_eq!(stability.to_string().parse(), Ok(stability));
         }
         assert!("heun".parse::<Scheme>().is_err());

@@ -10,6 +10,7 @@ use mdr_tui::scenario::{Change, RunPlan, Scenario, preset};
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::simulation::{Scheme, Simulation, Spacing};
 use proptest::prelude::*;
+use strum::VariantNames;
 
 use crate::common::{again, begin, change, load, near, ran, refused, try_load, volume};
 use crate::test_dir::{has, names};
@@ -358,7 +359,7 @@ proptest! {
         let free = indenter.rim().is_none() && indenter.tip_radius() == 0.0;
         let domain = domain.filter(|_| free);
         assignments.extend(domain.map(|domain| ("numerics.domain_radius", number(domain))));
-        assignments.extend(grid.map(|grid| ("numerics.grid", Spacing::NAMES[grid].to_owned())));
+        assignments.extend(grid.map(|grid| ("numerics.grid", Spacing::VARIANTS[grid].to_owned())));
         assignments.extend(scheme.map(|scheme| ("numerics.scheme", Scheme::ALL[scheme].to_string())));
         let assignments: Vec<(&str, &str)> = assignments.iter().map(|(key, value)| (*key, value.as_str())).collect();
         let scenario = load(preset::ALL[preset].name, &[])

@@ -96,9 +96,6 @@ impl AbelMethod {
     /// Every method, in the order in which keys step through them.
     pub const ALL: [Self; 5] = [Self::Product, Self::A, Self::APlusB, Self::B, Self::Benad];
 
-    /// Their names in scenarios, on the screen and in files.
-    pub const NAMES: &[&str] = Self::VARIANTS;
-
     /// The methods of the paper and of its reference 9.
     pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
 
@@ -265,7 +262,7 @@ mod tests {
 
     #[test]
     fn names_read_back() {
-        assert_eq!(AbelMethod::ALL.map(AbelMethod::name), AbelMethod::NAMES);
+        assert_eq!(AbelMethod::ALL.map(AbelMethod::name), AbelMethod::VARIANTS);
         for method in AbelMethod::ALL {
             assert_eq!(method.name().parse(), Ok(method));
         }

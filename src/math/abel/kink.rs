@@ -37,7 +37,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::grid::RadialGrid;
 use crate::math::vector::vectorized;
 
-/// A kinks closer to a node than this share of its cell is taken to be the node.
+/// A kink closer to a node than this share of its cell is taken to be the node.
 const CLOSEST: f64 = 1e-9;
 
 /// One kink J (t − t_m)₊ of a profile over t = x².

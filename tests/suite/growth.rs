@@ -88,7 +88,7 @@ fn a_grown_run_is_taken_up_and_repeated() {
     let mut resumed = kept.session;
     for session in [&mut whole, &mut resumed] {
         change(session, "friction.coefficient", "0.5");
-        for _ in 0..60 {
+        for _ in 0..100 {
             session.step_until(f64::INFINITY).expect("a step");
         }
     }

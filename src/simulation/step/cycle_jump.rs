@@ -84,8 +84,8 @@ pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
 
 /// Jumps over at most `most` cycles, into `next`; where jumps do not pay, `next` is `state` with a rest.
 ///
-/// The first try is as long as it would be without a goal, so that a run which is stopped where a jump
-/// has ended, and one that goes there without stopping, are the same.
+/// The first try is as long as it would be without a goal. A run that is saved where a jump has ended, its own goal far
+/// away, is repeated with that cycle as its goal: a shorter first try, rejected, would lead to other jumps.
 pub(in super::super) fn jump(
     model: &Model,
     state: &State,

@@ -20,15 +20,20 @@ use crate::math::vector::vectorized;
 /// An edge closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
 
-/// Presses the 1D profile `g` (m) to `depth` (m) on springs of stiffness E* = `modulus` (Pa) a length:
-/// writes the line `load` (N/m).
-pub fn press(
-    row: &WinklerFoundation,
-    g: &[f64],
-    depth: f64,
-    modulus: f64,
-    load: &mut Field,
-) -> NormalContact {
+/// Springs that a 1D profile is pressed on.
+#[derive(Debug, Clone, Copy)]
+pub struct Springs<'a> {
+    /// Where they stand.
+    pub row: &'a WinklerFoundation,
+    /// The profile g, m, nodal.
+    pub g: &'a [f64],
+    /// Their stiffness a length, E*, Pa.
+    pub modulus: f64,
+}
+
+/// Presses the profile to `depth` (m): writes the line `load` (N/m).
+pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContact {
+    let Springs { row, g, modulus } = springs;
     let Field { nodal: q, kinks } = load;
     kinks.clear();
     let (xs, squares) = (row.nodes(), row.squares());
@@ -72,21 +77,19 @@ pub fn press(
 /// The depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth.
 /// `None` where the load is beyond what the row can carry at a depth below `deepest`.
 pub fn depth_for_load(
-    row: &WinklerFoundation,
-    g: &[f64],
+    springs: Springs<'_>,
     load: f64,
-    modulus: f64,
     deepest: f64,
     carried: &mut Field,
 ) -> Option<f64> {
-    let shallowest = g.iter().copied().fold(f64::INFINITY, f64::min);
+    let shallowest = springs.g.iter().copied().fold(f64::INFINITY, f64::min);
     if load <= 0.0 {
         return Some(shallowest);
     }
     root::bracketed(
         |depth| {
-            let contact = press(row, g, depth, modulus, carried);
-            row.force(carried, contact) / load - 1.0
+            let contact = press(springs, depth, carried);
+            springs.row.force(carried, contact) / load - 1.0
         },
         shallowest,
         deepest,
@@ -106,13 +109,18 @@ mod tests {
         (WinklerFoundation::new(&grid), g)
     }
 
+    fn springs<'a>(row: &'a WinklerFoundation, g: &'a [f64]) -> Springs<'a> {
+        let modulus = 1.0;
+        Springs { row, g, modulus }
+    }
+
     #[test]
     fn hertz_is_exact_wherever_the_edge_falls() {
         for cells in [7, 50, 123] {
             let (row, g) = hertz(cells);
             let mut q = Field::zeros(g.len());
             q.nodal.fill(f64::NAN);
-            let contact = press(&row, &g, 1.0, 1.0, &mut q);
+            let contact = press(springs(&row, &g), 1.0, &mut q);
             let force = row.force(&q, contact);
             assert!((force - 4.0 / 3.0).abs() < 1e-14, "{force}");
             assert!((contact.strongest - 1.0).abs() < 1e-15);
@@ -125,9 +133,9 @@ mod tests {
     fn a_load_finds_its_depth() {
         let (row, g) = hertz(200);
         let mut q = Field::zeros(g.len());
-        let contact = press(&row, &g, 0.8, 1.0, &mut q);
+        let contact = press(springs(&row, &g), 0.8, &mut q);
         let load = row.force(&q, contact);
-        let mut depth = |load| depth_for_load(&row, &g, load, 1.0, 1.5, &mut q);
+        let mut depth = |load| depth_for_load(springs(&row, &g), load, 1.5, &mut q);
         assert!((depth(load).expect("a depth") - 0.8).abs() < 1e-12);
         assert_eq!(depth(0.0), Some(0.0));
         assert_eq!(depth(1e9), None);
@@ -138,7 +146,10 @@ mod tests {
         let (row, g) = hertz(20);
         let mut q = Field::zeros(g.len());
         q.nodal.fill(1.0);
-        assert_eq!(press(&row, &g, -0.1, 1.0, &mut q), NormalContact::default());
+        assert_eq!(
+            press(springs(&row, &g), -0.1, &mut q),
+            NormalContact::default()
+        );
         assert!(q.nodal.iter().all(|&load| load == 0.0) && q.kinks.is_empty());
     }
 
@@ -148,7 +159,7 @@ mod tests {
         // A tip that has receded: contact in a ring.
         let g: Vec<f64> = g.iter().map(|t| t + 2.0 * (0.3 - t).max(0.0)).collect();
         let mut q = Field::zeros(g.len());
-        let contact = press(&row, &g, 0.5, 1.0, &mut q);
+        let contact = press(springs(&row, &g), 0.5, &mut q);
         assert!((contact.radius - 0.5f64.sqrt()).abs() < 1e-12);
         assert_eq!(q.nodal[0], 0.0);
         assert_eq!(q.kinks.len(), 6);

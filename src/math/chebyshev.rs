@@ -52,42 +52,23 @@ fn next(one: [f64; 3], two: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// What a step writes into and nobody reads afterwards: steps of the same size allocate nothing more.
-#[derive(Debug, Clone, Default)]
-pub struct Buffers {
-    /// Y_{j−2} and F_{j−1}.
-    before: Vec<f64>,
-    slope: Vec<f64>,
-    /// T, T′ and T″ at w₀.
-    polynomials: Vec<[f64; 3]>,
-}
-
-/// One step of length `h` (in units of the independent variable) from `y` with the slope `first` there:
-/// `next` receives y_{n+1}. `slope` writes F into its second argument, as long as `y`; if it fails, so does the step, and
-/// `next` is of no use.
+/// One step of length `h` (in units of the independent variable) from `y` with the slope `first` there: y_{n+1}.
+/// `slope` writes F into its second argument, as long as `y`; if it fails, so does the step.
 pub fn step<E>(
     stages: usize,
     h: f64,
     y: &[f64],
     first: &[f64],
-    next: &mut Vec<f64>,
-    buffers: &mut Buffers,
     mut slope: impl FnMut(&[f64], &mut [f64]) -> Result<(), E>,
-) -> Result<(), E> {
-    let Buffers {
-        before,
-        slope: slopes,
-        polynomials,
-    } = buffers;
-    let stages = Stages::new(stages.max(FEWEST_STAGES), polynomials);
-    before.clear();
-    before.extend_from_slice(y);
-    slopes.resize(y.len(), 0.0);
+) -> Result<Vec<f64>, E> {
+    let stages = Stages::new(stages.max(FEWEST_STAGES));
     let length = stages.first() * h;
-    next.clear();
-    next.extend(y.iter().zip(first).map(|(y, f)| y + length * f));
+    let start = y.iter().zip(first).map(|(y, f)| y + length * f);
+    // Y_{j−1}, Y_{j−2} and F_{j−1}.
+    let (mut next, mut before, mut slopes) =
+        (start.collect::<Vec<_>>(), y.to_vec(), vec![0.0; y.len()]);
     for stage in stages.later() {
-        slope(next, slopes)?;
+        slope(&next, &mut slopes)?;
         for i in 0..y.len() {
             // What does not change stays the same, to the last bit.
             let value = y[i]
@@ -98,7 +79,7 @@ pub fn step<E>(
             next[i] = value;
         }
     }
-    Ok(())
+    Ok(next)
 }
 
 /// The error that a step from `y` to `next` has made, component `i`.
@@ -107,10 +88,10 @@ pub fn error(h: f64, y: f64, next: f64, first: f64, last: f64) -> f64 {
 }
 
 /// The coefficients of a step.
-struct Stages<'a> {
+struct Stages {
     w1: f64,
     /// T_j, T′_j and T″_j at w₀, from j = 0 to the number of stages.
-    t: &'a [[f64; 3]],
+    t: Vec<[f64; 3]>,
 }
 
 struct Stage {
@@ -120,10 +101,9 @@ struct Stage {
     gamma_tilde: f64,
 }
 
-impl<'a> Stages<'a> {
-    fn new(stages: usize, t: &'a mut Vec<[f64; 3]>) -> Self {
-        t.clear();
-        t.extend([[1.0, 0.0, 0.0], [W0, 1.0, 0.0]]);
+impl Stages {
+    fn new(stages: usize) -> Self {
+        let mut t = vec![[1.0, 0.0, 0.0], [W0, 1.0, 0.0]];
         // By their three-term recurrences.
         for j in 2..=stages {
             let (one, two) = (t[j - 1], t[j - 2]);
@@ -166,13 +146,12 @@ mod tests {
         let h = 1.0 / steps as f64;
         let mut y = vec![y];
         for _ in 0..steps {
-            let (first, mut next) = (vec![f(y[0])], Vec::new());
-            let buffers = &mut Buffers::default();
+            let first = vec![f(y[0])];
             let slope = |y: &[f64], out: &mut [f64]| {
                 out[0] = f(y[0]);
                 Ok::<(), Infallible>(())
             };
-            let Ok(()) = step(stages, h, &y, &first, &mut next, buffers, slope);
+            let Ok(next) = step(stages, h, &y, &first, slope);
             y = next;
         }
         y[0]
@@ -219,17 +198,9 @@ mod tests {
                     (out[0], out[1]) = (-re * y[0] + im * y[1], -im * y[0] - re * y[1]);
                     Ok::<(), Infallible>(())
                 };
-                let (y, mut first, mut end) = ([1.0, 0.0], [0.0; 2], Vec::new());
+                let (y, mut first) = ([1.0, 0.0], [0.0; 2]);
                 let Ok(()) = slope(&y, &mut first);
-                let Ok(()) = step(
-                    stages,
-                    1.0,
-                    &y,
-                    &first,
-                    &mut end,
-                    &mut Buffers::default(),
-                    slope,
-                );
+                let Ok(end) = step(stages, 1.0, &y, &first, slope);
                 assert!(
                     end[0].hypot(end[1]) <= 1.0,
                     "{stages} stages at {share}, {degrees} degrees"
@@ -245,13 +216,12 @@ mod tests {
             // One step of y′ = −y² from 1.
             let next = run(stages, steps, 1.0, |_| 0.0);
             assert_eq!(next, 1.0);
-            let (mut end, f) = (Vec::new(), |y: f64| -y * y);
-            let buffers = &mut Buffers::default();
+            let f = |y: f64| -y * y;
             let slope = |y: &[f64], out: &mut [f64]| {
                 out[0] = f(y[0]);
                 Ok::<(), Infallible>(())
             };
-            let Ok(()) = step(stages, h, &[1.0], &[-1.0], &mut end, buffers, slope);
+            let Ok(end) = step(stages, h, &[1.0], &[-1.0], slope);
             let made = end[0] - 1.0 / (1.0 + h);
             let told = error(h, 1.0, end[0], -1.0, f(end[0]));
             assert!(

@@ -44,7 +44,7 @@ pub fn integrate(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     if !whole.is_finite() {
         return whole;
     }
-    halve(&f, a, b, whole, RELATIVE * size, HALVINGS)
+    halve(&f, [a, b], whole, RELATIVE * size, HALVINGS)
 }
 
 /// One 15-point rule: (∫ f, ∫ |f|).
@@ -63,8 +63,7 @@ fn rule(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
 
 fn halve(
     f: &impl Fn(f64) -> f64,
-    a: f64,
-    b: f64,
+    [a, b]: [f64; 2],
     whole: f64,
     tolerance: f64,
     halvings: u32,
@@ -76,8 +75,8 @@ fn halve(
     if halvings == 0 || !better.is_finite() || (better - whole).abs() <= tolerance {
         return better;
     }
-    halve(f, a, middle, left, tolerance, halvings - 1)
-        + halve(f, middle, b, right, tolerance, halvings - 1)
+    halve(f, [a, middle], left, tolerance, halvings - 1)
+        + halve(f, [middle, b], right, tolerance, halvings - 1)
 }
 
 #[cfg(test)]

@@ -125,7 +125,7 @@ impl<'a> Problem<'a> {
         let setup = &model.setup;
         let depth = self.depth_at(target, contact)?;
         let modulus = setup.material.normal_modulus();
-        let normal = normal::press(&model.foundation, g, depth, modulus, &mut contact.load);
+        let normal = normal::press(self.springs(), depth, &mut contact.load);
         if !model.foundation.most_force(normal.strongest).is_finite() {
             if g.iter().all(|g| g.is_finite()) {
                 return Err(Cause::Overflow { depth });
@@ -172,12 +172,19 @@ impl<'a> Problem<'a> {
             None => g[setup.grid.cells()],
         };
         let load = &mut contact.load;
-        normal::depth_for_load(&model.foundation, g, force, modulus, deepest, load).ok_or(
-            Cause::LoadTooLarge {
-                force,
-                domain_radius: setup.grid.radius(),
-            },
-        )
+        normal::depth_for_load(self.springs(), force, deepest, load).ok_or(Cause::LoadTooLarge {
+            force,
+            domain_radius: setup.grid.radius(),
+        })
+    }
+
+    /// What the profile is pressed on.
+    fn springs(self) -> normal::Springs<'a> {
+        normal::Springs {
+            row: &self.model.foundation,
+            g: self.g,
+            modulus: self.model.setup.material.normal_modulus(),
+        }
     }
 
     /// Moves the tangential springs by `increment` (m) from where they stood before.

@@ -211,8 +211,7 @@ impl Search<'_> {
         let with_work = |wear: &[f64], friction_work: f64| [wear, &[friction_work]].concat();
         let start = with_work(&memory.wear, 0.0);
         let slope = with_work(&self.first.wear, self.first.friction_work);
-        let (mut end, mut image) = (Vec::new(), vec![0.0; nodes]);
-        let buffers = &mut chebyshev::Buffers::default();
+        let mut image = vec![0.0; nodes];
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
         let mut look = |memory: &mut State, wear: &[f64], image: &mut [f64]| {
             model.plan.image(wear, image);
@@ -225,7 +224,7 @@ impl Search<'_> {
             out[nodes] = steady.friction_work;
             Ok::<(), Cause>(())
         };
-        chebyshev::step(stages, covered, &start, &slope, &mut end, buffers, stage)?;
+        let mut end = chebyshev::step(stages, covered, &start, &slope, stage)?;
         let friction_work = end.pop().unwrap_or_default();
         let steady = look(memory, &end, &mut image)?;
         let depth = memory.contact.depth;

@@ -154,13 +154,14 @@ impl Loop {
         !matches!(self.shifts[..], [.., before, now] if before > now)
     }
 
-    /// The rows of a table in the cycle before `end`, or before its own end; `None` if it is no table of loops.
+    /// The rows of a table in the cycle before `end`, or all of them; `None` if it is no table of loops.
     pub fn of(table: &Table, end: Option<f64>) -> Option<Self> {
         let cycles = table.column("cycle")?;
         let pairs = [["u_x_m", "F_x_N"], ["u_m", "F_N"]];
         let [shift, force] = pairs.into_iter().find(|pair| table.has(pair))?;
+        let within =
+            |cycle: f64| end.is_none_or(|end| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9);
         let end = end.or(table.last_cycle())?;
-        let within = |cycle: f64| cycle > end - 1.0 - 1e-9 && cycle < end + 1e-9;
         let rows = || (0..cycles.len()).filter(|&row| within(cycles[row]));
         let column = |name| {
             let values = table.column(name);

@@ -1,8 +1,7 @@
 //! What is known of a session: its present state, and all that charts show of it where it is run for them.
 
 use super::Run;
-use crate::export::last_loop::LastLoop;
-use crate::export::{field, header, state};
+use crate::export::{field, header, last_loop, state};
 use crate::reading::Curves;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
@@ -47,8 +46,6 @@ impl Run {
             }
         };
         for &end in cycles {
-            let mut last = LastLoop::default();
-            last.record(session.simulation(), end);
             while session.simulation().cycle() < end {
                 let simulation = session.simulation();
                 let next = match simulation.may_jump() {
@@ -56,7 +53,6 @@ impl Run {
                     false => end.min(simulation.cycle().floor() + 1.0),
                 };
                 session.advance_while(next, |session| {
-                    last.record(session.simulation(), end);
                     if session.simulation().cycle().fract() == 0.0 {
                         record(session);
                     }
@@ -64,7 +60,7 @@ impl Run {
                 })?;
             }
             data.take_state(session);
-            let rows = last.rows(session.simulation());
+            let rows = last_loop::rows(session.simulation());
             data.loops.push(Loop::of_rows(end, rows.iter()));
         }
         if session.simulation().cycle() < 1.0 {

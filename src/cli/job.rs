@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 
 use super::args::{CycleAsGiven, HistoryChoice, Run};
 use crate::export::history::History;
-use crate::export::last_loop::LastLoop;
 use crate::export::run_directory::rows_in;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
@@ -31,8 +30,6 @@ pub struct RunJob {
     taken: usize,
     /// The rows so far.
     pub history: History,
-    /// The steps of the last cycle.
-    pub last_loop: LastLoop,
     /// Statements for the file headers, such as the estimated error.
     pub statements: Vec<(String, String)>,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
@@ -135,7 +132,6 @@ impl RunJob {
     /// Records the present moment in the history, if it is due.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
-        self.last_loop.record(simulation, self.cycles);
         if self.every_step
             || simulation.cycle().fract() == 0.0
             || simulation.cycle() >= self.cycles
@@ -170,7 +166,6 @@ impl RunJob {
     pub fn rewind(&mut self, earlier: &Self) {
         self.taken = earlier.taken;
         self.history.rewind(&earlier.history);
-        self.last_loop = earlier.last_loop.clone();
     }
 }
 

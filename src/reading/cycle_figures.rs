@@ -3,7 +3,7 @@
 //!
 //! The figures describe the last complete period of the motion. Each step adds its end point to a
 //! [`LoopTally`]; at the end of the period the tally becomes [`CycleFigures`]. The [`Log`](super::Log) of a run keeps
-//! both.
+//! both. After a jump over cycles, the figures are those of the [`FinePeriod`] on the present profile.
 //!
 //! # Formulas
 //!
@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use strum::{EnumString, IntoStaticStr};
 
 use crate::math::root;
-use crate::simulation::{Setup, Simulation};
+use crate::simulation::{FinePeriod, PeriodPoint, Setup, Simulation};
 
 /// Below this energy ratio A the loop is a line to any test rig: the contact counts as sticking. A
 /// sphere in partial slip passes it near U = 0.06 of the amplitude of gross slip.
@@ -174,31 +174,72 @@ impl LoopTally {
             return None;
         }
         let state = simulation.state();
-        let setup = simulation.model_of_last_step().setup;
+        let extent = |[low, high]: [f64; 2]| 0.5 * (high - low);
+        let measured = Measured {
+            energy: (state.ledger.dissipated_energy - energy) / cycles,
+            shift: extent(self.shift),
+            force: extent(self.force),
+            normal_force: self.normal_force / cycles,
+            contact_radius: self.contact_radius / cycles,
+            stick_radius: state.permanent_stick_radius(),
+            opened: self.opened,
+            opening: opening(self.falling, self.rising),
+        };
+        Some(measured.figures(&simulation.model_of_last_step().setup))
+    }
+}
+
+/// δ₀, m, from the sum and number of the displacements at which F_x falls, and rises, through zero.
+fn opening(falling: [f64; 2], rising: [f64; 2]) -> Option<f64> {
+    let mean = |[sum, count]: [f64; 2]| sum / count;
+    let crosses = falling[1] > 0.0 && rising[1] > 0.0;
+    crosses.then(|| 0.5 * (mean(falling) - mean(rising)).abs())
+}
+
+/// What is measured in a period: per cycle, and on average over it.
+struct Measured {
+    /// E_d, J.
+    energy: f64,
+    /// U, m, and Q*, N.
+    shift: f64,
+    force: f64,
+    /// P, N, and a, m.
+    normal_force: f64,
+    contact_radius: f64,
+    /// The smallest stick radius, m.
+    stick_radius: f64,
+    /// Whether nothing touched at some moment.
+    opened: bool,
+    /// δ₀, m.
+    opening: Option<f64>,
+}
+
+impl Measured {
+    fn figures(self, setup: &Setup) -> CycleFigures {
+        let Self {
+            energy,
+            shift,
+            force,
+            normal_force,
+            opening,
+            ..
+        } = self;
         let material = &setup.material;
-        let energy = (state.ledger.dissipated_energy - energy) / cycles;
-        let (normal_force, radius) = (self.normal_force / cycles, self.contact_radius / cycles);
-        let amplitude = |[low, high]: [f64; 2]| 0.5 * (high - low);
-        let (shift, force) = (amplitude(self.shift), amplitude(self.force));
-        let opening = (self.falling[1] > 0.0 && self.rising[1] > 0.0).then(|| {
-            let mean = |[sum, count]: [f64; 2]| sum / count;
-            0.5 * (mean(self.falling) - mean(self.rising)).abs()
-        });
         let ratio = |over: f64, under: f64| (under > 0.0).then(|| over / under);
         let energy_ratio = ratio(energy, 4.0 * force * shift);
         // The slip ratio is about the contact alone.
         let of_contact = shift - setup.drive.rig_compliance() * force;
-        let elastic = 2.0 * material.tangential_modulus() * radius * of_contact;
+        let elastic = 2.0 * material.tangential_modulus() * self.contact_radius * of_contact;
         let regime = if self.opened {
             Regime::Open
-        } else if state.permanent_stick_radius() <= 0.0 && energy > 0.0 {
+        } else if self.stick_radius <= 0.0 && energy > 0.0 {
             Regime::Gross
         } else if energy_ratio.is_none_or(|ratio| ratio < CLOSED_LOOP) {
             Regime::Stick
         } else {
             Regime::Partial
         };
-        Some(CycleFigures {
+        CycleFigures {
             energy,
             displacement_amplitude: shift,
             force_amplitude: force,
@@ -210,7 +251,47 @@ impl LoopTally {
             energy_ratio,
             energy_ratio_b: opening.and_then(|opening| ratio(energy, 4.0 * force * opening)),
             regime,
-        })
+        }
+    }
+}
+
+impl CycleFigures {
+    /// The figures of a finely stepped period on the parts of `setup`.
+    pub fn of(period: &FinePeriod, setup: &Setup) -> Self {
+        let points = &period.points;
+        let extent = |of: fn(&PeriodPoint) -> f64| {
+            let highest = points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+            0.5 * (highest - points.iter().map(of).fold(f64::INFINITY, f64::min))
+        };
+        let length = period.cycles;
+        let mean = |of: fn(&PeriodPoint) -> f64| {
+            let steps = points.windows(2);
+            let parts =
+                steps.map(|step| (of(&step[1]) + of(&step[0])) * (step[1].cycle - step[0].cycle));
+            0.5 * parts.sum::<f64>() / length
+        };
+        let mut crossings = [[0.0; 2]; 2];
+        for step in points.windows(2) {
+            let [before, after] = [step[0].tangential_force, step[1].tangential_force];
+            let rises = before < 0.0 && after >= 0.0;
+            if rises || before > 0.0 && after <= 0.0 {
+                let share = before / (before - after);
+                let [sum, count] = &mut crossings[usize::from(rises)];
+                *sum += step[0].sensed + share * (step[1].sensed - step[0].sensed);
+                *count += 1.0;
+            }
+        }
+        let measured = Measured {
+            energy: period.energy_per_cycle(),
+            shift: extent(|point| point.sensed),
+            force: extent(|point| point.tangential_force),
+            normal_force: mean(|point| point.normal_force),
+            contact_radius: mean(|point| point.contact_radius),
+            stick_radius: period.permanent_stick_radius(),
+            opened: points.iter().any(|point| point.contact_radius == 0.0),
+            opening: opening(crossings[0], crossings[1]),
+        };
+        measured.figures(setup)
     }
 }
 

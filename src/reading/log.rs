@@ -85,19 +85,15 @@ impl Log {
         Ok(())
     }
 
-    /// The figures of the last complete period of the motion. After a jump over cycles, those of the
-    /// next period on the present profile, which is stepped through without wear for that purpose.
-    /// None before the first period has ended, within the period of a change, and without tangential
+    /// The figures of the last complete period of the motion. After a jump over cycles, those of the period finely
+    /// stepped on the present profile. None before the first period has ended, within the period of a change, and without tangential
     /// motion.
     pub fn cycle_figures(&self, simulation: &Simulation) -> Option<CycleFigures> {
         if self.figures.is_some() || !simulation.has_jumped() {
             return self.figures;
         }
-        let mut probe = simulation.without_wear()?;
-        let mut log = Self::of(&probe);
-        let end = probe.cycle() + period(&probe);
-        log.advance(&mut probe, end).ok()?;
-        log.figures
+        let period = simulation.fine_period()?;
+        Some(CycleFigures::of(&period, simulation.setup()))
     }
 
     /// The figures of the last complete period if it was stepped through.

@@ -54,6 +54,7 @@ pub mod breakdown;
 mod choices;
 pub mod contact;
 pub mod drive;
+mod fine_period;
 mod model;
 mod moments;
 pub(crate) mod placing;
@@ -71,6 +72,7 @@ mod wear;
 
 pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
+pub use fine_period::{FinePeriod, PeriodPoint};
 pub(crate) use model::Model;
 pub use reconfigure::Domain;
 pub use saved::{Saved, Unfit};

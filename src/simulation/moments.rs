@@ -37,6 +37,11 @@ impl Touch {
         }
     }
 
+    /// The lowest point of the 1D profile, m; −∞ where the motion never comes up to the axis.
+    pub fn tip(self) -> f64 {
+        self.tip
+    }
+
     /// The first turning point after `from` and up to `until`.
     pub fn turning_point(self, setup: &Setup, from: f64, until: f64) -> Option<f64> {
         let (stick_ratio, yields) = self.turning;

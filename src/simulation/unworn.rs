@@ -115,6 +115,23 @@ impl<'a> Unworn<'a> {
         Some((depth, self.radius(depth)))
     }
 
+    /// The depth d_c of the stick border, m, at a held `depth` (m) where the actuator moves by `amplitude` (m): the rig
+    /// takes C F_x of it.
+    fn border_on_rig(&self, depth: f64, amplitude: f64) -> Option<f64> {
+        let (friction, compliance) = (self.material.friction(), self.drive.rig_compliance());
+        let yields = friction * self.material.normal_modulus() / self.material.tangential_modulus();
+        let stiff = depth - amplitude / yields;
+        if compliance == 0.0 {
+            return Some(stiff);
+        }
+        let whole = self.force(depth);
+        let excess = |border: f64| {
+            let force = friction * (whole - self.force(border.max(0.0)));
+            (depth - border) * yields + compliance * force - amplitude
+        };
+        root::bracketed(excess, stiff, depth, 1e-14 * depth)
+    }
+
     /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
     pub(crate) fn ring(&self) -> Option<Ring> {
         let normal = self.drive.normal().oscillation();
@@ -127,7 +144,7 @@ impl<'a> Unworn<'a> {
         let yields = friction * self.material.normal_modulus() / modulus;
         let swing = self.drive.tangential()?;
         let border = match swing {
-            Control::Displacement(shift) => depth - shift.amplitude() / yields,
+            Control::Displacement(shift) => self.border_on_rig(depth, shift.amplitude())?,
             Control::Force(force) => {
                 let left = self.force(depth) - force.amplitude() / friction;
                 if left > 0.0 { self.depth(left) } else { 0.0 }

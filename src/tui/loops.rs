@@ -31,13 +31,23 @@ pub struct Loops {
 impl Loops {
     /// Takes in the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
-        self.steps.push_back(last_loop::row(moment));
+        let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
+        self.steps
+            .push_back([moment.cycle, moment.shift, moment.tangential_force, sensed]);
         while self.steps.len() > 1
             && (self.steps[0][0] < moment.cycle - 1.0 - 1e-9 || self.steps.len() > CAPACITY)
         {
             self.steps.pop_front();
         }
         self.keep(moment.cycle);
+    }
+
+    /// Takes in the moment after a jump over cycles: the last cycle is stepped finely on the present profile.
+    pub fn record_jump(&mut self, simulation: &Simulation) {
+        let begin = simulation.cycle() - 1.0 - 1e-9;
+        let rows = last_loop::rows(simulation).into_iter();
+        self.steps = rows.filter(|row| row[0] >= begin).collect();
+        self.keep(simulation.cycle());
     }
 
     /// Stores the loop of a finished cycle; when there are too many, every second one is dropped.

@@ -9,7 +9,7 @@ use super::trend::{self, Cycle, Recorded, Trend};
 use crate::export::file::WriteError;
 use crate::export::header::{field as written, number, table};
 use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
-use crate::export::{history, state};
+use crate::export::{history, last_loop, state};
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::Session;
@@ -35,7 +35,7 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
         (CHECKPOINT, kept),
     ];
     if session.simulation().moment().stick_radius.is_some() {
-        files.push(("loop.csv", last_loop(session, &run.trend).into_bytes()));
+        files.push(("loop.csv", loop_table(session).into_bytes()));
     }
     files.push(("state.csv", state::table(session).into_bytes()));
     for (name, bytes) in &files {
@@ -74,10 +74,10 @@ fn history(session: &Session, trend: &Trend) -> String {
     table(session, &history::COLUMNS, rows)
 }
 
-/// The last cycle, in the columns of a measured loop.
-fn last_loop(session: &Session, trend: &Trend) -> String {
-    let steps = trend.loops.steps.iter();
-    let rows = steps.map(|&[cycle, shift, force, _]| [cycle, shift, force].map(written));
+/// The last period, in the columns of a measured loop.
+fn loop_table(session: &Session) -> String {
+    let rows = last_loop::rows(session.simulation()).into_iter();
+    let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(written));
     table(session, &["cycle", "u_m", "F_N"], rows)
 }
 

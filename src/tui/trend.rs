@@ -172,7 +172,15 @@ impl Trend {
         let simulation = session.simulation();
         let radius = scar_radius(simulation).unwrap_or(f64::NAN);
         let scar = [largest(simulation.worn_depth()), radius];
-        let is_end = self.take(&simulation.moment(), scar);
+        let mut moment = simulation.moment();
+        if simulation.has_jumped() {
+            self.loops.record_jump(simulation);
+            // Of the moments of the last cycle only its end is here.
+            moment.stick_radius = moment.permanent_stick_radius;
+        } else {
+            self.loops.record(&moment);
+        }
+        let is_end = self.take(&moment, scar);
         let ended = self.cycles.last_mut().filter(|_| is_end);
         if let Some(entry) = ended.map(Arc::make_mut) {
             let reading = Reading::new(session);
@@ -187,7 +195,6 @@ impl Trend {
     /// ends an entry.
     fn take(&mut self, moment: &Moment, [depth, radius]: [f64; 2]) -> bool {
         let [start, _] = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
-        self.loops.record(moment);
         let before = self.cycles.last().map(|last| last.values);
         let of_last = |k: usize| before.map_or(f64::NAN, |values| values[k]);
         let now = Cycle {

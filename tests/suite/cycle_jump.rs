@@ -8,6 +8,8 @@ use crate::common::{
 };
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::A;
+use mdr_tui::reading::{Curves, Moment};
+use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::{Integrator, Setup, Simulation};
 use mdr_tui::wear::{Powers, WearLaw};
 use std::f64::consts::SQRT_2;
@@ -224,5 +226,49 @@ fn a_step_costs_its_transforms() {
         assert!((3.0..=most).contains(&a_step), "{a_step}");
         assert_eq!(stats.contacts, run.state().steps + 1);
         assert_eq!((stats.evaluated_cycles, stats.jumps), (0, 0));
+    }
+}
+
+/// A state after a jump is one of the steady cycle at that moment: what slips and sticks there, the radii and the regime
+/// are those of a run that steps on from it for two cycles, at any phase of the motion.
+#[test]
+fn a_state_after_a_jump_is_one_of_the_cycle() {
+    type Radius = fn(&Moment) -> Option<f64>;
+    let radii: [Radius; 2] = [
+        |moment| moment.stick_radius,
+        |moment| moment.permanent_stick_radius,
+    ];
+    for (preset, phase, cycles) in [
+        ("julia2022-gross-slip", "0", 20_000.0),
+        ("julia2022-partial-slip", "0", 300.0),
+        ("mild-million", "0", 20_000.0),
+        ("mild-million", "0.7853981633974483", 20_000.0),
+        ("mild-million", "1.5707963267948966", 20_000.0),
+        ("mild-million", "4.2", 20_000.0),
+    ] {
+        let phase = format!("motion.tangential.phase={phase}");
+        let mut session = ran(load(preset, &[&phase]), cycles);
+        assert!(session.simulation().state().stats.jumps > 0, "{preset}");
+        let seen = |session: &Session| {
+            let zones = session.simulation().observe(Curves::ZONES).zones;
+            let regime = session.cycle_figures().expect("figures").regime;
+            (zones, session.simulation().moment(), regime)
+        };
+        let (jumped, at_jump, regime) = seen(&session);
+        change(&mut session, "numerics.integrator", "direct");
+        session.advance_to(cycles + 2.0).expect("two cycles");
+        let (stepped, moment, stepped_regime) = seen(&session);
+        assert_eq!(regime, stepped_regime, "{preset}");
+        let differ = jumped.iter().zip(&stepped).filter(|(a, b)| a != b).count();
+        // Where the step before the last one ended, a node may have slipped or not.
+        assert!(differ <= 1, "{preset} {phase}: {differ} zones differ");
+        let a = moment.contact_radius;
+        for of in radii {
+            let [jumped, stepped] = [&at_jump, &moment].map(|moment| of(moment).expect("springs"));
+            assert!(
+                (jumped - stepped).abs() < 0.01 * a,
+                "{preset} {phase}: {jumped} {stepped}"
+            );
+        }
     }
 }

@@ -29,6 +29,7 @@ mod cycle_figures;
 mod cycle_jump;
 mod fatigue;
 mod figures;
+mod fine_period;
 mod fit;
 mod floors;
 mod ghosts;

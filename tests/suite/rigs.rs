@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_2_PI;
 
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::reading::{CycleFigures, Log, Regime};
+use mdr_tui::reading::{CycleFigures, Log, Regime, Subject};
 use mdr_tui::simulation::{Setup, Simulation};
 
 use crate::common::{
@@ -101,6 +101,28 @@ fn a_compliant_rig_in_partial_slip_is_the_closed_form() {
         assert!(is_elsewhere, "{sensed} {}", moment.shift);
         let stick = moment.permanent_stick_radius.expect("springs");
         relative("c", stick, reached.stick_radius());
+    }
+}
+
+/// The checks compare F_x and E_d with the closed forms of what the rig leaves to the contact, in partial and in gross
+/// slip.
+#[test]
+fn the_checks_know_what_a_rig_takes() {
+    for (amplitude, stiffness) in [(2e-7, 3e7), (3.47e-7, 3.1e7), (3e-7, 1e9), (2e-6, 2e7)] {
+        let sets = [
+            "friction.coefficient=0.3",
+            &format!("motion.tangential.amplitude={amplitude:e}"),
+            &format!("motion.tangential.rig_stiffness={stiffness:e}"),
+        ];
+        let checks = ran(load("mindlin", &sets), 2.0).checks();
+        let subjects: Vec<Subject> = checks.iter().map(|check| check.subject).collect();
+        assert!(subjects.contains(&Subject::TangentialForce), "{subjects:?}");
+        for check in checks {
+            assert!(
+                check.error.abs() < 3e-3,
+                "{amplitude:e} {stiffness:e}: {check:?}"
+            );
+        }
     }
 }
 

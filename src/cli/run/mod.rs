@@ -21,7 +21,7 @@ use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{WriteError, shell_word, write_whole_with};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
-use crate::export::{field, state};
+use crate::export::{field, last_loop, state};
 use crate::panics::locked;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, checkpoint, printable};
@@ -316,7 +316,7 @@ impl Job<'_> {
         let mut outcome = write_whole_with(&file, |out| job.history.write(session, &rows, out));
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
-        let last_loop = is_done.then(|| job.last_loop.table(session)).flatten();
+        let last_loop = is_done.then(|| last_loop::file(session)).flatten();
         let field = self.options.field.then(|| field::table(session));
         let scenario = session.as_run(job.snapshot_at()).to_toml();
         let files = [

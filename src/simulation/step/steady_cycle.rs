@@ -17,17 +17,21 @@
 
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
-use super::super::contact;
+use super::super::contact::{self, Contact};
 use super::super::drive::{Oscillation, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::setup::Setup;
 use super::super::state::{State, SteadyCycle};
 use super::{Scratch, wear};
+use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::scan::{largest, leading};
 use crate::math::vector::add_to;
+
+/// A motion has turned where it has come no further since than this part of its amplitude.
+const AT_TURN: f64 = 1e-9;
 
 /// What a cycle does once the springs have shaken down on the worn depth of 1D image `image` (m), on average over the
 /// period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
@@ -150,9 +154,10 @@ fn plain_cycle(
 ) -> Result<SteadyCycle, Cause> {
     memory.stats.evaluated_cycles += 1;
     let start = model.setup.drive.targets(0.0);
-    // First the normal contact, whatever the springs do; then the springs where the cycle ends.
+    // First the normal contact, whatever the springs do; then the springs from the last turn to where the cycle ends.
     solve(model, memory, spare, scratch, start)?;
-    settle_springs(&model.setup, memory, &spare.contact.load, swing);
+    std::mem::swap(&mut memory.contact, &mut spare.contact);
+    turn_back(&model.setup, &mut memory.contact, swing);
     solve(model, memory, spare, scratch, start)?;
     take_over(memory, spare, 0.0);
 
@@ -193,17 +198,29 @@ fn plain_cycle(
     })
 }
 
-/// Brings the springs that slip in a steady-state cycle to where they stand at its end under a normal `load` (N/m):
-/// those that do not stay where they are.
-fn settle_springs(setup: &Setup, memory: &mut State, load: &Field, swing: &Oscillation) {
-    let reach = setup.material.reach();
-    let sign = if swing.rises_at_start() { 1.0 } else { -1.0 };
-    // How far the indenter has come since its last turn.
-    let since = swing.amplitude() + sign * (swing.after_turns(0.0) - swing.mean());
-    for (u, load) in memory.contact.spring.nodal.iter_mut().zip(&load.nodal) {
+/// Brings indenter and springs back to where a steady-state cycle turned last before its end: the springs that slip in
+/// it stood at their limits there, the others move with the indenter. Solved from there, the end of the cycle knows
+/// what slips in it; solved from itself, nothing would move and all would stick.
+fn turn_back(setup: &Setup, contact: &mut Contact, swing: &Oscillation) {
+    let (reach, amplitude) = (setup.material.reach(), swing.amplitude());
+    let rises = if swing.rises_at_start() { 1.0 } else { -1.0 };
+    let since = amplitude + rises * (swing.after_turns(0.0) - swing.mean());
+    // A cycle that ends at a turn ends a whole stroke.
+    let (sign, since) = match since <= AT_TURN * amplitude {
+        true => (-rises, 2.0 * amplitude),
+        false => (rises, since),
+    };
+    contact.shift -= sign * since;
+    let springs = contact.spring.nodal.iter_mut().zip(&contact.load.nodal);
+    for ((u, load), state) in springs.zip(&mut contact.spring_state) {
         let limit = reach * load;
-        if limit < swing.amplitude() {
-            *u = sign * (since - limit).min(limit);
-        }
+        *u = match limit < amplitude {
+            true => -sign * limit,
+            false => *u - sign * since,
+        };
+        *state = match *load > 0.0 {
+            true => SpringState::Stick,
+            false => SpringState::Open,
+        };
     }
 }

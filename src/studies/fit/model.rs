@@ -22,7 +22,7 @@ pub(super) fn simulate(
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
         let stops = match set.axes {
-            Axes::LOOP => vec![set.cycle.unwrap_or(cycles) - 1.0],
+            Axes::LOOP => vec![set.cycle.unwrap_or(cycles)],
             axes if axes.over_r() => vec![cycles],
             _ => set.at.clone(),
         };
@@ -36,7 +36,7 @@ pub(super) fn simulate(
             Axes::DEPTH => simulated[i][j] = largest(simulation.worn_depth()),
             Axes::VOLUME => simulated[i][j] = simulation.moment().wear_volume,
             Axes::LOOP => {
-                if let Some(strokes) = Strokes::new(&next_cycle(&session)?) {
+                if let Some(strokes) = Strokes::new(&last_period(simulation)) {
                     let points = set.at.iter().zip(rises(&set.at));
                     let forces = points.map(|(&shift, rising)| strokes.force(shift, rising));
                     simulated[i] = forces.collect();
@@ -61,19 +61,12 @@ fn scar(simulation: &Simulation, r: f64, is_profile: bool) -> f64 {
     unworn.unwrap_or(0.0) + worn.unwrap_or(0.0)
 }
 
-/// The displacement that the rig measures, m, and the tangential force, N, of every step of the cycle that begins now,
-/// in a copy of the run: where cycles are jumped over, the run goes on with its jumps.
-fn next_cycle(session: &Session) -> Result<Vec<(f64, f64)>, SessionError> {
-    let mut session = session.clone();
-    session.change("numerics.integrator", "direct")?;
-    let end = session.simulation().cycle() + 1.0;
-    let mut trace = Vec::new();
-    session.advance_while(end, |session| {
-        let moment = session.simulation().moment();
-        // What the rig measures.
-        let displacement = moment.rig_displacement.unwrap_or(moment.shift);
-        trace.push((displacement, moment.tangential_force));
-        true
-    })?;
-    Ok(trace)
+/// The displacement that the rig measures, m, and the tangential force, N, through the last period; nothing without
+/// tangential motion.
+fn last_period(simulation: &Simulation) -> Vec<(f64, f64)> {
+    let period = simulation.fine_period();
+    let points = period.iter().flat_map(|period| &period.points);
+    points
+        .map(|point| (point.sensed, point.tangential_force))
+        .collect()
 }

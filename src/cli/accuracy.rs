@@ -3,7 +3,7 @@
 use super::{complain, progress};
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::studies::refinement::{self, Resolved};
+use crate::studies::refinement::{self, Budget, Resolved};
 
 /// Finds the points and steps that meet the accuracy of `scenario` by `search`, with a spinner on stderr unless `quiet`,
 /// and says there if they do not meet it.
@@ -38,7 +38,7 @@ pub(super) fn session(
     quiet: bool,
 ) -> Result<Session, SessionError> {
     let found = resolve(scenario, quiet, |scenario| {
-        refinement::resolve(scenario, cycles, f64::INFINITY, &|| true)
+        refinement::resolve(scenario, cycles, Budget::UNLIMITED, &|| true)
     })?;
     let mut session = Session::start(found.scenario)?;
     session.state(found.statements);

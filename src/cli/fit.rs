@@ -16,7 +16,7 @@ use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
 use crate::studies::fit::{Fit, Fitted};
 use crate::studies::measured::Measured;
-use crate::studies::refinement;
+use crate::studies::refinement::{self, Budget};
 use crate::traces::Axes;
 
 /// Fits, and prints, draws and writes what was asked for.
@@ -24,7 +24,7 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
     // The fit runs on the points and steps that its start values need.
     let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
-        refinement::resolve(scenario, options.cycles, f64::INFINITY, &|| true)
+        refinement::resolve(scenario, options.cycles, Budget::UNLIMITED, &|| true)
     })?;
     let (free, cycles, robust) = (&options.free, options.cycles, options.robust);
     let fit = Fit::new(found.scenario, data(options)?, free, cycles, robust)?;

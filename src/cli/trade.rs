@@ -11,10 +11,10 @@ use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
-use crate::scenario::session::{Session, SessionError};
+use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, Scenario};
-use crate::studies::refinement::{Level, Outcome, Reached, Verdict, run_to_accuracy};
-use crate::studies::trade::{self, Setting, Timed, Trial, cheapest, front, table};
+use crate::studies::refinement::{Budget, Level, Reached, SearchError, Verdict, run_to_accuracy};
+use crate::studies::trade::{self, Reference, Setting, Timed, Trial, cheapest, front, table};
 
 /// Accuracies whose search for a level is timed as well as the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
@@ -23,7 +23,10 @@ const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
 const USUAL: f64 = ACCURACIES[0];
 
 /// The longest that the search for an accuracy may take, s.
-const LONGEST_SEARCH: f64 = 10.0;
+const LONGEST_SEARCH: Budget = Budget::of_search(10.0);
+
+/// The reference is asked to be this many times as accurate as the least error that settings are judged by.
+const SHARPER: f64 = 3.0;
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
@@ -40,7 +43,22 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     results::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     if let (Some(accuracy), None) = (options.accuracy, best) {
-        bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
+        // What no fixed setting meets, a level that is searched for may.
+        let reached = run_to_accuracy(&scenario, cycles, accuracy, LONGEST_SEARCH, &go_on);
+        let reached = reached
+            .ok()
+            .filter(|reached| reached.verdict == Verdict::Met);
+        let Some(Reached { seconds, error, .. }) = reached else {
+            bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
+        };
+        let (error, found) = (error.worst(), table(&[], trials));
+        results::print(options.output.json.then_some(&found), || {
+            format!(
+                "# no fixed setting tried; estimated error {error:.1e} at worst (depth, V, E_d, F_x), in \
+                 {seconds:.1e} s\n--set numerics.accuracy={accuracy:e}\n"
+            )
+        })?;
+        return Ok(succeeded(go_on()));
     }
     let only = best.filter(|_| options.accuracy.is_some());
     let json = options.output.json;
@@ -73,28 +91,24 @@ fn run(
     options: &Trade,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<(Vec<Trial>, Vec<String>)>> {
-    let (points, steps) = (&options.points, &options.steps);
-    let settings = trade::settings(scenario, &options.methods, points, steps);
-    let finest = trade::reference(scenario, points, steps);
+    let settings = trade::settings(scenario, &options.methods, &options.points, &options.steps);
     let bar = progress::bar(settings.len(), progress::COUNTS, options.output.quiet);
-    let measure = |setting: &Setting, what: &str| {
-        bar.set_message(format!("{what}{setting} by {}", setting.scheme));
+    let measure = |setting: &Setting| {
+        bar.set_message(format!("{setting} by {}", setting.scheme));
         bar.tick();
         setting.run(scenario, cycles, go_on)
     };
-    let (reference, seconds) = match measure(&finest, "reference, ") {
-        Err(SessionError::Interrupted) => return Ok(None),
-        ended => ended.context("the reference")?,
+    bar.set_message("reference");
+    bar.tick();
+    let finest = options.accuracy.unwrap_or(USUAL).min(ACCURACIES[1]) / SHARPER;
+    let best = trade::by_the_best(scenario)?;
+    let reference = match run_to_accuracy(&best, cycles, finest, LONGEST_SEARCH, go_on) {
+        Err(SearchError::Session(SessionError::Interrupted)) => return Ok(None),
+        reached => Reference::from(reached.context("the reference")?),
     };
-    let mut half = finest.clone();
-    half.level = half.level.scaled(0.5, 0.5);
-    let blur = measure(&half, "reference, ").map_or(String::new(), |(half, _)| {
-        let blur = Outcome::of(&half).against(&Outcome::of(&reference)).worst();
-        format!("; a level half as fine differs by {blur:.1e} at worst")
-    });
     let mut trials: Vec<Trial> = Vec::new();
     for setting in &settings {
-        let ended = measure(setting, "");
+        let ended = measure(setting);
         if !go_on() {
             break;
         }
@@ -108,7 +122,7 @@ fn run(
             scenario.title(),
             number(cycles)
         ),
-        format!("reference: {finest} per cycle, {seconds:.1e} s{blur}"),
+        format!("reference: {reference}"),
     ];
     for accuracy in ACCURACIES.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("numerics.accuracy = {accuracy:e}"));
@@ -126,9 +140,9 @@ fn run(
 }
 
 /// What an accuracy cost, beside the cheapest fixed setting that would have done.
-fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Session) -> String {
+fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reference) -> String {
     let (seconds, Level { points, steps, .. }) = (reached.seconds, &reached.rung.level);
-    let errors = reached.rung.outcome.against(&Outcome::of(reference));
+    let errors = reached.rung.outcome.against(&reference.outcome);
     let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",

@@ -27,7 +27,8 @@ const BORDER_STEPS: u32 = 200;
 const SCAR_PERIODS: u32 = 2;
 const SCAR_STEPS: u32 = 48;
 
-/// The most steps of a pilot run in all, where it still has the fewest a cycle.
+/// The most steps of a pilot run in all, where it still has the fewest a cycle; sub-steps of stiff wear count too. A
+/// pilot that needs more is given up: the run itself then begins on the cells that need none.
 const PILOT_WORK: u32 = 20_000;
 const FEWEST_STEPS: u32 = 24;
 
@@ -193,7 +194,11 @@ fn pilot(setup: &Setup, from: Option<&Simulation>, periods: u32, steps: u32) -> 
             Simulation::resume(setup, state).ok()?
         }
     };
-    run.advance_to(run.cycle() + f64::from(cycles)).ok()?;
+    let (end, begun) = (run.cycle() + f64::from(cycles), run.stats().contacts);
+    while run.cycle() < end {
+        run.step_until(end).ok()?;
+        (run.stats().contacts - begun <= u64::from(PILOT_WORK)).then_some(())?;
+    }
     Some(run)
 }
 

@@ -2,19 +2,19 @@
 //!
 //! A run is judged by the worst of its errors: of the worn depth (rms over the scar, in largest depths), of V and
 //! E_d (relative), and of F_x (in μF_z). A run that fails its own checks is not recommended, whatever its errors.
-//! The reference is the best method, twice as fine as the finest setting tried; its own distance from half as fine
-//! is reported with it. The cost of `numerics.accuracy`, which finds its own level, is measured as well.
+//! The reference is a run of the best method, refined until its own estimated error is a third of the least that is
+//! asked about, as far as time allows; that error is reported with it, and added to those measured. The cost of `numerics.accuracy`, which finds its own level, is measured as well.
 
 use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
 use crate::reading::{Moment, Subject};
-use crate::scenario::Scenario;
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Scheme};
-use crate::studies::refinement::{self, Level, Outcome};
+use crate::studies::refinement::{self, Level, Outcome, Reached, Rung};
 use crate::studies::table::{Format, Table};
 
 /// Numbers of cells that are tried.
@@ -138,16 +138,55 @@ pub fn settings(
     settings
 }
 
-/// The reference: twice as fine as the finest of these cells and steps, by the best method.
-pub fn reference(scenario: &Scenario, points: &[usize], steps: &[u32]) -> Setting {
-    let points = points.iter().copied().max().unwrap_or(100);
-    let steps = steps.iter().copied().max().unwrap_or(100);
-    let [.., finest] = TOLERANCES;
-    let tolerance = wants_jumps(scenario).then_some(0.1 * finest);
-    Setting {
-        method: AbelMethod::Product,
-        scheme: Scheme::Trapezoid,
-        level: Level::new(2 * points, 2 * steps, tolerance),
+/// The scenario by the best method and scheme, on cells and steps that a search may choose.
+///
+/// # Errors
+/// If its shape does not allow that method.
+pub fn by_the_best(scenario: &Scenario) -> Result<Scenario, Refusal> {
+    scenario.with_all(&[
+        ("numerics.method", AbelMethod::Product.name()),
+        ("numerics.scheme", Scheme::Trapezoid.name()),
+    ])
+}
+
+/// What settings are judged against: a run whose own error is known.
+#[derive(Debug)]
+pub struct Reference {
+    session: Session,
+    /// How it ended.
+    pub outcome: Outcome,
+    level: Level,
+    /// The worst of its own estimated errors.
+    error: f64,
+    seconds: f64,
+}
+
+impl From<Reached> for Reference {
+    fn from(reached: Reached) -> Self {
+        let Rung {
+            level,
+            session,
+            outcome,
+            ..
+        } = reached.rung;
+        Self {
+            error: reached.error.worst(),
+            seconds: reached.seconds,
+            session,
+            outcome,
+            level,
+        }
+    }
+}
+
+impl Display for Reference {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Level { points, steps, .. } = self.level;
+        write!(
+            f,
+            "N = {points}, {steps} steps per cycle, found in {:.1e} s; its own error is {:.1e} at worst",
+            self.seconds, self.error
+        )
     }
 }
 
@@ -162,8 +201,8 @@ fn wants_jumps(scenario: &Scenario) -> bool {
 pub struct Trial {
     /// The setting.
     pub setting: Setting,
-    /// Time with its set-up, s, and worst error against the reference, if the run reached its end and passes its own
-    /// checks.
+    /// Time with its set-up, s, and what its error is at most: the worst against the reference and the reference's own;
+    /// if the run reached its end and passes its own checks.
     pub point: Option<[f64; 2]>,
     /// Its row, up to the mark of the front.
     row: Vec<Value>,
@@ -178,7 +217,7 @@ impl Trial {
     pub fn new(
         setting: Setting,
         ended: Result<(Session, f64), SessionError>,
-        reference: &Session,
+        reference: &Reference,
     ) -> Self {
         let (level, tolerance) = (&setting.level, setting.level.tolerance);
         let mut row: Vec<Value> = vec![
@@ -198,14 +237,14 @@ impl Trial {
                 row.resize(row.len() + 5, Value::Null);
             }
             Ok((session, seconds)) => {
-                let (outcome, exact) = (Outcome::of(&session), Outcome::of(reference));
-                let errors = outcome.against(&exact);
-                let complaints = complaints(&session, reference);
+                let errors = Outcome::of(&session).against(&reference.outcome);
+                let complaints = complaints(&session, &reference.session);
                 if complaints.is_empty() && errors.worst().is_finite() {
-                    point = Some([seconds, errors.worst()]);
+                    point = Some([seconds, errors.worst() + reference.error]);
                 }
                 let simulation = session.simulation();
-                let (moment, exact) = (simulation.moment(), reference.simulation().moment());
+                let (moment, exact) =
+                    (simulation.moment(), reference.session.simulation().moment());
                 let radius = |of: &Moment| of.permanent_stick_radius.unwrap_or(f64::NAN);
                 // In contact radii; it does not count towards the worst.
                 let stick = (radius(&moment) - radius(&exact)).abs() / exact.contact_radius;
@@ -295,11 +334,21 @@ mod tests {
         }
     }
 
+    fn reference(session: Session) -> Reference {
+        Reference {
+            outcome: Outcome::of(&session),
+            level: Level::of(session.scenario()),
+            session,
+            error: 0.0,
+            seconds: 0.0,
+        }
+    }
+
     #[test]
     fn the_front_is_what_nothing_beats() {
         let session = Session::start(Scenario::load("hertz", &[]).expect("a preset"));
-        let session = session.expect("a session");
-        let judged = |points, ended| Trial::new(trial(points, 0.0, 0.0).setting, ended, &session);
+        let reference = reference(session.expect("a session"));
+        let judged = |points, ended| Trial::new(trial(points, 0.0, 0.0).setting, ended, &reference);
         let trials = [
             trial(1, 1.0, 1e-2),
             trial(2, 0.5, 3e-2),
@@ -325,7 +374,7 @@ mod tests {
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
         // No tangential motion, no stick radius; errors without a scar are no errors.
-        let judged = judged(8, Ok((session.clone(), 0.1)));
+        let judged = judged(8, Ok((reference.session.clone(), 0.1)));
         assert_eq!(judged.row[13], Value::Null);
     }
 
@@ -336,13 +385,12 @@ mod tests {
         let setting = &settings(&scenario, &[AbelMethod::Benad], &[20], &[4])[0];
         let run = |cycles: f64| setting.run(&scenario, cycles, &|| true).expect("a run");
         let (coarse, unworn) = (run(3.0), run(0.0).0);
-        let judged =
-            |reference: &Session| Trial::new(setting.clone(), Ok(coarse.clone()), reference);
-        let alone = judged(&unworn);
+        let judged = |against| Trial::new(setting.clone(), Ok(coarse.clone()), &reference(against));
+        let alone = judged(unworn);
         assert!(alone.point.is_none());
         let said = alone.row.last().and_then(Value::as_str).expect("words");
         assert!(said.starts_with("energy off by "), "{said}");
-        let beside = judged(&coarse.0);
+        let beside = judged(coarse.0.clone());
         assert_eq!(beside.row.last(), Some(&Value::from("ok")));
         assert!(beside.point.is_some());
     }

@@ -8,7 +8,7 @@
 use mdr_tui::reading::Check;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::studies::refinement::{self, Difference, Level, Outcome, Verdict};
+use mdr_tui::studies::refinement::{self, Budget, Difference, Level, Outcome, Verdict};
 
 use crate::random::Random;
 use crate::random_scenarios;
@@ -81,7 +81,14 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
     let scenario = random_scenarios::scenario(seed);
     let cycles = scenario.run().cycles.unwrap_or(0.0);
     let go_on = || true;
-    let climbed = refinement::climb(&scenario, cycles, accuracy, budget, &go_on, clock);
+    let climbed = refinement::climb(
+        &scenario,
+        cycles,
+        accuracy,
+        Budget::of_search(budget),
+        &go_on,
+        clock,
+    );
     let reached = climbed.map_err(|error| error.to_string()).map(|reached| {
         let level = reached.rung.level.clone();
         let fine = finer(&level);

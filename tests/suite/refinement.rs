@@ -7,7 +7,8 @@ use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Integrator;
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::studies::refinement::{
-    Level, Outcome, Verdict, climb, resolve, resolve_soon, run, run_to_accuracy,
+    Budget, Level, Outcome, Reached, SearchError, Verdict, climb, resolve, resolve_soon, run,
+    run_to_accuracy,
 };
 
 use crate::common::{again, load, without_numerics};
@@ -119,7 +120,7 @@ fn coarser_twins_tell_the_errors_of_a_run() {
 #[test]
 fn the_result_is_the_run_of_the_last_rung() {
     let scenario = load("li2019-fig3", &["run.cycles=10"]);
-    let reached = run_to_accuracy(&scenario, 10.0, 1e-3, f64::INFINITY, &|| true);
+    let reached = run_to_accuracy(&scenario, 10.0, 1e-3, Budget::UNLIMITED, &|| true);
     let reached = reached.expect("a result");
     assert_eq!(reached.verdict, Verdict::Met);
     assert!(reached.error.promised() <= 1e-3, "{:?}", reached.error);
@@ -140,40 +141,91 @@ fn the_result_is_the_run_of_the_last_rung() {
     assert!(truth.promised() <= 1e-3, "{truth:?}");
 }
 
-/// Out of time, the best there is: never a rung less than the twins and the first one.
-#[test]
-fn a_budget_ends_the_ladder_with_the_best_it_has() {
-    let scenario = load("li2019-fig3", &["run.cycles=10"]);
-    let reached = run_to_accuracy(&scenario, 10.0, 1e-5, 0.0, &|| true).expect("a result");
-    assert_eq!(reached.verdict, Verdict::OutOfTime);
-    assert!(reached.error.promised() > 1e-5, "{:?}", reached.error);
-    let refused = run_to_accuracy(&scenario, 10.0, 1e-5, f64::INFINITY, &|| false);
-    assert_eq!(refused.expect_err("stopped").to_string(), "interrupted");
+/// Counts steps, as a clock that is the same everywhere.
+#[derive(Default)]
+struct Steps(Cell<f64>);
+
+impl Steps {
+    /// Climbs within a budget of steps.
+    fn climb(
+        &self,
+        accuracy: f64,
+        budget: fn(f64) -> Budget,
+        steps: f64,
+    ) -> Result<Reached, SearchError> {
+        let scenario = load("li2019-fig3", &["run.cycles=10"]);
+        self.0.set(0.0);
+        let count = || {
+            self.0.set(self.0.get() + 1.0);
+            true
+        };
+        climb(&scenario, 10.0, accuracy, budget(steps), &count, &|| {
+            self.0.get()
+        })
+    }
 }
 
-/// Whatever accuracy is asked for, and in the middle of a level too. The clock counts steps.
+/// Whatever accuracy is asked for, and in the middle of a level too; a run of the last level fits into the time as well.
 #[test]
 fn a_budget_is_kept() {
-    let scenario = load("li2019-fig3", &["run.cycles=10"]);
-    let steps = Cell::new(0.0);
-    let count = || {
-        steps.set(steps.get() + 1.0);
-        true
-    };
-    for budget in [3e3, 1e4] {
-        steps.set(0.0);
-        let reached = climb(&scenario, 10.0, 1e-5, budget, &count, &|| steps.get());
-        let reached = reached.expect("a result");
-        assert_eq!(reached.verdict, Verdict::OutOfTime);
-        let share = steps.get() / budget;
-        assert!((0.1..=1.01).contains(&share), "{share} of {budget}");
+    let steps = Steps::default();
+    for (budget, share) in [
+        (Budget::of_search as fn(f64) -> Budget, 1.0),
+        (Budget::for_run, 2.0),
+    ] {
+        for limit in [3e3, 1e4] {
+            let reached = steps.climb(1e-5, budget, limit).expect("a result");
+            assert_eq!(reached.verdict, Verdict::OutOfTime);
+            assert!(reached.error.promised() > 1e-5, "{:?}", reached.error);
+            let used = (steps.0.get()
+                + (share - 1.0) * reached.seconds.min(f64::from(rung(&reached))))
+                / limit;
+            assert!((0.1..=1.01).contains(&used), "{used} of {limit}");
+        }
     }
+}
+
+/// The steps of the last rung.
+fn rung(reached: &Reached) -> u32 {
+    10 * reached.rung.level.steps
+}
+
+/// More time never allows less, nor does a lower aim.
+#[test]
+fn more_of_a_budget_is_never_worse() {
+    let steps = Steps::default();
+    let errors = [1e3, 3e3, 1e4, 3e4].map(|limit| {
+        let reached = steps.climb(1e-6, Budget::of_search, limit);
+        reached.expect("a result").error.promised()
+    });
+    assert!(errors.is_sorted_by(|a, b| a >= b), "{errors:?}");
+    let modest = steps.climb(1e-3, Budget::of_search, 1e4).expect("a result");
+    assert!(modest.error.promised() >= errors[2], "{errors:?}");
+}
+
+/// Before the coarsest level has ended there is no result, only the level that was tried.
+#[test]
+fn a_budget_too_short_for_the_coarsest_level_names_it() {
+    let scenario = load("li2019-fig3", &["run.cycles=10"]);
+    let late = Steps::default().climb(1e-5, Budget::of_search, 0.0);
+    assert!(matches!(late, Err(SearchError::Unended(level)) if level.points == 20));
+    let refused = run_to_accuracy(&scenario, 10.0, 1e-5, Budget::UNLIMITED, &|| false);
+    assert_eq!(refused.expect_err("stopped").to_string(), "interrupted");
+    // A run that follows begins on what was found so far.
+    let kept = resolve(&scenario, None, Budget::for_run(f64::INFINITY), &|| false);
+    let kept = kept.expect("a level");
+    let warning = kept.warning.expect("a warning");
+    assert!(
+        warning.contains("before the search was interrupted"),
+        "{warning}"
+    );
 }
 
 #[test]
 fn what_does_not_wear_has_no_error_to_meet() {
     let scenario = load("li2019-fig3", &["wear.coefficient=0", "run.cycles=2"]);
-    let reached = run_to_accuracy(&scenario, 2.0, 1e-3, f64::INFINITY, &|| true).expect("a result");
+    let reached =
+        run_to_accuracy(&scenario, 2.0, 1e-3, Budget::UNLIMITED, &|| true).expect("a result");
     assert_eq!(reached.verdict, Verdict::Unworn);
 }
 
@@ -183,7 +235,7 @@ fn a_screen_shows_every_cycle_of_a_run_that_can_be_watched() {
     for (cycles, jumps) in [(150.0, false), (20_000.0, true)] {
         let scenario = without_numerics(cycles);
         assert_eq!(scenario.accuracy(), Some(1e-2));
-        let found = resolve(&scenario, None, f64::INFINITY, &|| true);
+        let found = resolve(&scenario, None, Budget::UNLIMITED, &|| true);
         let found = found.expect("a level").scenario;
         assert_ne!(found.setup().integrator, Integrator::Direct, "{cycles}");
         let Ok(shown) = resolve_soon(&scenario) else {

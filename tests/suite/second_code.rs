@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use mdr_tui::scenario::Scenario;
 
-use mdr_tui::studies::refinement::{Verdict, run_to_accuracy};
+use mdr_tui::studies::refinement::{Budget, Verdict, run_to_accuracy};
 use toml::Table;
 
 use crate::random_scenarios;
@@ -33,7 +33,13 @@ fn an_accuracy_holds_against_a_code_of_its_own() {
     for (seed, plain) in known.take(SCENARIOS) {
         let text = plain.text.as_str();
         let scenario = Scenario::from_toml(text, "second code", &[]).expect("a scenario");
-        let met = run_to_accuracy(&scenario, plain.cycles, ACCURACY, f64::INFINITY, &|| true);
+        let met = run_to_accuracy(
+            &scenario,
+            plain.cycles,
+            ACCURACY,
+            Budget::UNLIMITED,
+            &|| true,
+        );
         let met = met.expect("a run");
         assert_eq!(met.verdict, Verdict::Met, "seed {seed}");
         let simulation = met.rung.session.simulation();

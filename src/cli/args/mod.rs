@@ -190,8 +190,8 @@ pub struct Run {
     /// Estimate the error of the result from coarser runs and write it into the file headers.
     #[arg(long)]
     pub estimate_error: bool,
-    /// With numerics.accuracy: time limit of the search, e.g. 60s or 5min; then the best found so
-    /// far is used.
+    /// Time limit, e.g. 60s or 5min. A search for numerics.accuracy leaves enough of it to run the best level found so
+    /// far; a run that does not end in time saves a checkpoint and exits with 75.
     #[arg(long, value_name = "TIME", value_parser = budget)]
     pub budget: Option<f64>,
     /// Also write field.csv: the stresses inside the half-space at the end and the fatigue parameters of a

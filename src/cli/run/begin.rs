@@ -2,22 +2,19 @@
 
 use std::path::Path;
 
-use anyhow::{Context, ensure};
+use anyhow::Context;
 
 use super::*;
 use crate::export::autosave::state_directory;
 use crate::export::file::{directory_of, write_whole};
 use crate::export::run_directory::RUN_CHECKPOINT;
-use crate::scenario::Refusal;
+use crate::studies::refinement::Budget;
 
 impl<'a> Job<'a> {
     /// Starts the scenario called `name`.
     pub(super) fn start(options: &'a Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
         let mut scenario = Scenario::load(name, &options.changes.set)?;
         let mut job = RunJob::new(options, &scenario, name)?;
-        let has_search = options.budget.is_none() || scenario.accuracy().is_some();
-        let rule = "limits the search for numerics.accuracy, but that key is not set";
-        ensure!(has_search, Refusal::new("--budget", rule));
         let directory = match &options.out {
             Some(path) => RunDirectory::claim(path, options.force)?,
             None => new_directory(&scenario)?,
@@ -26,7 +23,10 @@ impl<'a> Job<'a> {
             job.statements = scenario.statements();
         }
         if scenario.accuracy().is_some() {
-            let (end, budget) = (Some(job.cycles), options.budget.unwrap_or(f64::INFINITY));
+            let (end, budget) = (
+                Some(job.cycles),
+                Budget::for_run(options.budget.unwrap_or(f64::INFINITY)),
+            );
             let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
                 refinement::resolve(scenario, end, budget, go_on)
             });

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ use anyhow::{Result, anyhow};
 use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::progress::Progress;
-use super::{FAILED, accuracy, complain, provenance, stop};
+use super::{FAILED, UNFINISHED, accuracy, complain, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{WriteError, shell_word, write_whole_with};
 use crate::export::header::{self, number};
@@ -36,18 +36,29 @@ use summary::remarks;
 const GLANCE: Duration = Duration::from_millis(20);
 
 /// Longest wait for the current step to end after a signal.
-const STEP_TIMEOUT: Duration = Duration::from_millis(500);
+const STEP_TIMEOUT: Duration = Duration::from_millis(400);
 
 /// Time between attempts to write rows to a full disk.
 const ANOTHER_TRY: Duration = Duration::from_secs(1);
 
 /// Runs or resumes a scenario and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
-    let stop = stop::signal()?;
-    let go_on = || !stop.load(Ordering::Relaxed);
+    let (begun, stop) = (Instant::now(), stop::signal()?);
+    let guard = Guard::watch(Arc::clone(&stop));
+    let is_asked_to_go_on = || !stop.load(Ordering::Relaxed);
+    let budget = options.budget.unwrap_or(f64::INFINITY);
+    let is_in_time = || begun.elapsed().as_secs_f64() < budget;
+    let why_stop = || match (is_asked_to_go_on(), is_in_time()) {
+        (true, true) => None,
+        (false, _) => Some("interrupted"),
+        (true, false) => Some("budget spent"),
+    };
     let mut job = match (&options.resume, &options.scenario) {
         (Some(path), _) => Job::resume(options, path)?,
-        (None, scenario) => Job::start(options, scenario.as_deref().unwrap_or_default(), &go_on)?,
+        (None, scenario) => {
+            let name = scenario.as_deref().unwrap_or_default();
+            Job::start(options, name, &is_asked_to_go_on)?
+        }
     };
     let remark = |line: &String| {
         if !options.quiet {
@@ -56,13 +67,10 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     };
     let told = remarks(&job.session);
     told.iter().for_each(remark);
-    let is_over = job.watch(Arc::clone(&stop));
+    guard.keeps(&job.safe);
     // A bug must not destroy hours of computing.
-    let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&go_on)));
-    while is_over.swap(true, Ordering::SeqCst) {
-        // The copy is being saved, and the process ends.
-        thread::park();
-    }
+    let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&why_stop)));
+    guard.is_done();
     let outcome = outcome.unwrap_or_else(|_| Ok(Some(job.go_back())));
     if matches!(outcome, Ok(Some(_))) {
         locked(&job.safe).save(&job.session, &job.job);
@@ -74,7 +82,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         new.for_each(remark);
     }
     if options.estimate_error && matches!(outcome, Ok(None)) {
-        job.estimate(&go_on);
+        job.estimate(&|| why_stop().is_none());
     }
     // Saves what was computed, whatever happened.
     if let Err(error) = job.write_end() {
@@ -98,8 +106,75 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             }
             Ok(ExitCode::SUCCESS)
         }
-        Ok(Some(why)) => Err(anyhow!("{why}; {}", job.how_to_resume())),
+        Ok(Some(why)) => {
+            complain(&format!("{why}; {}", job.how_to_resume()));
+            let can_resume = locked(&job.safe).checkpoints.kept().is_some();
+            Ok(ExitCode::from(if can_resume { UNFINISHED } else { FAILED }))
+        }
         Err(error) => Err(error.context(format!("{} (saved in {directory})", job.name))),
+    }
+}
+
+/// Ends the process soon after a signal, whatever it is doing: a long step, or a search before the first one.
+struct Guard {
+    /// Set by the first of the two that end the run: the run itself, or the thread that waits for a signal.
+    is_over: Arc<AtomicBool>,
+    /// What is saved at the end; nothing before the first step.
+    safe: Arc<OnceLock<Arc<Mutex<Safe>>>>,
+}
+
+impl Guard {
+    /// Waits for `stop` in a thread of its own.
+    fn watch(stop: Arc<AtomicBool>) -> Self {
+        let guard = Self {
+            is_over: Arc::default(),
+            safe: Arc::default(),
+        };
+        let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::clone(&guard.safe));
+        let watch = move || {
+            while !stop.load(Ordering::Relaxed) {
+                thread::sleep(GLANCE);
+            }
+            thread::sleep(STEP_TIMEOUT);
+            if !is_over.swap(true, Ordering::SeqCst) {
+                std::process::exit(end_at_once(safe.get()).into());
+            }
+        };
+        // A system that has no thread left ends runs between steps alone.
+        let _ = thread::Builder::new().spawn(watch);
+        guard
+    }
+
+    /// Saves the run that `safe` keeps from here on.
+    fn keeps(&self, safe: &Arc<Mutex<Safe>>) {
+        let _ = self.safe.set(Arc::clone(safe));
+    }
+
+    /// From here on the run ends by itself; never returns if the process is being ended.
+    fn is_done(&self) {
+        while self.is_over.swap(true, Ordering::SeqCst) {
+            thread::park();
+        }
+    }
+}
+
+/// Saves the copy of a run in the middle of a step, and tells the exit code.
+fn end_at_once(safe: Option<&Arc<Mutex<Safe>>>) -> u8 {
+    let Some(safe) = safe else {
+        complain("interrupted before the first step: nothing is computed yet");
+        return FAILED;
+    };
+    let mut safe = locked(safe);
+    let (session, job) = safe.copy.get().clone();
+    safe.save(&session, &job);
+    let cycle = session.simulation().cycle();
+    let (at, hint) = (number(cycle), safe.how_to_resume(cycle));
+    complain(&format!(
+        "interrupted at cycle {at}, in the middle of a long step; {hint}"
+    ));
+    match safe.checkpoints.kept() {
+        Some(_) => UNFINISHED,
+        None => FAILED,
     }
 }
 
@@ -185,34 +260,9 @@ impl Job<'_> {
         }
     }
 
-    /// Saves the copy and ends the process if a signal arrives during a step that takes too long.
-    /// Whoever sets the returned flag first ends the run.
-    fn watch(&self, stop: Arc<AtomicBool>) -> Arc<AtomicBool> {
-        let is_over = Arc::new(AtomicBool::new(false));
-        let (safe, over) = (Arc::clone(&self.safe), Arc::clone(&is_over));
-        thread::spawn(move || {
-            while !stop.load(Ordering::Relaxed) {
-                thread::sleep(GLANCE);
-            }
-            thread::sleep(STEP_TIMEOUT);
-            if over.swap(true, Ordering::SeqCst) {
-                return;
-            }
-            let mut safe = locked(&safe);
-            let (session, job) = safe.copy.get().clone();
-            safe.save(&session, &job);
-            let cycle = session.simulation().cycle();
-            let (at, hint) = (number(cycle), safe.how_to_resume(cycle));
-            complain(&format!(
-                "interrupted at cycle {at}, in the middle of a long step; {hint}"
-            ));
-            std::process::exit(FAILED.into());
-        });
-        is_over
-    }
-
-    /// Steps to the end, taking snapshots on the way. Returns where it was interrupted, if it was.
-    fn advance(&mut self, go_on: &dyn Fn() -> bool) -> Result<Option<String>> {
+    /// Steps to the end, taking snapshots on the way, until there is a reason to stop. Returns why and where it stopped
+    /// before its end.
+    fn advance(&mut self, why_stop: &dyn Fn() -> Option<&'static str>) -> Result<Option<String>> {
         let end = self.job.cycles;
         let progress = Progress::new(end, self.options.quiet);
         // A bug leaves this one behind, and the copy takes its place.
@@ -222,7 +272,7 @@ impl Job<'_> {
         let ended = session.advance_towards(goal, end, |session| {
             outcome = self.step_is_over(session, &mut before);
             progress.at(session.simulation().cycle());
-            outcome.is_ok() && go_on()
+            outcome.is_ok() && why_stop().is_none()
         });
         self.session = session;
         outcome?;
@@ -230,9 +280,8 @@ impl Job<'_> {
             Err(SessionError::Interrupted) => {
                 let cycle = number(self.session.simulation().cycle());
                 let place = self.directory.path().display();
-                Ok(Some(format!(
-                    "interrupted at cycle {cycle}; saved in {place}"
-                )))
+                let why = why_stop().unwrap_or("interrupted");
+                Ok(Some(format!("{why} at cycle {cycle}; saved in {place}")))
             }
             ended => Ok(ended.map(|()| None)?),
         }

@@ -1,9 +1,12 @@
 //! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
 //! The first rung comes with two twins, one on fewer cells and one of fewer steps, so that the errors of cells and of time
-//! are known apart. Each further rung refines what dominates.
+//! are known apart. Each further rung refines what dominates. A search whose time is limited begins with the coarsest
+//! rung whatever the accuracy, so that more time never gives a worse result.
 
 use std::time::Instant;
+
+use thiserror::Error;
 
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
@@ -24,12 +27,15 @@ const MARGIN: f64 = 0.8;
 /// The accuracy that the coarsest first rung is chosen for.
 const COARSE: f64 = 1e-2;
 
-/// The part of the budget after which a first rung that is not done gives way to the coarsest one.
-const FIRST_TRY: f64 = 0.5;
+/// A last rung that may cost less than this many times the one before it is not worth its time.
+const LEAST_GAIN: f64 = 1.5;
 
 /// The run that places the first nodes: this many times the cells and steps of the first rung's twin. Cells are
 /// what it must see the scar with.
 const PILOT: Ratio = [1.0, 0.5, 1.0];
+
+/// What a rung that is run again takes of a budget, in units of its time: no two runs take the same.
+const TWICE: f64 = 2.2;
 
 /// Runs of this many periods of the motion jump over cycles.
 const WORTH_JUMPING: f64 = 100.0;
@@ -54,6 +60,8 @@ pub enum Verdict {
     Met,
     /// The time is up.
     OutOfTime,
+    /// The user ended the search; only one that [a run follows](Budget::for_run) ends so.
+    Interrupted,
     /// The finest level is reached.
     Finest,
     /// Finer levels come no nearer.
@@ -77,20 +85,75 @@ pub struct Reached {
     pub seconds: f64,
 }
 
+/// Why a search has no result.
+#[derive(Debug, Error)]
+pub enum SearchError {
+    /// Its time was up before the coarsest level came to its end.
+    #[error("no level of refinement ended in time")]
+    Unended(Level),
+    /// A level that is refused, or none that runs to its end, or an interrupt.
+    #[error(transparent)]
+    Session(#[from] SessionError),
+}
+
+/// How long a search may take.
+#[derive(Debug, Clone, Copy)]
+pub struct Budget {
+    seconds: f64,
+    /// Whether the last rung is run again afterwards, within the same time.
+    runs_again: bool,
+}
+
+impl Budget {
+    /// As long as it takes.
+    pub const UNLIMITED: Self = Self::of_search(f64::INFINITY);
+
+    /// At most so many seconds for the search alone.
+    pub const fn of_search(seconds: f64) -> Self {
+        Self {
+            seconds,
+            runs_again: false,
+        }
+    }
+
+    /// At most so many seconds for the search and the run that follows on the level it finds. An interrupt ends such a
+    /// search with the best level so far.
+    pub const fn for_run(seconds: f64) -> Self {
+        Self {
+            seconds,
+            runs_again: true,
+        }
+    }
+
+    /// The seconds, which may be infinite.
+    pub fn seconds(self) -> f64 {
+        self.seconds
+    }
+
+    fn is_limited(self) -> bool {
+        self.seconds.is_finite()
+    }
+
+    /// What a level may take if `spent` seconds are over.
+    fn left(self, spent: f64) -> f64 {
+        (self.seconds - spent) / if self.runs_again { TWICE } else { 1.0 }
+    }
+}
+
 /// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an
-/// estimated error of at most `accuracy`, or the search takes longer than `budget` seconds: then the last level that came
-/// to its end is the result. The coarsest first level is always finished, since nothing is known before.
-/// `go_on` is asked at every step; if it says no, there is no result.
+/// estimated error of at most `accuracy`, or the `budget` is spent: then the last level that came
+/// to its end is the result. `go_on` is asked at every step; if it says no, there is no result, unless a run follows.
 ///
 /// # Errors
-/// If a level is refused, if no level runs to its end, or on an interrupt.
+/// [`SearchError::Unended`] if the budget ends before the coarsest level does; if a level is refused, if no level runs to
+/// its end, or on an interrupt.
 pub fn run_to_accuracy(
     scenario: &Scenario,
     cycles: f64,
     accuracy: f64,
-    budget: f64,
+    budget: Budget,
     go_on: &dyn Fn() -> bool,
-) -> Result<Reached, SessionError> {
+) -> Result<Reached, SearchError> {
     let begin = Instant::now();
     let clock = || begin.elapsed().as_secs_f64();
     climb(scenario, cycles, accuracy, budget, go_on, &clock)
@@ -104,10 +167,10 @@ pub fn climb(
     scenario: &Scenario,
     cycles: f64,
     accuracy: f64,
-    budget: f64,
+    budget: Budget,
     go_on: &dyn Fn() -> bool,
     clock: &dyn Fn() -> f64,
-) -> Result<Reached, SessionError> {
+) -> Result<Reached, SearchError> {
     let begin = clock();
     let ladder = Ladder {
         scenario,
@@ -141,7 +204,7 @@ struct Ladder<'a> {
     scenario: &'a Scenario,
     cycles: f64,
     accuracy: f64,
-    budget: f64,
+    budget: Budget,
     run: &'a Run<'a>,
     go_on: &'a dyn Fn() -> bool,
     /// The time since the search began, s.
@@ -151,7 +214,7 @@ struct Ladder<'a> {
 }
 
 impl Ladder<'_> {
-    fn climb(mut self) -> Result<Reached, SessionError> {
+    fn climb(mut self) -> Result<Reached, SearchError> {
         let mut top = self.first()?;
         let mut planned = self.plan(&top);
         let mut stalls = u32::from(top.is_unworn());
@@ -165,10 +228,12 @@ impl Ladder<'_> {
                     true => Verdict::Unworn,
                     false => Verdict::Stalled,
                 };
-            } else if !self.affords(&planned, &top.rung) {
-                break Verdict::OutOfTime;
             }
-            match self.run(&planned, self.budget) {
+            match self.affordable(&mut planned, &top) {
+                true => {}
+                false => break self.out_of_time(),
+            }
+            match self.run(&planned) {
                 Ok(rung) => {
                     let sources = top.errors_of(&rung);
                     let next = Top { rung, sources };
@@ -182,8 +247,8 @@ impl Ladder<'_> {
                     break Verdict::Failed(why);
                 }
                 Err(Failure::Broken(_)) => planned = planned.refined([1.0, TWIN, 1.0]),
-                Err(Failure::Late) => break Verdict::OutOfTime,
-                Err(Failure::Over(error)) => return Err(error),
+                Err(Failure::Late) => break self.out_of_time(),
+                Err(Failure::Over(error)) => return Err(error.into()),
             }
         };
         Ok(Reached {
@@ -194,51 +259,44 @@ impl Ladder<'_> {
         })
     }
 
-    /// The first rung: finer after one that breaks down, and the coarsest where time runs short before another is done.
-    fn first(&mut self) -> Result<Top, SessionError> {
-        let mut aim = self.accuracy;
+    /// The first rung: finer after one that breaks down.
+    fn first(&mut self) -> Result<Top, SearchError> {
+        let aim = match self.budget.is_limited() {
+            true => self.accuracy.max(COARSE),
+            false => self.accuracy,
+        };
         let mut base = first(self.scenario, self.cycles, aim);
-        let coarsest = first(self.scenario, self.cycles, COARSE);
-        let mut coarsest = Some(coarsest).filter(|coarsest| coarsest.points < base.points);
         loop {
-            // Without the coarsest there is no result.
-            let deadline = match coarsest {
-                Some(_) => FIRST_TRY * self.budget,
-                None => f64::INFINITY,
-            };
-            match self.stand(&mut base, aim, deadline) {
+            match self.stand(&mut base, aim) {
                 Ok(top) => return Ok(top),
                 Err(Failure::Broken(why)) if self.failures > MOST_STALLS => {
-                    return Err(SessionError::Unfinished(why));
+                    return Err(SessionError::Unfinished(why).into());
                 }
                 Err(Failure::Broken(_)) => base = base.refined([2.0, 2.0, 1.0]),
-                Err(Failure::Late) => {
-                    base = coarsest.take().unwrap_or(base);
-                    aim = COARSE;
-                }
-                Err(Failure::Over(error)) => return Err(error),
+                Err(Failure::Late) => return Err(SearchError::Unended(base)),
+                Err(Failure::Over(error)) => return Err(error.into()),
             }
         }
     }
 
     /// Runs a first rung and its twins, with the jumps and nodes that suit its scar.
-    fn stand(&mut self, base: &mut Level, aim: f64, deadline: f64) -> Result<Top, Failure> {
+    fn stand(&mut self, base: &mut Level, aim: f64) -> Result<Top, Failure> {
         base.nodes = None;
         let placing = self.placing().is_some();
         if placing {
-            let pilot = self.run(&base.refined(PILOT), deadline)?;
+            let pilot = self.run(&base.refined(PILOT))?;
             base.settle_tolerance(aim, &pilot.outcome);
             base.nodes = self.placed(&pilot.outcome, base.points);
         }
         let mut twins = Vec::new();
         for source in 0..base.sources() {
-            let twin = self.run(&base.refined(coarser(source)), deadline)?;
+            let twin = self.run(&base.refined(coarser(source)))?;
             if twins.is_empty() && !placing {
                 base.settle_tolerance(aim, &twin.outcome);
             }
             twins.push(twin);
         }
-        let rung = self.run(base, deadline)?;
+        let rung = self.run(base)?;
         let sources = twins.iter().enumerate().map(|(source, twin)| {
             let ratio = rung.level.ratio(&twin.level)[source];
             twin.outcome.against(&rung.outcome).error_of_finer(ratio)
@@ -247,11 +305,13 @@ impl Ladder<'_> {
         Ok(Top { rung, sources })
     }
 
-    /// Runs a level, and leaves it where the search takes longer than to the `deadline`, s.
-    fn run(&mut self, level: &Level, deadline: f64) -> Result<Rung, Failure> {
+    /// Runs a level, and leaves it where it takes more than is left of the budget.
+    fn run(&mut self, level: &Level) -> Result<Rung, Failure> {
         let (go_on, spent) = (self.go_on, self.spent);
         let start = spent();
-        let is_late = || spent() > deadline;
+        let deadline = start + self.budget.left(start);
+        let keeps = self.budget.runs_again;
+        let is_late = || spent() > deadline || keeps && !go_on();
         let scenario = level.of_scenario(self.scenario);
         let scenario = scenario.map_err(|refused| Failure::Over(refused.into()))?;
         let ended = (self.run)(&scenario, self.cycles, &|| go_on() && !is_late());
@@ -266,7 +326,7 @@ impl Ladder<'_> {
                     seconds,
                 })
             }
-            Err(SessionError::Interrupted) if go_on() && is_late() => Err(Failure::Late),
+            Err(SessionError::Interrupted) if is_late() && (keeps || go_on()) => Err(Failure::Late),
             Err(SessionError::Interrupted) => Err(Failure::Over(SessionError::Interrupted)),
             Err(error) => {
                 self.failures += 1;
@@ -275,10 +335,24 @@ impl Ladder<'_> {
         }
     }
 
-    /// Whether there is time for a level, as far as the last rung tells.
-    fn affords(&self, level: &Level, last: &Rung) -> bool {
-        let work: f64 = level.ratio(&last.level).iter().product();
-        (self.spent)() + last.seconds * work <= self.budget
+    /// Whether there is time for the level `planned` after `top`, as far as that tells; a level that would take too
+    /// long is made coarser, if what is left of it is worth its time.
+    fn affordable(&self, planned: &mut Level, top: &Top) -> bool {
+        let left = self.budget.left((self.spent)()) / top.rung.seconds;
+        let ratio = planned.ratio(&top.rung.level);
+        let work: f64 = ratio.iter().product();
+        if work > left && left >= LEAST_GAIN {
+            let share = left.ln() / work.ln();
+            *planned = self.finer(top, ratio.map(|ratio| ratio.powf(share)));
+        }
+        work.min(LEAST_GAIN) <= left
+    }
+
+    fn out_of_time(&self) -> Verdict {
+        match (self.go_on)() {
+            true => Verdict::OutOfTime,
+            false => Verdict::Interrupted,
+        }
     }
 
     /// The shape that nodes are placed for; `None` if the scenario says where they lie.
@@ -304,18 +378,24 @@ impl Ladder<'_> {
                 *finer = wanted.clamp(STRIDE.0, STRIDE.1);
             }
         }
-        let Rung { level, outcome, .. } = &top.rung;
+        let outcome = &top.rung.outcome;
         if top.is_unworn() {
             finer = [STRIDE.1, 1.0, 1.0];
         } else if finer == [1.0; 3] && outcome.imbalance > MARGIN * self.accuracy {
             // V and k E_d part where an edge lies between two nodes, or where a jump is too long.
             finer = [STRIDE.0, 1.0, STRIDE.0];
         }
-        let mut planned = level.refined(finer);
-        if planned.points != level.points {
-            planned.nodes = self.placed(outcome, planned.points);
+        self.finer(top, finer)
+    }
+
+    /// The level of a rung refined by `ratio`, its cells placed by the rung's scar.
+    fn finer(&self, top: &Top, ratio: Ratio) -> Level {
+        let Rung { level, outcome, .. } = &top.rung;
+        let mut finer = level.refined(ratio);
+        if finer.points != level.points {
+            finer.nodes = self.placed(outcome, finer.points);
         }
-        planned
+        finer
     }
 }
 
@@ -373,14 +453,16 @@ mod tests {
             scenario: &Scenario::load("li2019-fig3", &[]).expect("a scenario"),
             cycles: 10.0,
             accuracy: 1e-2,
-            budget: f64::INFINITY,
+            budget: Budget::UNLIMITED,
             run: &run,
             go_on: &|| true,
             spent: &|| 0.0,
             failures: 0,
         };
         let error = ladder.climb().expect_err("no result");
-        assert!(matches!(error, SessionError::Unfinished(why) if why == "broke"));
+        assert!(
+            matches!(error, SearchError::Session(SessionError::Unfinished(why)) if why == "broke")
+        );
         let tried = tried.into_inner();
         assert_eq!(tried.len() as u32, MOST_STALLS + 1);
         let finer =

@@ -11,7 +11,7 @@ mod resolve;
 mod rung;
 
 pub use estimate::{by_twin, estimate, twin};
-pub use ladder::{Reached, Verdict, climb, run_to_accuracy};
+pub use ladder::{Budget, Reached, SearchError, Verdict, climb, run_to_accuracy};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
 pub use resolve::{Resolved, resolve, resolve_soon, statements_of, words_of};

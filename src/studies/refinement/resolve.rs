@@ -1,8 +1,6 @@
 //! Resolves an accuracy to points and steps, and words the result for files and messages.
 
-use std::time::Instant;
-
-use super::ladder::{Reached, Verdict, run_to_accuracy};
+use super::ladder::{Budget, Reached, SearchError, Verdict, run_to_accuracy};
 use super::level::Level;
 use super::outcome::Difference;
 use crate::scenario::session::{Session, SessionError};
@@ -14,9 +12,6 @@ const WITHOUT_END: f64 = 100.0;
 
 /// The longest that a screen waits for an accuracy: the usual one, and one that is asked for, s.
 const SCREEN_WAITS: [f64; 2] = [0.5, 10.0];
-
-/// After this part of the wait the search ends if it has found a level.
-const SEARCH: f64 = 0.8;
 
 /// A screen shows every cycle of a run of fewer cycles than this, unless the scenario wants jumps.
 const WATCHED: f64 = 1e4;
@@ -50,16 +45,30 @@ impl Resolved {
 }
 
 /// Finds the points and steps that meet the accuracy of `scenario` in a run of `cycles` (those of its own plan if
-/// `None`), looking for `budget` seconds at most. A scenario without an accuracy is returned as it is.
+/// `None`) within a `budget`: the coarsest level, of unknown error, if none ends in that time. A scenario without an
+/// accuracy is returned as it is.
 ///
 /// # Errors
-/// If no level runs to its end, or if `go_on` says no.
+/// If no level can be run, or if `go_on` says no and no run follows.
 pub fn resolve(
     scenario: &Scenario,
     cycles: Option<f64>,
-    budget: f64,
+    budget: Budget,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Resolved, SessionError> {
+    match search(scenario, cycles, budget, go_on) {
+        Ok(found) => Ok(found),
+        Err(SearchError::Unended(level)) => unverified(scenario, &level, budget),
+        Err(SearchError::Session(error)) => Err(error),
+    }
+}
+
+fn search(
+    scenario: &Scenario,
+    cycles: Option<f64>,
+    budget: Budget,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Resolved, SearchError> {
     let Some(accuracy) = scenario.accuracy() else {
         return Ok(Resolved::unsought(scenario.clone()));
     };
@@ -87,31 +96,46 @@ pub fn resolve(
 /// If no level can be run.
 pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
     let [usual, asked_for] = SCREEN_WAITS;
-    let patience = match scenario.accuracy() {
+    let budget = Budget::of_search(match scenario.accuracy() {
         Some(USUAL_ACCURACY) => usual,
         _ => asked_for,
-    };
-    let begin = Instant::now();
-    let go_on = || begin.elapsed().as_secs_f64() < patience;
-    match resolve(scenario, None, SEARCH * patience, &go_on) {
-        Err(SessionError::Interrupted) => {
-            let level = Level::of(scenario);
-            let warning = format!(
-                "no level of refinement ended in {patience} s: these are {} points and {} steps per cycle, \
-                 of unknown error",
-                level.points, level.steps
-            );
-            Ok(Resolved {
-                warning: Some(warning),
-                ..Resolved::unsought(level.of_scenario(scenario)?)
-            })
-        }
+    });
+    match search(scenario, None, budget, &|| true) {
         Ok(found) if is_watched(scenario) => Ok(Resolved {
             scenario: (found.scenario)
                 .with_all(&[("numerics.integrator", Integrator::Direct.name())])?,
             ..found
         }),
-        other => other,
+        Ok(found) => Ok(found),
+        Err(SearchError::Unended(_)) => unverified(scenario, &Level::of(scenario), budget),
+        Err(SearchError::Session(error)) => Err(error),
+    }
+}
+
+/// A scenario on a `level` of which nothing is known, since no search ended within the `budget`.
+fn unverified(
+    scenario: &Scenario,
+    level: &Level,
+    budget: Budget,
+) -> Result<Resolved, SessionError> {
+    let Level { points, steps, .. } = level;
+    let warning = format!(
+        "no level of refinement ended {}: these are {points} points and {steps} steps per cycle, of unknown error",
+        in_time(budget)
+    );
+    Ok(Resolved {
+        statements: vec![("warning".to_owned(), warning.clone())],
+        warning: Some(warning),
+        missed_by: Some(f64::INFINITY),
+        ..Resolved::unsought(level.of_scenario(scenario)?)
+    })
+}
+
+/// The end of a search in words.
+fn in_time(budget: Budget) -> String {
+    match budget.seconds() {
+        f64::INFINITY => "before the search was interrupted".into(),
+        seconds => format!("in {seconds} s"),
     }
 }
 
@@ -147,7 +171,7 @@ pub fn words_of(key: &str) -> Option<&'static str> {
 }
 
 /// What is said of an accuracy that is not met.
-fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
+fn unmet(reached: &Reached, accuracy: f64, budget: Budget) -> Option<String> {
     let (Level { points, steps, .. }, outcome) = (&reached.rung.level, &reached.rung.outcome);
     let why = match &reached.verdict {
         Verdict::Met => return None,
@@ -157,7 +181,8 @@ fn unmet(reached: &Reached, accuracy: f64, budget: f64) -> Option<String> {
                  means nothing"
             ));
         }
-        Verdict::OutOfTime => format!("in {budget} s"),
+        Verdict::OutOfTime => in_time(budget),
+        Verdict::Interrupted => in_time(Budget::UNLIMITED),
         Verdict::Finest => "even by the finest level".into(),
         Verdict::Stalled => format!(
             "because finer levels do not improve it; the scar is {:.1e} m deep, in a contact {:.1e} m deep",

@@ -103,7 +103,7 @@ fn begun(
     stop: &Stop,
     go_on: &dyn Fn() -> bool,
 ) -> Result<(Session, String), SessionError> {
-    let found = refinement::resolve(scenario, None, f64::INFINITY, go_on)?;
+    let found = refinement::resolve(scenario, None, refinement::Budget::UNLIMITED, go_on)?;
     let mut session = match found.ended {
         Some(ended) if *stop == Stop::default() => ended,
         _ => Session::start(found.scenario)?,

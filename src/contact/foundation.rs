@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::math::abel::dome::Dome;
 use crate::math::abel::field::Field;
+use crate::math::abel::kink;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::{ProductWeights, line_weights, weighted_first};
+use crate::math::quadrature::{ProductWeights, line_weights, weighted_each, weighted_first};
 use crate::math::scan::{leading, trailing};
 
 /// What pressing a profile to a depth gives, beside the line load itself.
@@ -21,7 +23,7 @@ pub struct NormalContact {
 /// Where the springs stand, and how loads on them add up.
 ///
 /// Loads are taken as linear in x² between springs, and kinked where the contact or the stick zone
-/// ends between two of them: the kinks of a [`Field`] say where.
+/// ends between two of them: the kinks of a [`Field`] say where, and its dome how a load ends at the edge of a scar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WinklerFoundation {
     grid: RadialGrid,
@@ -63,6 +65,21 @@ impl WinklerFoundation {
         let nodal = weighted_first(&self.weights, &load.nodal, contact.nodes);
         let kinked = nodal + load.between_nodes(self.grid.radius());
         2.0 * (kinked + self.cusp_integral(&load.nodal, contact))
+    }
+
+    /// A dome with what its integral has beyond that of its polyline.
+    pub fn measured(&self, dome: Dome) -> Dome {
+        let Dome { edge, last, .. } = dome;
+        let (weights, squares) = (&self.weights[..=last], &self.squares()[..=last]);
+        let nodal = weighted_each(
+            weights,
+            squares,
+            #[inline(always)]
+            move |t| (edge - t).max(0.0).sqrt(),
+        );
+        let hat = kink::line_integral(&dome.hat(self.squares()), self.grid.radius());
+        let beyond = dome.line_integral() - dome.height * nodal - hat;
+        Dome { beyond, ..dome }
     }
 
     /// What no force (N) of a line load of up to `strongest` (N/m) exceeds: finite where an f64 holds the force.
@@ -164,7 +181,6 @@ impl Tip {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::abel::kink;
 
     /// q = 1 − x and 1 − x², and their sum, up to a = 1 between two springs.
     #[test]

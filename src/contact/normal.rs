@@ -6,10 +6,15 @@
 //! The edge of the contact lies between two springs. The compression d − g is known on both sides of
 //! it, negative outside, so it is interpolated there, never extrapolated: exact for a paraboloid and a
 //! cone.
+//!
+//! At the end of a scar that is wrong: g rises like a root beyond it, 5 to 50 times as steeply as the load falls towards
+//! it, and a line from one to the other ends too early. The contact ends with the scar there, as far out as the loads
+//! inside lead to, and the load ends as a [dome](crate::math::abel::dome).
 
 use std::hint::select_unpredictable as select;
 
 use super::foundation::{NormalContact, WinklerFoundation};
+use crate::math::abel::dome::Dome;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::abel::product;
@@ -29,13 +34,25 @@ pub struct Springs<'a> {
     pub g: &'a [f64],
     /// Their stiffness a length, E*, Pa.
     pub modulus: f64,
+    /// Where a scar ends, t = r², m².
+    pub scar: Option<f64>,
 }
 
 /// Presses the profile to `depth` (m): writes the line `load` (N/m).
 pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContact {
-    let Springs { row, g, modulus } = springs;
-    let Field { nodal: q, kinks } = load;
+    let Springs {
+        row,
+        g,
+        modulus,
+        scar,
+    } = springs;
+    let Field {
+        nodal: q,
+        kinks,
+        dome,
+    } = load;
     kinks.clear();
+    *dome = None;
     let (xs, squares) = (row.nodes(), row.squares());
     let mut contact = NormalContact::default();
     let compression = |k: usize| modulus * (depth - g[k]);
@@ -57,8 +74,12 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
     // One side of an edge carries nothing, the other does.
     for k in changes(q, |&load| is_open(load)) {
         let ends = [compression(k - 1), compression(k)];
-        let edge = product::edge_square(&xs[k - 1..=k], &ends, 0, cusp);
+        let mut edge = product::edge_square(&xs[k - 1..=k], &ends, 0, cusp);
         let (left, right) = (squares[k - 1], squares[k]);
+        if let Some(scar) = scar.filter(|&scar| ends_at(scar, squares, k) && is_open(ends[1])) {
+            edge = edge_of_scar(&q[..k], squares, edge.max(scar));
+            *dome = Dome::fit(&q[..k], squares, edge).map(|dome| row.measured(dome));
+        }
         let share = (edge - left) / (right - left);
         if share > ON_A_SPRING && share < 1.0 - ON_A_SPRING {
             kink::polyline([left, right], [q[k - 1], q[k]], &[(edge, 0.0)], kinks);
@@ -70,29 +91,59 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
     }
     if q.last().is_some_and(|&load| load != 0.0) {
         (contact.nodes, contact.radius) = (q.len(), xs[q.len() - 1]);
+        // At a rim the load ends with a jump, and as it wears it falls to that like a root.
+        if scar.is_some() {
+            *dome = Dome::at_rim(q, squares).map(|dome| row.measured(dome));
+        }
     }
     contact
 }
 
-/// The depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth.
-/// `None` where the load is beyond what the row can carry at a depth below `deepest`.
+/// Whether a `scar` ends with the contact of the first k springs: in the same cell, or in the one before it while the
+/// outermost spring has not worn yet.
+fn ends_at(scar: f64, squares: &[f64], k: usize) -> bool {
+    k >= 2 && scar > squares[k - 2] && scar <= squares[k]
+}
+
+/// Where the contact of springs under the loads `q` ends, t = x² in m²: with the scar, or where the dome of the loads
+/// further in falls through the last one, if that has just touched and not worn yet; in any case where the last two loads
+/// fall to zero on a line in t, at the latest.
+fn edge_of_scar(q: &[f64], squares: &[f64], scar: f64) -> f64 {
+    let last = q.len() - 1;
+    let (from, load) = (squares[last], q[last]);
+    let of_dome = |dome: Dome| from + (load / dome.height).powi(2);
+    let touched = Dome::fit(&q[..last], squares, from).map_or(scar, of_dome);
+    let falls = (q[last - 1] - load) / (from - squares[last - 1]);
+    let led_to = if falls > 0.0 {
+        from + load / falls
+    } else {
+        f64::INFINITY
+    };
+    scar.max(touched).min(led_to).min(squares[last + 1])
+}
+
+/// The depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth, sought from a depth near it up to
+/// the `deepest`. `None` where the load is beyond what the row can carry there.
 pub fn depth_for_load(
     springs: Springs<'_>,
     load: f64,
-    deepest: f64,
+    [near, deepest]: [f64; 2],
     carried: &mut Field,
 ) -> Option<f64> {
     let shallowest = springs.g.iter().copied().fold(f64::INFINITY, f64::min);
     if load <= 0.0 {
         return Some(shallowest);
     }
-    root::bracketed(
+    // Every spring in contact adds its stiffness.
+    let slope = |radius: f64| 2.0 * springs.modulus * radius / load;
+    root::newton(
         |depth| {
             let contact = press(springs, depth, carried);
-            springs.row.force(carried, contact) / load - 1.0
+            let excess = springs.row.force(carried, contact) / load - 1.0;
+            [excess, slope(contact.radius)]
         },
-        shallowest,
-        deepest,
+        near,
+        [shallowest, deepest],
         1e-15 * deepest,
     )
 }
@@ -110,8 +161,13 @@ mod tests {
     }
 
     fn springs<'a>(row: &'a WinklerFoundation, g: &'a [f64]) -> Springs<'a> {
-        let modulus = 1.0;
-        Springs { row, g, modulus }
+        let (modulus, scar) = (1.0, None);
+        Springs {
+            row,
+            g,
+            modulus,
+            scar,
+        }
     }
 
     #[test]
@@ -129,13 +185,40 @@ mod tests {
         }
     }
 
+    /// An even pressure up to the edge a = 1 of a scar, and beyond it a gap that rises five times as steeply.
+    #[test]
+    fn the_load_on_a_scar_is_exact_wherever_it_ends() {
+        for cells in [7, 50, 123] {
+            let grid = RadialGrid::uniform(cells, 1.23).expect("a grid");
+            let row = WinklerFoundation::new(&grid);
+            let root = |t: f64| 5.0 * (t - 1.0).max(0.0).sqrt() - (1.0 - t).max(0.0).sqrt();
+            let g: Vec<f64> = grid.squares().iter().map(|&t| root(t)).collect();
+            let mut q = Field::zeros(g.len());
+            let scar = |end| Springs {
+                scar: end,
+                ..springs(&row, &g)
+            };
+            let force = |contact, q: &Field| row.force(q, contact) / std::f64::consts::FRAC_PI_2;
+            let contact = press(scar(Some(1.0)), 0.0, &mut q);
+            let exact = force(contact, &q);
+            assert!((contact.radius - 1.0).abs() < 1e-14, "{}", contact.radius);
+            assert!((exact - 1.0).abs() < 1e-13, "{exact}");
+            let dome = q.dome.expect("a dome");
+            assert!((dome.height - 1.0).abs() < 1e-12, "{}", dome.height);
+            // Without it the load ends too early, with too little.
+            let contact = press(scar(None), 0.0, &mut q);
+            assert!(contact.radius < 1.0 && q.dome.is_none());
+            assert!(force(contact, &q) < 1.0 - 1e-4);
+        }
+    }
+
     #[test]
     fn a_load_finds_its_depth() {
         let (row, g) = hertz(200);
         let mut q = Field::zeros(g.len());
         let contact = press(springs(&row, &g), 0.8, &mut q);
         let load = row.force(&q, contact);
-        let mut depth = |load| depth_for_load(springs(&row, &g), load, 1.5, &mut q);
+        let mut depth = |load| depth_for_load(springs(&row, &g), load, [0.0, 1.5], &mut q);
         assert!((depth(load).expect("a depth") - 0.8).abs() < 1e-12);
         assert_eq!(depth(0.0), Some(0.0));
         assert_eq!(depth(1e9), None);

@@ -9,6 +9,7 @@ use std::hint::select_unpredictable as select;
 use serde::{Deserialize, Serialize};
 
 use super::foundation::{NormalContact, WinklerFoundation};
+use crate::math::abel::dome::Dome;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::scan::{changes, leading};
@@ -57,6 +58,8 @@ pub struct SlipInput<'a> {
     pub foundation: &'a WinklerFoundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
+    /// How the load falls to zero at the end of a scar.
+    pub dome: Option<Dome>,
     /// Where the contact ends, and the largest of the load.
     pub contact: NormalContact,
     /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
@@ -160,8 +163,16 @@ pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState])
     let Field {
         nodal: spring,
         kinks,
+        dome,
     } = spring;
     kinks.clear();
+    // Springs that slip at the edge stand at their limit, which ends as the load does.
+    let outermost = input.contact.nodes.checked_sub(1);
+    let sign = outermost.and_then(|last| states[last].sign());
+    *dome = input
+        .dome
+        .zip(sign)
+        .map(|(dome, sign)| dome.scaled(sign * input.reach));
     let squares = input.foundation.squares();
     let mut stick_radius = None;
     if states
@@ -297,6 +308,7 @@ mod tests {
             let input = SlipInput {
                 foundation: &self.row,
                 normal_load: &self.load,
+                dome: None,
                 contact: Self::CONTACT,
                 reach,
                 before: &before,

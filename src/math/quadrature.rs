@@ -109,10 +109,21 @@ impl ProductWeights {
 ///
 /// Eight sums, so that no addition waits for the one before.
 pub fn weighted(weights: &[f64], values: &[f64]) -> f64 {
+    weighted_each(
+        weights,
+        values,
+        #[inline(always)]
+        |value| value,
+    )
+}
+
+/// The scalar product of weights and of what `of` makes of values, as many of the one as of the other.
+#[inline(always)]
+pub fn weighted_each(weights: &[f64], values: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     debug_assert_eq!(weights.len(), values.len());
     vectorized(
         #[inline(always)]
-        || eight_sums(weights, values),
+        || eight_sums(weights, values, of),
     )
 }
 
@@ -123,17 +134,17 @@ pub fn weighted_first(weights: &[f64], values: &[f64], count: usize) -> f64 {
 }
 
 #[inline(always)]
-fn eight_sums(weights: &[f64], values: &[f64]) -> f64 {
+fn eight_sums(weights: &[f64], values: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     let (weights, last_weights) = weights.as_chunks::<8>();
     let (values, last_values) = values.as_chunks::<8>();
     let mut sums = [0.0; 8];
     for (weights, values) in weights.iter().zip(values) {
         for ((sum, weight), value) in sums.iter_mut().zip(weights).zip(values) {
-            *sum += weight * value;
+            *sum += weight * of(*value);
         }
     }
     let last = last_weights.iter().zip(last_values);
-    let last: f64 = last.map(|(weight, value)| weight * value).sum();
+    let last: f64 = last.map(|(weight, value)| weight * of(*value)).sum();
     sums.iter().sum::<f64>() + last
 }
 

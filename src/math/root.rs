@@ -1,5 +1,5 @@
-//! A root of a monotone function: [`bracketed`], such as the load that a depth carries, solved for the depth; or
-//! [to the last bit](first), where speed does not matter.
+//! A root of a monotone function: by [`newton`] where its slope is known, such as the load that a depth carries, solved
+//! for the depth; by values alone if [`bracketed`]; or [to the last bit](first), where speed does not matter.
 
 /// The most evaluations a solve may take; a smooth monotone function needs about ten.
 const MAX_EVALUATIONS: usize = 200;
@@ -68,6 +68,47 @@ pub fn bracketed(
         }
     }
     Some(if at_a.abs() < at_b.abs() { a } else { b })
+}
+
+/// Finds x between `low` and `high` with `function(x)` = 0 by Newton's method from `near`, given that the function rises,
+/// and is negative at `low`. It returns its value and its slope; the slope may be rough.
+///
+/// A step that leaves the bracket is halved instead. Stops when a step is no longer than `tolerance` or the function is
+/// exactly zero. Returns `None` when the function is negative at `high` or a value is not finite.
+pub fn newton(
+    mut function: impl FnMut(f64) -> [f64; 2],
+    near: f64,
+    [low, high]: [f64; 2],
+    tolerance: f64,
+) -> Option<f64> {
+    let (mut below, mut above) = (low, f64::INFINITY);
+    let mut x = if near > low && near < high {
+        near
+    } else {
+        high
+    };
+    for _ in 0..MAX_EVALUATIONS {
+        let [value, slope] = function(x);
+        if !value.is_finite() || value < 0.0 && x >= high {
+            return None;
+        }
+        if value < 0.0 {
+            below = x;
+        } else {
+            above = x;
+        }
+        let next = (x - value / slope).min(high);
+        if (next - x).abs() <= tolerance || above - below <= tolerance {
+            return Some(x);
+        }
+        let is_inside = next > below && next < above;
+        x = if is_inside {
+            next
+        } else {
+            0.5 * (below + above.min(high))
+        };
+    }
+    Some(x)
 }
 
 /// The first number in an interval from which on `beyond` holds, by halving; its upper end if that is nowhere.

@@ -6,6 +6,7 @@ pub mod fatigue;
 mod limits;
 mod log;
 pub mod observation;
+mod scar_end;
 pub mod subsurface;
 
 pub use checks::{Check, Subject, verdict};

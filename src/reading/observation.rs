@@ -7,9 +7,11 @@ use serde::Serialize;
 use strum::IntoStaticStr;
 
 use super::cycle_figures::sensed;
+use super::scar_end;
 use super::subsurface::SpringLoad;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
+use crate::math::abel::dome::Dome;
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::volume_of_revolution;
@@ -138,6 +140,8 @@ pub struct Observation {
     pub normal_load: Vec<f64>,
     /// q_x, N/m.
     pub tangential_load: Vec<f64>,
+    /// How both loads fall to zero at the end of a scar.
+    pub domes: [Option<Dome>; 2],
     /// u_x of the springs, m.
     pub spring: Vec<f64>,
     /// p, Pa.
@@ -163,13 +167,12 @@ impl Observation {
     /// The springs' load on a half-space of Poisson's ratio `poisson`, which its stresses follow from;
     /// needs [`Curves::SPRINGS`], without which nothing is loaded.
     pub fn spring_load(&self, poisson: f64) -> SpringLoad {
-        SpringLoad::new(
-            &self.radii,
-            &self.normal_load,
-            &self.tangential_load,
-            self.moment.contact_radius,
-            poisson,
-        )
+        let [of_normal, of_tangential] = self.domes;
+        let normal = (&self.normal_load[..], of_normal);
+        let tangential = (&self.tangential_load[..], of_tangential);
+        let [nodes, normal, tangential] = scar_end::divided(&self.radii, [normal, tangential]);
+        let radius = self.moment.contact_radius;
+        SpringLoad::new(&nodes, &normal, &tangential, radius, poisson)
     }
 }
 
@@ -215,7 +218,8 @@ impl Simulation {
     }
 
     /// 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs
-    /// of the 1D side. None without load. Between nodes p is linear in r², and a root towards the edge.
+    /// of the 1D side. None without load. Between nodes p is linear in r², and falls like a root towards the edge, but
+    /// for that of a dome, which is even.
     pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
         let contact = &self.state().contact.normal;
         let force = self.state().contact.normal_force(self.model());
@@ -226,7 +230,9 @@ impl Simulation {
         let last = contact.nodes - 1;
         let inside = volume_of_revolution(&nodes[..=last], &pressure[..=last]);
         let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
-        let edge = std::f64::consts::PI * ring * 2.0 / 3.0 * pressure[last];
+        let load = &self.state().contact.load;
+        let even = load.dome.map_or(0.0, |dome| dome.stress());
+        let edge = std::f64::consts::PI * ring * (even + 2.0 / 3.0 * (pressure[last] - even));
         Some(1.0 - (inside + edge) / force)
     }
 
@@ -251,6 +257,7 @@ impl Simulation {
             }
         };
         let modulus = self.setup().material.tangential_modulus();
+        let with_loads = curves.intersects(Curves::SPRINGS);
         let worn = || -> Vec<f64> {
             let unworn = model.unworn.iter();
             unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
@@ -270,12 +277,16 @@ impl Simulation {
                 let springs = or_zero(&contact.spring.nodal);
                 springs.iter().map(|u| modulus * u).collect()
             }),
+            domes: [
+                contact.load.dome.filter(|_| with_loads),
+                contact.spring.dome.map(|dome| dome.scaled(modulus)),
+            ],
             spring: when(Curves::SPRINGS, &|| or_zero(&contact.spring.nodal)),
             pressure: when(Curves::PRESSURE, &|| self.pressure()),
             shear: when(Curves::SHEAR, &|| {
                 let mut out = vec![0.0; nodes];
                 if with_springs {
-                    traction::shear(model, contact, 0, &mut out);
+                    traction::shear_to_read(model, contact, &mut out);
                 }
                 out
             }),

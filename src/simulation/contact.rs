@@ -6,6 +6,7 @@ use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
 use super::drive::{Target, Targets};
 use super::model::Model;
+use super::profile::Profile;
 use crate::contact::foundation::NormalContact;
 use crate::contact::normal;
 use crate::contact::tangential::{self, SlipInput, SpringState};
@@ -79,16 +80,19 @@ impl Contact {
 #[derive(Clone, Copy)]
 pub(super) struct Problem<'a> {
     model: &'a Model,
-    /// The 1D profile, m.
-    g: &'a [f64],
+    profile: &'a Profile,
     /// Where the springs stood.
     before: &'a Contact,
 }
 
 impl<'a> Problem<'a> {
-    /// That of springs on the profile `g` (m), which stood as in the contact `before`.
-    pub fn on(model: &'a Model, g: &'a [f64], before: &'a Contact) -> Self {
-        Self { model, g, before }
+    /// That of springs on a `profile`, which stood as in the contact `before`.
+    pub fn on(model: &'a Model, profile: &'a Profile, before: &'a Contact) -> Self {
+        Self {
+            model,
+            profile,
+            before,
+        }
     }
 
     /// Presses and shifts the indenter to what the drive asks for. Writes the contact `after`, and how far each
@@ -121,13 +125,13 @@ impl<'a> Problem<'a> {
 
     /// Presses the indenter to a target. The tangential springs stay as they are.
     fn press(self, target: Target, contact: &mut Contact) -> Result<(), Cause> {
-        let Self { model, g, .. } = self;
+        let Self { model, profile, .. } = self;
         let setup = &model.setup;
         let depth = self.depth_at(target, contact)?;
         let modulus = setup.material.normal_modulus();
         let normal = normal::press(self.springs(), depth, &mut contact.load);
         if !model.foundation.most_force(normal.strongest).is_finite() {
-            if g.iter().all(|g| g.is_finite()) {
+            if profile.g.iter().all(|g| g.is_finite()) {
                 return Err(Cause::Overflow { depth });
             }
             return Err(Cause::NotFinite {
@@ -159,8 +163,12 @@ impl<'a> Problem<'a> {
 
     /// The depth, m: prescribed, or the one that carries the prescribed force.
     fn depth_at(self, target: Target, contact: &mut Contact) -> Result<f64, Cause> {
-        let Self { model, g, .. } = self;
-        let setup = &model.setup;
+        let Self {
+            model,
+            profile,
+            before,
+        } = self;
+        let (g, setup) = (&profile.g, &model.setup);
         let force = match target {
             Target::Displacement(depth) => return Ok(depth),
             Target::Force(force) => force,
@@ -171,8 +179,8 @@ impl<'a> Problem<'a> {
             Some(rim) => largest(g) + 2.0 * (force / (2.0 * modulus * rim)).abs(),
             None => g[setup.grid.cells()],
         };
-        let load = &mut contact.load;
-        normal::depth_for_load(self.springs(), force, deepest, load).ok_or(Cause::LoadTooLarge {
+        let (load, around) = (&mut contact.load, [before.depth, deepest]);
+        normal::depth_for_load(self.springs(), force, around, load).ok_or(Cause::LoadTooLarge {
             force,
             domain_radius: setup.grid.radius(),
         })
@@ -182,18 +190,24 @@ impl<'a> Problem<'a> {
     fn springs(self) -> normal::Springs<'a> {
         normal::Springs {
             row: &self.model.foundation,
-            g: self.g,
+            g: &self.profile.g,
             modulus: self.model.setup.material.normal_modulus(),
+            scar: self.profile.scar,
         }
     }
 
     /// Moves the tangential springs by `increment` (m) from where they stood before.
     fn shift_by(self, increment: f64, after: &mut Contact, slip: &mut [f64]) {
-        let Self { model, g, before } = self;
+        let Self {
+            model,
+            profile,
+            before,
+        } = self;
         let material = &model.setup.material;
         let input = SlipInput {
             foundation: &model.foundation,
             normal_load: &after.load.nodal,
+            dome: after.load.dome,
             contact: after.normal,
             reach: material.reach(),
             before: &before.spring.nodal,
@@ -205,7 +219,7 @@ impl<'a> Problem<'a> {
         if model.setup.scheme == Scheme::Trapezoid {
             let depths = [before.depth, after.depth];
             let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
-            tangential::take_along_late(input, increment, depths, g, springs);
+            tangential::take_along_late(input, increment, depths, &profile.g, springs);
         }
         after.stick_radius = Some(tangential::borders(input, spring, states));
     }

@@ -18,6 +18,7 @@
 
 use super::contact::{Contact, Problem};
 use super::moments::{Touch, rounding};
+use super::profile::Profile;
 use super::{Cause, Simulation};
 
 /// Pairs of steps per cycle of the faster motion, before any is halved.
@@ -114,8 +115,7 @@ impl Simulation {
 /// A way through the motion, step by step.
 struct Passage<'a> {
     simulation: &'a Simulation,
-    /// g, m.
-    g: Vec<f64>,
+    profile: Profile,
     touch: Touch,
     cycle: f64,
     contact: Contact,
@@ -131,12 +131,13 @@ impl<'a> Passage<'a> {
         if setup.springs() == 0 {
             return None;
         }
-        let g = simulation.profile_1d();
+        let worn = [&state.wear[..], &state.image];
+        let profile = Profile::of_worn(simulation.model(), worn);
         let contact = state.contact.clone();
         let mut passage = Self {
             simulation,
-            touch: Touch::on(setup, state, g.iter().copied()),
-            g,
+            touch: Touch::on(setup, state, profile.g.iter().copied()),
+            profile,
             cycle,
             spare: [contact.clone(), contact.clone()],
             contact,
@@ -157,7 +158,7 @@ impl<'a> Passage<'a> {
             0 => (&self.contact, first),
             _ => (&*first, second),
         };
-        Problem::on(model, &self.g, before).solve(targets, after, &mut self.slip)
+        Problem::on(model, &self.profile, before).solve(targets, after, &mut self.slip)
     }
 
     /// Goes to the cycle `end` in `pairs` of steps per cycle of the faster motion; returns the moments on the way, this

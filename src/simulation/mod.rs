@@ -58,6 +58,7 @@ mod fine_period;
 mod model;
 mod moments;
 pub(crate) mod placing;
+mod profile;
 mod reconfigure;
 pub mod running_in;
 mod saved;
@@ -74,6 +75,7 @@ pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
 pub use fine_period::{FinePeriod, PeriodPoint};
 pub(crate) use model::Model;
+use profile::Profile;
 pub use reconfigure::Domain;
 pub use saved::{Saved, Unfit};
 pub use setup::Setup;
@@ -340,9 +342,9 @@ impl Simulation {
         let (before, springs) = (&self.spare[0], model.springs());
         let cycle = before.cycle + share * (self.state.cycle - before.cycle);
         let mut contact = contact::Contact::new(model.nodes(), springs);
-        let (mut g, mut slip) = (vec![0.0; model.nodes()], vec![0.0; springs]);
-        model.profile(&before.image, 0.0, &[], &mut g);
-        let problem = contact::Problem::on(model, &g, &before.contact);
+        let mut slip = vec![0.0; springs];
+        let profile = Profile::of_worn(model, [&before.wear, &before.image]);
+        let problem = contact::Problem::on(model, &profile, &before.contact);
         let targets = model.setup.drive.targets(cycle);
         problem.solve(targets, &mut contact, &mut slip).ok()?;
         Some(contact)
@@ -350,9 +352,7 @@ impl Simulation {
 
     /// g at the nodes, m, of the present profile.
     pub(crate) fn profile_1d(&self) -> Vec<f64> {
-        let mut g = vec![0.0; self.model.nodes()];
-        self.model.profile(&self.state.image, 0.0, &[], &mut g);
-        g
+        Profile::of_worn(&self.model, [&self.state.wear, &self.state.image]).g
     }
 
     /// p(r), Pa, of the present moment: one transform.

@@ -121,6 +121,17 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
             return Err(Unfit::new(what, "do not lie in the grid"));
         }
     }
+    let domes = [contact.spring.dome, contact.load.dome];
+    if !domes
+        .iter()
+        .flatten()
+        .all(|dome| dome.fits(setup.grid.squares()))
+    {
+        return Err(Unfit::new(
+            "edge of the contact",
+            "does not lie in the grid",
+        ));
+    }
     if contact.normal.nodes > nodes {
         return Err(Unfit::new("contact", "reaches beyond the grid"));
     }

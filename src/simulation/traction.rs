@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
 use super::model::Model;
+use crate::math::abel::field::Field;
 use crate::math::vector::vectorized;
 
 /// p of a solved contact, Pa, at the nodes: as far inwards as a step has needed it.
@@ -28,25 +29,62 @@ impl Pressure {
         self.nodal.fill(0.0);
     }
 
-    /// Becomes that of a contact from the node `first` on.
-    pub(super) fn find(&mut self, model: &Model, contact: &Contact, first: usize) {
-        let (plan, grid, touching) = (&model.plan, &model.grid, contact.normal.nodes);
-        let p = &mut self.nodal;
-        self.from = contact.load.stress_from(first, plan, grid, touching, p);
-        p[..self.from].fill(0.0);
+    /// Becomes that of a contact from the node `first` on. `rest` is overwritten.
+    pub(super) fn find(
+        &mut self,
+        model: &Model,
+        contact: &Contact,
+        first: usize,
+        rest: &mut Vec<f64>,
+    ) {
+        let out = (&mut self.nodal[..], rest);
+        self.from = stress(model, contact, &contact.load, first, out);
+        self.nodal[..self.from].fill(0.0);
     }
 }
 
-/// p, Pa, of the solved contact.
+/// p, Pa, of the solved contact, to be read.
 pub(crate) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
-    let touching = contact.normal.nodes;
-    contact.load.stress(&model.plan, &model.grid, touching, out);
+    stress(model, contact, &contact.load, 0, (out, &mut Vec::new()));
+    smooth_end(&contact.load, out);
 }
 
-/// τ, Pa, of the solved contact, from the node `first` on.
-pub(crate) fn shear(model: &Model, contact: &Contact, first: usize, out: &mut [f64]) {
-    let (plan, grid, touching) = (&model.plan, &model.grid, contact.normal.nodes);
-    contact.spring.stress_from(first, plan, grid, touching, out);
+/// τ, Pa, of the solved contact, to be read.
+pub(crate) fn shear_to_read(model: &Model, contact: &Contact, out: &mut [f64]) {
+    shear(model, contact, 0, (out, &mut Vec::new()));
+    smooth_end(&contact.spring, out);
+}
+
+/// Takes down the stress at the last node of a scar over which the edge has just passed: until it has worn, it bears more
+/// than its share. Where the stress rises towards the edge, as under a load that oscillates, it is left as it is.
+fn smooth_end(field: &Field, stress: &mut [f64]) {
+    let Some(dome) = field.dome else { return };
+    if let [before, next, end] = &mut stress[dome.last.saturating_sub(2)..=dome.last]
+        && next.abs() <= before.abs()
+    {
+        *end = end.clamp(-next.abs(), next.abs());
+    }
+}
+
+/// Eq. (3) of a `field` of a contact, see [`Field::stress_from`].
+fn stress(
+    model: &Model,
+    contact: &Contact,
+    field: &Field,
+    first: usize,
+    out: (&mut [f64], &mut Vec<f64>),
+) -> usize {
+    field.stress_from(first, &model.plan, &model.grid, contact.normal.nodes, out)
+}
+
+/// τ, Pa, of the solved contact, from the node `first` on. `rest` is overwritten.
+pub(crate) fn shear(
+    model: &Model,
+    contact: &Contact,
+    first: usize,
+    (out, rest): (&mut [f64], &mut Vec<f64>),
+) {
+    stress(model, contact, &contact.spring, first, (&mut *out, rest));
     let modulus = model.setup.material.tangential_modulus();
     vectorized(
         #[inline(always)]

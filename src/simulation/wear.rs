@@ -27,9 +27,6 @@ use crate::math::abel::kink;
 use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::{vectorized, write_each};
 
-/// The most times its own wear that the last node in contact is given to balance the work of friction.
-const MOST_BALANCED: f64 = 2.0;
-
 /// What a step wears, and by what.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Increment {
@@ -51,6 +48,8 @@ pub(super) struct Increment {
     rubbing: Field,
     /// τ at both ends of a step, Pa, where it has been computed.
     shear_at_ends: [Vec<f64>; 2],
+    /// A load without its dome, N/m, while it is transformed.
+    pub rest: Vec<f64>,
 }
 
 impl Increment {
@@ -143,9 +142,6 @@ impl Increment {
         self.nodes = stuck..self.depth.len();
         self.wear(model, 1.0);
         self.rub(model, [contact, contact]);
-        if stuck == 0 {
-            self.balance_edge(model, contact.normal.nodes);
-        }
     }
 
     /// The work of friction 2∫ μ (q_n + q_{n+1})/2 |Δs| dx: what each spring that slips turns into heat.
@@ -179,24 +175,6 @@ impl Increment {
         self.friction_work = friction * between_springs * at_edge + in_cells;
     }
 
-    /// Makes the last of the nodes that `touch` wear what friction works there, where nothing sticks for ever.
-    ///
-    /// p falls to zero like a root within the cell of the edge, and p of the last node may be many times that of its
-    /// cells, the nearer the edge is to it. A line from there to the next node would wear more than the load in the
-    /// cells does work. Where a part sticks, the wear next to its border has an error of its own, which is none of the
-    /// edge's. What is missing beyond [`MOST_BALANCED`] is not the edge's either, and is left for V = k E_d to show.
-    pub fn balance_edge(&mut self, model: &Model, touch: usize) {
-        let Some(last) = touch.checked_sub(1) else {
-            return;
-        };
-        let weights = &model.volume_weights;
-        let work = |j: usize| weights[j] * (self.shear[j] * self.surface_slip[j]).max(0.0);
-        let excess = self.nodes.clone().map(work).sum::<f64>() - self.friction_work;
-        if work(last) > 0.0 {
-            self.depth[last] *= (1.0 - excess / work(last)).clamp(0.0, MOST_BALANCED);
-        }
-    }
-
     /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.
     pub fn rub_explicitly(&mut self, model: &Model, contact: &Contact) {
         let modulus = model.setup.material.tangential_modulus();
@@ -204,7 +182,7 @@ impl Increment {
         let end = contact.normal.nodes;
         let states = &contact.spring_state[..end];
         let first = leading(states, |&state| state == SpringState::Stick);
-        let Field { nodal, kinks } = &mut self.rubbing;
+        let Field { nodal, kinks, .. } = &mut self.rubbing;
         nodal[..first].fill(0.0);
         nodal[end..].fill(0.0);
         write_each(
@@ -269,7 +247,12 @@ impl Increment {
             return 0;
         }
         for (contact, shear) in contacts.into_iter().zip(&mut self.shear_at_ends) {
-            traction::shear(model, contact, nodes.start, shear);
+            traction::shear(
+                model,
+                contact,
+                nodes.start,
+                (&mut shear[..], &mut self.rest),
+            );
         }
         let [was, is] = self
             .shear_at_ends

@@ -62,6 +62,7 @@ mod regressions;
 #[cfg(unix)]
 mod resume;
 mod rigs;
+mod ring_code;
 mod scenarios;
 mod screens;
 mod second_code;

@@ -1,13 +1,14 @@
-//! A nodal field with its kinks, and its images.
+//! A nodal field with its kinks and its dome, and its images.
 //!
 //! Line loads and spring displacements are linear in t = x² between nodes, except for [kinks](super::kink) between two
-//! of them, at the stick border and at the contact's edge. A [`Field`] owns them, so that every image and integral has
-//! them.
+//! of them, at the stick border and at the contact's edge, and for a [dome](super::dome), as which they end at the edge of
+//! a scar. A [`Field`] owns them, so that every image and integral has them.
 //!
-//! The published methods use nodal values only: their images ignore the kinks.
+//! The published methods use nodal values only: their images ignore kinks and dome.
 
 use serde::{Deserialize, Serialize};
 
+use super::dome::Dome;
 use super::kink::{self, Kink};
 use super::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
@@ -19,6 +20,8 @@ pub struct Field {
     pub nodal: Vec<f64>,
     /// In the unit of the values per m², from the tip outwards, hat by hat.
     pub kinks: Vec<Kink>,
+    /// How the values fall to zero where a scar ends, if they do so like a root.
+    pub dome: Option<Dome>,
 }
 
 impl Field {
@@ -27,45 +30,75 @@ impl Field {
         Self {
             nodal: vec![0.0; nodes],
             kinks: Vec::new(),
+            dome: None,
         }
     }
 
     /// Eq. (2): the surface displacement `w` (m, N + 1 values) of springs that stand at the field's values (m).
     pub fn displacement(&self, plan: &AbelPlan, grid: &RadialGrid, w: &mut [f64]) {
-        plan.displacement(&self.nodal, w);
+        let (dome, mut rest) = (self.dome_for(plan), Vec::new());
+        plan.displacement(self.without(dome, grid, &mut rest), w);
         if has_kinks(plan) {
             kink::add_to_displacement(&self.kinks, grid, w);
         }
+        if let Some(dome) = dome {
+            let hat = dome.scaled(-1.0).hat(grid.squares());
+            kink::add_to_displacement(&hat, grid, w);
+            for (w, &t) in w.iter_mut().zip(grid.squares()) {
+                *w += dome.displacement(t);
+            }
+        }
     }
 
-    /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m), and nothing beyond the first `touching`
-    /// nodes.
-    pub fn stress(&self, plan: &AbelPlan, grid: &RadialGrid, touching: usize, p: &mut [f64]) {
-        self.stress_from(0, plan, grid, touching, p);
-    }
-
-    /// The same from the node `first` on, or from one before it, which is returned.
+    /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m) from the node `first` on, or from one before
+    /// it, which is returned; nothing beyond the first `touching` nodes. `rest` is overwritten, whatever its length.
     pub fn stress_from(
         &self,
         first: usize,
         plan: &AbelPlan,
         grid: &RadialGrid,
         touching: usize,
-        p: &mut [f64],
+        (p, rest): (&mut [f64], &mut Vec<f64>),
     ) -> usize {
-        let first = plan.stress_from(first, &self.nodal, p);
+        let dome = self.dome_for(plan);
+        let first = plan.stress_from(first, self.without(dome, grid, rest), p);
         if has_kinks(plan) && first < p.len() {
             let (within, beyond) = p.split_at_mut(touching.max(first));
-            kink::add_to_stress(&self.kinks, &grid.squares()[first..], &mut within[first..]);
+            let (squares, within) = (&grid.squares()[first..], &mut within[first..]);
+            kink::add_to_stress(&self.kinks, squares, within);
+            if let Some(dome) = dome {
+                let hat = dome.scaled(-1.0).hat(grid.squares());
+                kink::add_to_stress(&hat, squares, within);
+                within.iter_mut().for_each(|p| *p += dome.stress());
+            }
             // Kinks cancel there but for rounding.
             beyond.fill(0.0);
         }
         first
     }
 
-    /// ∫ dx of what the kinks add to the chords between the nodes, from the tip to `radius` (m).
+    /// ∫ dx of what the kinks and the dome add to the chords between the nodes, from the tip to `radius` (m).
     pub fn between_nodes(&self, radius: f64) -> f64 {
-        kink::line_integral(&self.kinks, radius)
+        kink::line_integral(&self.kinks, radius) + self.dome.map_or(0.0, |dome| dome.beyond)
+    }
+
+    /// The dome, for a method that takes it into account.
+    fn dome_for(&self, plan: &AbelPlan) -> Option<Dome> {
+        self.dome.filter(|_| has_kinks(plan))
+    }
+
+    /// The nodal values without a dome, in `rest` if there is one.
+    fn without<'a>(
+        &'a self,
+        dome: Option<Dome>,
+        grid: &RadialGrid,
+        rest: &'a mut Vec<f64>,
+    ) -> &'a [f64] {
+        let Some(dome) = dome else {
+            return &self.nodal;
+        };
+        dome.take_from(&self.nodal, grid.squares(), rest);
+        rest
     }
 }
 
@@ -85,6 +118,7 @@ mod tests {
         let mut field = Field {
             nodal: t.iter().map(|t| (1.0 - t).max(0.0)).collect(),
             kinks: Vec::new(),
+            dome: None,
         };
         let touching = x.partition_point(|&x| x < 1.0);
         let (cell, values) = ([touching - 1, touching], &field.nodal);
@@ -103,12 +137,51 @@ mod tests {
         let plan = AbelPlan::new(AbelMethod::Product, &grid);
         let (field, touching) = load(&grid);
         let mut p = vec![f64::NAN; grid.len()];
-        field.stress(&plan, &grid, touching, &mut p);
+        let mut rest = Vec::new();
+        field.stress_from(0, &plan, &grid, touching, (&mut p, &mut rest));
         for (&t, p) in grid.squares().iter().zip(&p) {
             let exact = FRAC_2_PI * (1.0 - t).max(0.0).sqrt();
             assert!((p - exact).abs() < 1e-13, "{t}: {p} {exact}");
         }
         assert!(p[touching..].iter().all(|&p| p == 0.0));
+    }
+
+    /// An even pressure and that of Hertz, up to an edge between two nodes.
+    #[test]
+    fn a_load_with_a_dome_has_its_images() {
+        let grid = RadialGrid::graded(90, 0.4, 1.37).expect("a grid");
+        let (mut field, touching) = load(&grid);
+        let squares = grid.squares();
+        for (q, t) in field.nodal.iter_mut().zip(squares) {
+            *q += 0.3 * (1.0 - t).max(0.0).sqrt();
+        }
+        let inner = field.nodal[touching - 1];
+        let cell = [touching - 1, touching].map(|j| squares[j]);
+        field.kinks = kink::hat(cell, inner, 1.0).to_vec();
+        field.dome = Dome::fit(&field.nodal[..touching], squares, 1.0);
+        let plan = AbelPlan::new(AbelMethod::Product, &grid);
+        let (mut p, mut w) = (vec![f64::NAN; grid.len()], vec![f64::NAN; grid.len()]);
+        field.stress_from(0, &plan, &grid, touching, (&mut p, &mut Vec::new()));
+        field.displacement(&plan, &grid, &mut w);
+        for ((&t, p), w) in squares.iter().zip(&p).zip(&w) {
+            let inside = FRAC_2_PI * (1.0 - t).max(0.0).sqrt() + if t < 1.0 { 0.15 } else { 0.0 };
+            assert!((p - inside).abs() < 1e-12, "{t}: {p} {inside}");
+            let hertz = match t < 1.0 {
+                true => 1.0 - 0.5 * t,
+                false => {
+                    let root = (t - 1.0).sqrt();
+                    FRAC_2_PI * ((1.0 - 0.5 * t) * root.recip().atan() + 0.5 * root)
+                }
+            };
+            let dome = Dome {
+                height: 0.3,
+                edge: 1.0,
+                last: 0,
+                beyond: 0.0,
+            };
+            let exact = hertz + dome.displacement(t);
+            assert!((w - exact).abs() < 1e-12, "{t}: {w} {exact}");
+        }
     }
 
     #[test]
@@ -120,7 +193,8 @@ mod tests {
             p.resize(grid.len(), f64::NAN);
             p
         });
-        field.stress(&plan, &grid, touching, &mut p);
+        let mut rest = Vec::new();
+        field.stress_from(0, &plan, &grid, touching, (&mut p, &mut rest));
         plan.stress(&field.nodal, &mut nodal);
         assert_eq!(p, nodal);
     }

@@ -75,6 +75,26 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], kinks: &mut Vec<
     }
 }
 
+/// The kinks of a cell from `t[0]` to `t[1]` whose profile falls from `height` to zero at `end` and stays there, relative
+/// to the chord; without jumps where that is on a node.
+pub fn hat(t: [f64; 2], height: f64, end: f64) -> [Kink; 3] {
+    let least = CLOSEST * (t[1] - t[0]);
+    let is_inside = end > t[0] + least && end < t[1] - least;
+    let chord = -height / (t[1] - t[0]);
+    let falls = if is_inside {
+        -height / (end - t[0])
+    } else {
+        chord
+    };
+    let last = if is_inside { 0.0 } else { chord };
+    let jumps = [
+        (t[0], falls - chord),
+        (end, last - falls),
+        (t[1], chord - last),
+    ];
+    jumps.map(|(at, jump)| Kink { at, jump })
+}
+
 /// Whether kinks that come from a file are hats on this grid: each begins inside it and goes on to the outer node of
 /// its cell at most.
 pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
@@ -203,6 +223,19 @@ mod tests {
         let hats = line_integral(&kinks, grid.radius());
         let missing = integral(&nodes, &fine) - integral(grid.nodes(), &values);
         assert!((hats - missing).abs() < 1e-14, "{hats} {missing}");
+    }
+
+    #[test]
+    fn a_hat_is_a_polyline_to_zero() {
+        for end in [1.2, 1.0, 2.0, 2.5] {
+            let mut kinks = Vec::new();
+            polyline([1.0, 2.0], [0.7, 0.0], &[(end, 0.0)], &mut kinks);
+            let hat = hat([1.0, 2.0], 0.7, end);
+            match kinks.is_empty() {
+                true => assert!(hat.iter().all(|kink| kink.jump == 0.0)),
+                false => assert_eq!(kinks, hat),
+            }
+        }
     }
 
     #[test]

@@ -13,8 +13,8 @@
 //!
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
-//! [`kink`] adds what a kink between two nodes does, and [`worn`] transforms the worn part of a profile that has a
-//! permanent stick zone. A [`field`] is nodal values with their kinks, and has all its images.
+//! [`kink`] adds what a kink between two nodes does, [`dome`] what a load does that ends like a root, and [`worn`] transforms the worn part of a profile that has a
+//! permanent stick zone. A [`field`] is nodal values with their kinks and their dome, and has all its images.
 //!
 //! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, and with a border a fourth,
 //! for Eq. (1) of the worn depth, made once for a grid and applied with the caller's buffers. The dense form of each is a
@@ -60,6 +60,7 @@ use fast::{Inwards, Outwards, Worn};
 pub mod a;
 pub mod b;
 pub mod benad;
+pub mod dome;
 pub mod fast;
 pub mod field;
 mod kernel;

@@ -103,7 +103,10 @@ pub(in super::super) fn jump(
     let mut memory = state.clone();
     let first = match memory.jump.settled.take() {
         Some(first) => first,
-        None => steady_cycle::cycle(model, &mut memory, next, scratch, &state.image)?,
+        None => {
+            let worn = [&state.wear[..], &state.image];
+            steady_cycle::cycle(model, &mut memory, next, scratch, worn)?
+        }
     };
     let springs = memory.clone();
     let mut search = Search {
@@ -255,7 +258,7 @@ impl Search<'_> {
         let mut look = |memory: &mut State, wear: &[f64], image: &mut [f64]| {
             model.plan.image(wear, image);
             memory.stats.transforms += 1;
-            steady_cycle::cycle(model, memory, spare, scratch, image)
+            steady_cycle::cycle(model, memory, spare, scratch, [wear, image])
         };
         let stage = |y: &[f64], out: &mut [f64]| {
             let steady = look(memory, &y[..nodes], &mut image)?;

@@ -34,7 +34,8 @@ pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scr
         model.plan.displacement(&increment.slip, surface_slip);
         let first = leading(surface_slip, |&slip| slip == 0.0);
         increment.nodes = first..end;
-        traction::shear(model, contact, 0, &mut increment.shear);
+        let out = (&mut increment.shear[..], &mut increment.rest);
+        traction::shear(model, contact, 0, out);
         scratch.transforms += 2;
         increment.wear(model, model.seconds(cycle - state.cycle));
     }

@@ -1,8 +1,8 @@
 //! One step in time: a function from a state to the next one.
 //!
 //! ```text
-//! g        = model.profile(state.image)            Eq. (1), Model::profile
-//! contact  = Problem(g, state.contact).solve()     the springs of both directions
+//! profile  = Profile::find(state)                 Eq. (1)
+//! contact  = Problem(profile, state.contact).solve()     the springs of both directions
 //! stress   = traction::{Pressure, shear}(contact)  Eq. (3)
 //! wear     = increment.wear(stress, slip)          Eqs. (2) and (15)
 //! next     = accept(state, contact, wear)
@@ -21,6 +21,7 @@ use super::contact;
 use super::drive::Control;
 use super::model::Model;
 use super::moments::Period;
+use super::profile::Profile;
 use super::setup::Setup;
 use super::state::State;
 use super::traction::Pressure;
@@ -40,8 +41,8 @@ pub(super) use substep::step;
 /// What the phases of a step write into and nobody reads afterwards.
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
-    /// The 1D profile that the contact is solved on, m.
-    pub(super) g: Vec<f64>,
+    /// What the contact is solved on.
+    pub(super) profile: Profile,
     pub(super) increment: Increment,
     /// Of the contact that a step begins with, where the state has too little of it.
     pub(super) pressure: Pressure,
@@ -54,7 +55,7 @@ pub(super) struct Scratch {
 impl Scratch {
     pub(super) fn new(model: &Model) -> Self {
         Self {
-            g: vec![0.0; model.nodes()],
+            profile: Profile::new(model),
             increment: Increment::new(model),
             pressure: Pressure::unknown(model.springs()),
             period: Period::default(),
@@ -77,9 +78,9 @@ const RUNAWAY: f64 = 10.0;
 /// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
 pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) -> Result<(), Cause> {
     model.plan.image(&state.wear, &mut state.image);
-    model.profile(&state.image, 0.0, &[], &mut scratch.g);
+    scratch.profile.find(model, [&state.wear, &state.image]);
     let mut solved = state.contact.clone();
-    let problem = contact::Problem::on(model, &scratch.g, &state.contact);
+    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
     let targets = model.setup.drive.targets(state.cycle);
     problem.solve(targets, &mut solved, &mut scratch.increment.slip)?;
     state.contact = solved;

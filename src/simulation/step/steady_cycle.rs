@@ -33,17 +33,17 @@ use crate::math::vector::add_to;
 /// A motion has turned where it has come no further since than this part of its amplitude.
 const AT_TURN: f64 = 1e-9;
 
-/// What a cycle does once the springs have shaken down on the worn depth of 1D image `image` (m), on average over the
-/// period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
+/// What a cycle does once the springs have shaken down on the depth `worn` (m) with its 1D image (m), on average
+/// over the period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
 /// they are. `spare` is overwritten.
 pub(super) fn cycle(
     model: &Model,
     memory: &mut State,
     spare: &mut State,
     scratch: &mut Scratch,
-    image: &[f64],
+    worn: [&[f64]; 2],
 ) -> Result<SteadyCycle, Cause> {
-    model.profile(image, 0.0, &[], &mut scratch.g);
+    scratch.profile.find(model, worn);
     let now = memory.cycle;
     let outcome = match plain_swing(&model.setup) {
         Some(swing) => plain_cycle(model, memory, spare, scratch, swing),
@@ -71,7 +71,7 @@ fn solve(
     scratch: &mut Scratch,
     targets: Targets,
 ) -> Result<(), Cause> {
-    let problem = contact::Problem::on(model, &scratch.g, &memory.contact);
+    let problem = contact::Problem::on(model, &scratch.profile, &memory.contact);
     problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
 }
 
@@ -89,7 +89,7 @@ fn period(
     scratch: &mut Scratch,
 ) -> Result<SteadyCycle, Cause> {
     let cycles = f64::from(model.setup.drive.cycles_to_settle());
-    let touch = Touch::on(&model.setup, memory, scratch.g.iter().copied());
+    let touch = Touch::on(&model.setup, memory, scratch.profile.g.iter().copied());
     let moments = scratch.period.moments(&model.setup, touch, cycles);
     memory.cycle = 0.0;
     for &(moment, targets) in moments.iter() {
@@ -185,7 +185,9 @@ fn plain_cycle(
     }
     slip.displacement(&model.plan, &model.grid, &mut increment.surface_slip);
     increment.surface_slip[..stuck].fill(0.0);
-    memory.pressure.find(model, contact, stuck);
+    memory
+        .pressure
+        .find(model, contact, stuck, &mut increment.rest);
     memory.stats.transforms += 2;
     increment.slip.copy_from_slice(&slip.nodal);
     increment.wear_by_load(model, contact, &memory.pressure.nodal, stuck);

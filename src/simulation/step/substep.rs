@@ -78,7 +78,7 @@ pub(in super::super) fn step(
             }
             Scheme::Trapezoid | Scheme::Euler => 0.0,
         };
-        model.profile(&from.image, ahead, &from.last.growth, &mut scratch.g);
+        scratch.profile.extrapolate(model, from, ahead);
         let stiffness = attempt(model, from, next, scratch, reach)?;
         match kind {
             // No sub-step is short enough: what comes of it says what is wrong.
@@ -118,7 +118,7 @@ fn attempt(
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<f64, Cause> {
-    let problem = contact::Problem::on(model, &scratch.g, &state.contact);
+    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
     let targets = model.setup.drive.targets(cycle);
     problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)?;
     wear(model, state, next, scratch, cycle);

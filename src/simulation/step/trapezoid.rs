@@ -73,10 +73,11 @@ pub(super) fn wear(
         let stuck = leading(states, |&spring| spring == SpringState::Stick);
         let zone = outer_slip_zone(states);
         increment.find_sliding(model, contacts, stuck);
-        next.pressure.find(model, &next.contact, zone.0);
+        let rest = &mut increment.rest;
+        next.pressure.find(model, &next.contact, zone.0, rest);
         let mut before = &state.pressure;
         if before.from > zone.0 {
-            scratch.pressure.find(model, &state.contact, zone.0);
+            scratch.pressure.find(model, &state.contact, zone.0, rest);
             scratch.transforms += 1;
             before = &scratch.pressure;
         }
@@ -84,9 +85,6 @@ pub(super) fn wear(
         increment.mean_of_load(friction, [before, &next.pressure], zone);
         scratch.transforms += 2 + increment.mean_of_shear(model, contacts, zone.0);
         increment.wear(model, model.seconds(cycle - state.cycle));
-        if zone.0 == 0 || state.ledger.settled_stick_radius == Some(0.0) {
-            increment.balance_edge(model, next.contact.normal.nodes);
-        }
         let exponent = law.slip_rate_exponent();
         if exponent != 1.0 {
             let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);

@@ -60,7 +60,7 @@ pub struct Difference {
     pub work: f64,
     /// Of F_x, relative to μF_z, or to what the whole contact would carry without slip if that is less.
     pub force: f64,
-    /// Of p away from borders, rms, relative to its largest value there.
+    /// Of p away from the axis and from borders, the largest, relative to its largest value there.
     pub pressure: f64,
 }
 
@@ -183,7 +183,7 @@ impl Outcome {
             volume: relative(self.volume - fine.volume, fine.volume),
             work: relative(self.work - fine.work, fine.work),
             force: relative(self.force - fine.force, force_scale),
-            pressure: relative_rms(
+            pressure: relative_largest(
                 (1..RADII)
                     .map(|i| inside * i as f64 / (RADII - 1) as f64)
                     .filter(|r| (r - stick).abs() > away && *r > away)
@@ -212,13 +212,13 @@ impl Outcome {
     }
 }
 
-/// The rms difference of pairs, relative to the largest of the second ones; 0 without any.
-fn relative_rms(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let pairs = pairs.map(|(here, there)| (here - there, there.abs()));
+/// The largest difference of pairs, relative to the largest of the second ones; 0 without any.
+fn relative_largest(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let pairs = pairs.map(|(here, there)| ((here - there).abs(), there.abs()));
     let (differences, sizes): (Vec<f64>, Vec<f64>) = pairs.unzip();
     match largest(&sizes) {
         0.0 => 0.0,
-        largest => rms(&differences) / largest,
+        scale => largest(&differences) / scale,
     }
 }
 

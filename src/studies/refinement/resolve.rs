@@ -154,7 +154,10 @@ const STATED: [(&str, &str); 5] = [
     ("estimated_error_volume", "of the worn volume"),
     ("estimated_error_energy", "of the dissipated energy"),
     ("estimated_error_force", "of F_x"),
-    ("estimated_error_pressure", "of p, away from borders"),
+    (
+        "estimated_error_pressure",
+        "of p (its largest, away from axis and borders)",
+    ),
 ];
 
 /// Estimated errors as the headers of files state them.

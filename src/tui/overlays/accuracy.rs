@@ -41,7 +41,7 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
                 (of.worn_depth, "the worn depth, rms, of its largest"),
                 (of.volume, "the worn volume"),
                 (of.force, "F_x"),
-                (of.pressure, "p away from borders, rms"),
+                (of.pressure, "p away from borders, largest"),
             ];
             lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
         }

@@ -75,7 +75,7 @@ pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
 pub use fine_period::{FinePeriod, PeriodPoint};
 pub(crate) use model::Model;
-use profile::Profile;
+use profile::{Profile, scar_volume};
 pub use reconfigure::Domain;
 pub use saved::{Saved, Unfit};
 pub use setup::Setup;
@@ -123,7 +123,7 @@ impl Simulation {
             state.wear = nodes.iter().map(|&r| scar.depth(r)).collect();
             model.plan.image(&state.wear, &mut state.image);
             // Nobody knows by which work it was worn.
-            state.ledger.initial_volume = model.volume(&state.wear);
+            state.ledger.initial_volume = scar_volume(&model, &state.wear);
             state.ledger.unexplained_volume = state.ledger.initial_volume;
         }
         Self::continued(model, state)
@@ -364,6 +364,6 @@ impl Simulation {
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
-        self.model.volume(&self.state.wear)
+        scar_volume(&self.model, &self.state.wear)
     }
 }

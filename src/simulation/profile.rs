@@ -1,9 +1,10 @@
 //! The 1D profile that the springs are pressed on, Eq. (1), and where its scar ends.
 //!
 //! Where the contact slips as a whole, the scar ends with a slope, at a place t_s that lies between two nodes. The worn
-//! depth falls to zero there on the line in t = r² through the last two worn nodes, and not at the next node. The worn
-//! volume keeps the tail down to that node, so that V is a sum over nodes and grows evenly; it is 4e-4 of V at most on 50
-//! cells, and falls with their square.
+//! depth falls to zero there on the line in t = r² through the last two worn nodes, and not at the next node. The tail down
+//! to that node is no wear, neither in the profile nor in the worn volume.
+
+use std::f64::consts::PI;
 
 use super::model::Model;
 use super::state::State;
@@ -89,4 +90,14 @@ fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64
         next
     };
     Some((last, end.min(next)))
+}
+
+/// 2π∫ r dr of the worn depth (m) of a scar, m³.
+pub(super) fn scar_volume(model: &Model, wear: &[f64]) -> f64 {
+    let t = model.grid.squares();
+    let tail = end_of_scar(model, |j| wear[j]).map_or(0.0, |(last, end)| {
+        let next = t.get(last + 1).copied().unwrap_or(end);
+        0.5 * PI * wear[last] * (next - end)
+    });
+    model.volume(wear) - tail
 }

@@ -365,7 +365,8 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
         ("mild-million", 0.15),
         ("flat-punch", 3e-2),
         ("gross-slip", 1.6e-2),
-        ("separation", 1e-3),
+        // The scar ends where its last two nodes lead to: what the edge of a period wears goes up and down with them.
+        ("separation", 1e-2),
         ("two-frequencies", 6e-3),
         ("cone", 3e-3),
         ("truncated-paraboloid", 5e-3),
@@ -418,10 +419,10 @@ fn the_limiting_profile_has_cost_its_work() {
     }
 }
 
-/// Where everything slips, the last node in contact wears by the work of friction: V and E_d are of second order in N.
-/// By p at that node alone they would be of first order, 1.2e-2 off at N = 50.
+/// Every node wears by its own p, the last one in contact too, so V has what the cells at the edge lack: of first order in
+/// N. The load ends as a dome, exact in E_d.
 #[test]
-fn gross_slip_is_of_second_order_in_the_cells() {
+fn gross_slip_converges_with_the_cells() {
     let figures = |cells: usize| {
         let cells = format!("numerics.points={cells}");
         let scenario = load("gross-slip", &[&cells, "numerics.steps_per_cycle=48"]);
@@ -429,7 +430,7 @@ fn gross_slip_is_of_second_order_in_the_cells() {
         [run.wear_volume, run.dissipated_energy]
     };
     let fine = figures(800);
-    for (cells, bound) in [(25, 1.5e-3), (50, 4.5e-4), (100, 1.3e-4), (200, 4e-5)] {
+    for (cells, bound) in [(25, 2.5e-3), (50, 1.5e-3), (100, 9e-4), (200, 4e-4)] {
         let found = figures(cells);
         for (name, (found, fine)) in ["V", "E_d"].iter().zip(found.iter().zip(fine)) {
             let what = format!("{name} of gross-slip at N = {cells}");

@@ -204,7 +204,9 @@ fn worn_gross_slip_is_that_of_rings() {
                 (&truth.radii[..], &truth.pressure),
             ]
             .map(|(radii, p)| between(radii, p, r) / mean);
-            near(format!("p at {case}"), p, due, 1e-2);
+            // Towards the edge it counts where the last ring of the code ends.
+            let bound = if share < 0.7 { 1e-2 } else { 2e-2 };
+            near(format!("p at {case}"), p, due, bound);
             let [worn, due] = [
                 (&seen.radii[..], &seen.wear),
                 (&truth.radii[..], &truth.depth),

@@ -25,6 +25,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
+use super::super::profile::scar_volume;
 use super::super::setup::Setup;
 use super::super::state::{JumpMemory, Ledger, State, SteadyCycle};
 use super::{Scratch, deepest, refuse, steady_cycle};
@@ -337,7 +338,7 @@ fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, toleranc
 fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
     // Rounding must not take work back where none is done any more.
     let friction_work = jump.friction_work.max(0.0);
-    let worn = model.volume(&jump.wear) - model.volume(&state.wear);
+    let worn = scar_volume(model, &jump.wear) - scar_volume(model, &state.wear);
     let mut end = State {
         cycle: state.cycle + jump.covered,
         steps: state.steps + 1,

@@ -21,7 +21,7 @@ use super::contact;
 use super::drive::Control;
 use super::model::Model;
 use super::moments::Period;
-use super::profile::Profile;
+use super::profile::{Profile, scar_volume};
 use super::setup::Setup;
 use super::state::State;
 use super::traction::Pressure;
@@ -123,7 +123,8 @@ fn accept(
         if law.follows_energy() {
             next.ledger.expected_volume += law.coefficient() * increment.friction_work;
         } else {
-            next.ledger.unexplained_volume += model.volume(&increment.depth);
+            next.ledger.unexplained_volume +=
+                scar_volume(model, &next.wear) - scar_volume(model, &state.wear);
         }
         // Eq. (1) is linear: only the growth is transformed.
         model.plan.image(&increment.depth, &mut next.last.growth);

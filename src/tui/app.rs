@@ -63,14 +63,20 @@ impl App {
         }
     }
 
-    /// Handles a key. `Ctrl-C` quits from anywhere, even while typing.
+    /// Handles a key. Ctrl-C quits and Ctrl-L repaints from anywhere, even while typing.
     pub fn press(&mut self, key: Key) {
         let explorer = &mut self.explorer;
         explorer.begin_answer();
-        if key == Key::Ctrl('c') {
-            explorer.next = Next::Leave;
-            return;
+        match key {
+            Key::Ctrl('c') => explorer.next = Next::Leave,
+            Key::Ctrl('l') => explorer.next = Next::Repaint,
+            key => self.press_here(key),
         }
+    }
+
+    /// Handles a key where the app is.
+    fn press_here(&mut self, key: Key) {
+        let explorer = &mut self.explorer;
         let answer = match self.overlays.last_mut() {
             Some(overlay) => overlay.press(key, explorer),
             None => command::of_key(key).map_or(Answer::Stay, Answer::Run),

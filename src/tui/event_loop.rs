@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::{Context, Result};
 use signal_hook::consts::{
@@ -21,9 +21,6 @@ use super::reader::Input;
 use super::terminal::{self, Screen};
 use super::{screen, suspend};
 use crate::panics::catch;
-
-/// How long outstanding answers of the terminal are waited for on exit.
-const LAST_ANSWERS: Duration = Duration::from_millis(500);
 
 /// There is no usable terminal.
 #[derive(Debug, thiserror::Error)]
@@ -89,9 +86,9 @@ fn handle_events(
     // What came in while the terminal's answers were awaited.
     let mut held = Vec::new();
     loop {
-        let wait = match screen.flow.when(Instant::now()) {
+        let wait = match screen.flow.delay(screen.now()) {
             _ if !held.is_empty() => Duration::ZERO,
-            Some(then) if is_due && !is_away => then.saturating_duration_since(Instant::now()),
+            Some(delay) if is_due && !is_away => Duration::from_secs_f64(delay),
             _ => Duration::MAX,
         };
         let first = match inbox.recv_timeout(wait) {
@@ -105,9 +102,9 @@ fn handle_events(
             if waiting.is_over() {
                 return Ok(());
             }
-            is_due |= !matches!(event, Event::Input(Input::Ready) | Event::Written);
+            is_due |= !matches!(event, Event::Input(Input::Answer(_)) | Event::Written);
             match event {
-                Event::Input(Input::Ready) => screen.flow.answered(Instant::now()),
+                Event::Input(Input::Answer(to)) => screen.flow.answered(screen.now(), to),
                 Event::Written => screen.flow.written(),
                 Event::Input(Input::Background(color)) => app.explorer.theme.follow(color),
                 Event::Suspend => suspends = true,
@@ -127,12 +124,16 @@ fn handle_events(
                         if matches!(input, Input::Key(_) | Input::Paste(_)) {
                             waiting.leave();
                         }
-                        screen.flow.hurry(Instant::now());
+                        screen.flow.hurry(screen.now());
                     }
                     app.handle(event);
                     match app.explorer.next {
                         Next::Stay => {}
                         Next::Suspend => (suspends, app.explorer.next) = (true, Next::Stay),
+                        Next::Repaint => {
+                            app.explorer.next = Next::Stay;
+                            screen.start_afresh();
+                        }
                         Next::Leave | Next::LeaveScreen => return Ok(()),
                     }
                 }
@@ -154,8 +155,7 @@ fn handle_events(
                 screen.take_back()?;
             }
         }
-        let then = screen.flow.when(Instant::now());
-        if !is_away && is_due && then.is_some_and(|then| then <= Instant::now()) {
+        if !is_away && is_due && screen.flow.delay(screen.now()) == Some(0.0) {
             is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
         }
     }
@@ -163,11 +163,12 @@ fn handle_events(
 
 /// Waits for outstanding answers of the terminal, so that they do not reach the shell. Returns what else has come in.
 fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
-    let end = Instant::now() + LAST_ANSWERS;
     let mut held = Vec::new();
-    while screen.flow.is_awaited(Instant::now()) {
-        match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
-            Ok(Event::Input(Input::Ready)) => screen.flow.answered(Instant::now()),
+    let start = screen.now();
+    while let Some(most) = screen.flow.last_answers(start) {
+        let left = (start + most - screen.now()).max(0.0);
+        match inbox.recv_timeout(Duration::from_secs_f64(left)) {
+            Ok(Event::Input(Input::Answer(to))) => screen.flow.answered(screen.now(), to),
             Ok(event) => held.push(event),
             Err(_) => break,
         }

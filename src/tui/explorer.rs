@@ -28,6 +28,8 @@ pub enum Next {
     Stay,
     /// The user asks for the shell.
     Suspend,
+    /// The user sees that another program has written to the terminal.
+    Repaint,
     /// The user leaves, and the terminal is as it was.
     Leave,
     /// The user leaves, and the last screen stays.

@@ -1,117 +1,209 @@
-//! Flow control: a new frame goes to the terminal only when the last one has been read.
+//! Flow control: sends no more than the line to the terminal carries in a moment, so that a key never waits behind a
+//! queue of frames, and keeps a line with a long round trip full.
 //!
-//! Every frame is followed by a status request (DSR, `CSI 5 n`); the answer means that everything
-//! before it has been read. A terminal that has never answered may be on a slow line or may not
-//! know the request: it is sent no more than a slow line takes, so that the answer to a key never
-//! waits behind a queue of frames. Keys are answered at once in any case, as long as little is in
-//! flight.
+//! The line is taken to carry `rate` bytes per second; an answer comes `base` seconds after the line has carried its
+//! request. Behind each chunk of a frame goes a status request. If it is answered at time t, the line had carried the
+//! chunk at t − base, and the chunk before it at `end`: this one took t − base − max(sent, end) seconds, without the
+//! round trip, whether the line was idle or not. From the rate and the chunks not yet answered follows for how long the
+//! line is busy; the next chunk is sent when that is at most [`DELAY`], and is as large as keeps it so.
+//!
+//! The round trip is measured by a request of another kind, on an empty line. Its answer also tells where in the queue of
+//! requests the terminal is, in case answers were lost. A terminal that does not know it is asked for its status alone.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
 
-/// The status request after each frame.
-pub const QUESTION: &str = "\x1b[5n";
+/// How long the line may be busy with what was sent, seconds: half of what a hand feels, and longer than usual jitter.
+const DELAY: f64 = 0.25;
 
-/// The rate assumed for any line, bytes per second.
-const SLOWEST: f64 = 300.0;
+/// The shortest time that answers tell, seconds: OpenSSH sends them on a grid of 20 ms, and radio links jitter.
+const TICK: f64 = 0.05;
 
-/// The rate from which a line gets whole frames, bytes per second.
-const FAST: f64 = 20_000.0;
+/// Bytes of the first chunk: the first line and two rows more, 0.8 s at 300 bytes per second.
+const FIRST: f64 = 240.0;
 
-/// How long a frame may be on its way to the terminal, in seconds, and the fewest bytes of one.
-const FRAME_TIME: f64 = 0.4;
-const SMALLEST: usize = 240;
+/// The fewest bytes of a later chunk: its request, parts of the first and last line, and some 60 of the rest.
+const LEAST: f64 = 96.0;
 
-/// Longest pause after a frame for a terminal that does not answer.
-const LONGEST_REST: Duration = Duration::from_secs(2);
+/// The rate assumed until the first answer, bytes per second.
+const SLOW: f64 = 300.0;
 
-/// An answer is lost if it takes longer than the frame on the slowest line plus this.
-const LOST: Duration = Duration::from_secs(3);
+/// The rate assumed from [`PATIENCE`] seconds on without any answer. Most such terminals are fast; one behind a slower
+/// line is held back by the system's own buffers only.
+const SILENT: f64 = 2400.0;
+const PATIENCE: f64 = 3.0;
 
-/// Maximum number of frames in flight when a key is answered.
-const MOST_UNDER_WAY: usize = 2;
+/// The weight of earlier measurements of the rate: about four chunks count. Jitter that delays one answer shortens the
+/// next measurement, and their sum is exact.
+const KEPT: f64 = 0.75;
 
-/// Answers that come within this time may have waited for each other.
-const TOGETHER: Duration = Duration::from_millis(5);
+/// The round trip is measured anew after this many seconds and round trips: an idle line for a fifteenth of the time.
+const REFRESH: [f64; 2] = [3.0, 15.0];
 
-/// For how long, and for how many frames, the worker's output after a key counts as its answer.
-const ANSWERED: Duration = Duration::from_millis(300);
-const DRAWINGS: u32 = 2;
+/// For how long a key is hurried, seconds.
+const HURRY: f64 = 0.3;
 
-/// How long the worker may take to answer a key before a terminal that does not answer is sent a
-/// whole screen.
-const SETTLED: Duration = Duration::from_millis(50);
+/// How late an answer may be, seconds.
+const LOST: f64 = 5.0;
 
-/// The state of the line to the terminal.
+/// The longest wait for outstanding answers before the terminal is given back, seconds, besides a round trip.
+const LAST_ANSWERS: f64 = 0.5;
+
+/// More outstanding answers than any line needs; a silent terminal owes no more.
+const MOST_MARKS: usize = 500;
+
+/// What a terminal is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Request {
+    /// Whether it is ready (DSR), behind each chunk.
+    Status,
+    /// Where its cursor is (CPR), on an empty line: it measures the round trip.
+    Place,
+}
+
+impl Request {
+    /// The escape sequence.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Status => "\x1b[5n",
+            Self::Place => "\x1b[6n",
+        }
+    }
+}
+
+/// A request that was not answered yet, and the bytes sent up to it since the one before.
+#[derive(Debug, Clone, Copy)]
+struct Mark {
+    sent: f64,
+    bytes: f64,
+    request: Request,
+    /// Whether it measures the round trip, rather than to end a chunk.
+    measures: bool,
+}
+
+/// What is known of the line to the terminal. All times are seconds since it was opened.
 #[derive(Debug, Default)]
 pub struct Flow {
     /// Chunks that the writer has not handed to the system yet.
     unwritten: usize,
-    /// When the frames that the terminal has not acknowledged were sent, and their bytes.
-    unanswered: VecDeque<(Instant, usize)>,
-    /// When it last answered; none if it never has.
-    answered: Option<Instant>,
-    /// When all that was sent should have been read.
-    read: Option<Instant>,
-    /// When the first frame was sent.
-    opened: Option<Instant>,
-    /// The measured rate of the line, bytes per second.
-    rate: Option<f64>,
-    /// Until when drawings answer a key, and how many.
-    hurry: Option<(Instant, u32)>,
+    marks: VecDeque<Mark>,
+    /// The shortest round trip, and when one close to it was last seen.
+    base: f64,
+    confirmed: f64,
+    /// Bytes that the line has carried of late, and how long that took.
+    carried: Option<[f64; 2]>,
+    /// When the terminal last answered.
+    heard: Option<f64>,
+    /// Whether it does not tell the place of its cursor.
+    lacks_place: bool,
+    /// Until when a key is hurried.
+    hurried: f64,
 }
 
 impl Flow {
-    /// From when on a drawing may be made, unless something happens before; `None` while the writer is busy.
-    pub fn when(&self, now: Instant) -> Option<Instant> {
-        if self.unwritten > 0 {
-            return None;
-        }
-        let hurries = self.hurries(now);
-        let most = if hurries { MOST_UNDER_WAY } else { 1 };
-        let is_free = match self.hurry.filter(|_| hurries) {
-            _ if self.answers() => self.unanswered.len() < most,
-            Some((until, 1)) => return Some(until - ANSWERED + SETTLED),
-            hurry => hurry.is_some(),
-        };
-        let give_up = self.give_up().filter(|_| !is_free);
-        Some(give_up.unwrap_or(now))
+    /// When the line had carried what was answered last.
+    fn end(&self) -> f64 {
+        self.heard.unwrap_or(0.0) - self.base
     }
 
-    /// From when on an answer that has not come is taken for lost; none if nothing was sent.
-    fn give_up(&self) -> Option<Instant> {
-        let patience = if self.answers() { LOST } else { Duration::ZERO };
-        self.read.map(|read| read + patience)
+    /// Bytes per second.
+    fn rate(&self, now: f64) -> f64 {
+        let rate = match (self.heard, self.carried) {
+            (None, _) if now >= PATIENCE => return SILENT,
+            (Some(_), Some([bytes, time])) => bytes / time,
+            _ => SLOW,
+        };
+        // An answer that is late tells as much as one that has come.
+        let late = self.marks.front().filter(|_| self.heard.is_some());
+        let late = late.map(|oldest| [oldest.bytes, now - self.base - oldest.sent.max(self.end())]);
+        let late = late.filter(|[_, time]| *time > TICK);
+        late.map_or(rate, |[bytes, time]| rate.min(bytes / time))
+    }
+
+    /// For how long the line will be busy with what was sent; negative if it is idle.
+    fn wait(&self, now: f64) -> f64 {
+        let rate = self.rate(now);
+        let carry = |end: f64, mark: &Mark| end.max(mark.sent) + mark.bytes / rate;
+        self.marks.iter().fold(self.end(), carry) - now
+    }
+
+    /// When the outstanding answers count as lost.
+    fn lost(&self) -> f64 {
+        let answers = self.heard.is_some() || self.lacks_place;
+        let Some(oldest) = self.marks.front().filter(|_| answers) else {
+            return f64::INFINITY;
+        };
+        let bytes: f64 = self.marks.iter().map(|mark| mark.bytes).sum();
+        oldest.sent.max(self.heard.unwrap_or(0.0)) + self.base + LOST + bytes / SLOW
+    }
+
+    /// Whether the round trip is to be measured anew.
+    fn is_old(&self, now: f64) -> bool {
+        match self.heard {
+            Some(_) => now > self.confirmed + REFRESH[0] + REFRESH[1] * self.base,
+            None => self.lacks_place,
+        }
+    }
+
+    /// How long to wait before a chunk is sent, unless something happens before; `None` while the writer is busy.
+    pub fn delay(&self, now: f64) -> Option<f64> {
+        let least = LEAST / self.rate(now);
+        let most = if now < self.hurried {
+            // One small chunk more than usual.
+            DELAY.max(least)
+        } else if self.is_old(now) && !self.marks.is_empty() {
+            // First the line runs empty.
+            f64::NEG_INFINITY
+        } else {
+            // The chunk takes half of the delay at least.
+            DELAY - least.clamp(DELAY / 2.0, DELAY)
+        };
+        let delay = (self.wait(now) - most).min(self.lost() - now);
+        (self.unwritten == 0).then_some(delay.clamp(0.0, 60.0))
     }
 
     /// A key was pressed: its answer takes precedence.
-    pub fn hurry(&mut self, now: Instant) {
-        self.hurry = Some((now + ANSWERED, DRAWINGS));
+    pub fn hurry(&mut self, now: f64) {
+        self.hurried = now + HURRY;
     }
 
-    /// Notes that the writer was given a drawing of `bytes` in all, in this many frames. An empty one changes nothing.
-    pub fn sent(&mut self, now: Instant, bytes: usize, frames: usize) {
-        if let Some((_, drawings)) = &mut self.hurry {
-            *drawings = drawings.saturating_sub(1);
+    /// How many bytes the next chunk may have, and whether the round trip is measured before it.
+    pub fn room(&mut self, now: f64) -> (usize, bool) {
+        if now >= self.lost() {
+            self.forget();
         }
-        if bytes == 0 {
-            return;
-        }
-        if self.give_up().is_some_and(|give_up| now >= give_up) {
-            // The answers to older ones were lost.
-            self.unanswered.clear();
-        }
-        let takes = Duration::from_secs_f64(bytes as f64 / SLOWEST);
-        self.read = Some(match (self.answers(), self.read) {
-            // It is read behind what is on the line.
-            (true, Some(before)) if !self.unanswered.is_empty() => before.max(now) + takes,
-            (true, _) => now + takes,
-            (false, _) => now + takes.min(LONGEST_REST),
+        let is_first = self.heard.is_none() && self.marks.len() <= 1;
+        let least = if is_first { FIRST } else { LEAST };
+        let room = self.rate(now) * (DELAY - self.wait(now).max(0.0));
+        let measures = self.is_old(now) && self.marks.is_empty();
+        (room.max(least) as usize, measures)
+    }
+
+    /// Measures the round trip by this request, which is to be sent at once.
+    pub fn measure(&mut self, now: f64) -> &'static str {
+        let request = match self.lacks_place {
+            true => Request::Status,
+            false => Request::Place,
+        };
+        self.confirmed = now;
+        self.mark(now, request.text().len(), request, true);
+        request.text()
+    }
+
+    /// Notes that the writer was given a chunk of so many bytes, its request included.
+    pub fn sent(&mut self, now: f64, bytes: usize) {
+        self.unwritten += 1;
+        self.mark(now, bytes, Request::Status, false);
+    }
+
+    fn mark(&mut self, now: f64, bytes: usize, request: Request, measures: bool) {
+        self.marks.push_back(Mark {
+            sent: now,
+            bytes: bytes as f64,
+            request,
+            measures,
         });
-        self.opened.get_or_insert(now);
-        self.unwritten += frames;
-        for _ in 0..frames {
-            self.unanswered.push_back((now, bytes / frames));
+        if self.marks.len() > MOST_MARKS {
+            self.marks.pop_front();
         }
     }
 
@@ -120,152 +212,59 @@ impl Flow {
         self.unwritten = self.unwritten.saturating_sub(1);
     }
 
-    /// The terminal has read a frame.
-    pub fn answered(&mut self, now: Instant) {
-        let before = self.answered.replace(now);
-        let Some((sent, bytes)) = self.unanswered.pop_front() else {
+    /// The terminal has answered.
+    pub fn answered(&mut self, now: f64, request: Request) {
+        let place = self
+            .marks
+            .iter()
+            .position(|mark| mark.request == Request::Place);
+        let unanswered = match (request, place) {
+            // What was asked before will have no answer.
+            (Request::Place, Some(place)) => place,
+            // The first answer of all is to the first request, if the terminal knows that.
+            (Request::Status, Some(0)) if self.heard.is_none() => 1,
+            // That is to a chunk from before answers were lost.
+            (Request::Status, Some(0)) => return,
+            // So was one before this, taken for the answer to the last.
+            (Request::Place, None) => return self.forget(),
+            (Request::Status, _) => 0,
+        };
+        self.marks.drain(..unanswered);
+        let Some(mark) = self.marks.pop_front() else {
             return;
         };
-        // Before that, the line was busy with another frame.
-        let free = before.map_or(sent, |before| before.max(sent));
-        let took = now - free;
-        // Two answers that are read at once tell nothing of the second frame.
-        if free == sent || took > TOGETHER {
-            self.rate = Some(bytes as f64 / took.as_secs_f64().max(1e-6));
+        if self.heard.is_none() && !mark.measures {
+            // Nothing tells how much of that was the round trip.
+            self.lacks_place = true;
+            return;
+        }
+        let (trip, end) = (now - mark.sent, self.end());
+        if mark.measures || trip < self.base {
+            self.base = trip;
+        }
+        if trip < self.base + 2.0 * TICK {
+            self.confirmed = now;
+        }
+        self.heard = Some(now);
+        let took = (now - self.base - mark.sent.max(end)).max(0.0);
+        let [bytes, time] = self.carried.unwrap_or([SLOW * TICK, TICK]);
+        // A shorter time tells only of a faster line.
+        if !mark.measures && (took > TICK || mark.bytes / TICK > bytes / time) {
+            self.carried = Some([bytes * KEPT + mark.bytes, (time * KEPT + took).max(TICK)]);
         }
     }
 
-    /// How many bytes the next frame may have, so that it does not keep a key waiting; `None`: as many
-    /// as there are.
-    pub fn room(&self, now: Instant) -> Option<usize> {
-        // A frame that is long on its way tells of the line before its answer does.
-        let oldest = self.unanswered.front();
-        let most = oldest.map(|&(sent, bytes)| bytes as f64 / (now - sent).as_secs_f64());
-        match self.rate.map(|rate| rate.min(most.unwrap_or(rate))) {
-            // The next frames show what did not fit into this one.
-            Some(rate) if rate >= FAST => None,
-            Some(rate) => Some(((rate * FRAME_TIME) as usize).max(SMALLEST)),
-            // Nothing is known of the line yet: the first frame measures it.
-            None => Some(SMALLEST),
-        }
+    /// How long outstanding answers are waited for before the terminal is given back; `None` if there are none, or if it
+    /// does not answer.
+    pub fn last_answers(&self, now: f64) -> Option<f64> {
+        let answers = self.heard.is_some() || now < PATIENCE;
+        (answers && !self.marks.is_empty()).then_some(LAST_ANSWERS + self.base.min(PATIENCE))
     }
 
-    /// Whether the next frame acknowledges a key at once, on a terminal that does not answer: the
-    /// worker's answer must not wait behind a whole screen.
-    pub fn acknowledges(&self, now: Instant) -> bool {
-        !self.answers() && self.hurries(now) && self.hurry.is_some_and(|(_, left)| left == DRAWINGS)
-    }
-
-    /// Whether a key waits for its answer.
-    pub fn hurries(&self, now: Instant) -> bool {
-        self.hurry
-            .is_some_and(|(until, drawings)| now <= until && drawings > 0)
-    }
-
-    /// Whether the terminal answers status requests.
-    pub fn answers(&self) -> bool {
-        self.answered.is_some()
-    }
-
-    /// Whether an answer is outstanding. One that is late for too long is no longer expected.
-    pub fn is_awaited(&self, now: Instant) -> bool {
-        let new = self.opened.filter(|opened| now < *opened + LONGEST_REST);
-        !self.unanswered.is_empty() && (self.answers() || new.is_some())
-    }
-
-    /// The terminal was used by another program: outstanding answers will never come.
+    /// Outstanding answers will never come, and the line may be another one.
     pub fn forget(&mut self) {
-        self.unanswered.clear();
-        self.read = None;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FRAME: usize = 250;
-
-    fn sent(flow: &mut Flow, now: Instant) {
-        flow.sent(now, FRAME, 1);
-        flow.written();
-    }
-
-    fn is_free(flow: &Flow, now: Instant) -> bool {
-        flow.when(now).is_some_and(|then| then <= now)
-    }
-
-    #[test]
-    fn no_frame_is_sent_while_the_last_is_not_gone() {
-        let (mut flow, now) = (Flow::default(), Instant::now());
-        assert!(is_free(&flow, now));
-        sent(&mut flow, now);
-        flow.answered(now);
-        assert!(is_free(&flow, now));
-        flow.sent(now, FRAME, 1);
-        // Not written, then not read.
-        assert_eq!(flow.when(now), None);
-        flow.written();
-        assert!(flow.when(now).is_some_and(|then| then > now));
-        // A key goes first, once.
-        flow.hurry(now);
-        assert!(is_free(&flow, now));
-        sent(&mut flow, now);
-        assert!(flow.when(now).is_some_and(|then| then > now));
-        flow.answered(now);
-        flow.answered(now);
-        assert!(is_free(&flow, now));
-        // Does not wait forever for a lost answer.
-        sent(&mut flow, now);
-        assert!(is_free(&flow, now + Duration::from_secs(10)));
-        // An empty drawing needs no answer.
-        flow.answered(now);
-        flow.sent(now, 0, 0);
-        assert!(is_free(&flow, now));
-    }
-
-    #[test]
-    fn a_terminal_that_never_answers_gets_what_a_slow_line_takes() {
-        let (mut flow, start) = (Flow::default(), Instant::now());
-        let mut bytes = 0;
-        for tenth in 0..600 {
-            let now = start + Duration::from_millis(100 * tenth);
-            if is_free(&flow, now) {
-                sent(&mut flow, now);
-                bytes += FRAME;
-            }
-        }
-        assert!((15_000..=20_000).contains(&bytes), "{bytes}");
-        // Keys are answered at once all the same.
-        let now = start + Duration::from_secs(60);
-        sent(&mut flow, now);
-        flow.hurry(now);
-        assert!(is_free(&flow, now));
-    }
-    /// However many keys are pressed before the line is ever free.
-    #[test]
-    fn a_line_that_becomes_slow_is_noticed_under_keys() {
-        let (mut flow, start) = (Flow::default(), Instant::now());
-        let at = |seconds| start + Duration::from_secs_f64(seconds);
-        flow.sent(start, 4000, 1);
-        flow.written();
-        flow.answered(at(0.001));
-        assert_eq!(flow.room(at(0.1)), None);
-        // From now on a line of 600 bytes a second, on which 3,000 are under way.
-        flow.sent(at(0.1), 3000, 1);
-        flow.written();
-        let mut seconds = 4.0;
-        for _ in 0..20 {
-            flow.hurry(at(seconds));
-            assert!(is_free(&flow, at(seconds)));
-            let room = flow.room(at(seconds)).expect("a slow line");
-            assert!((240..400).contains(&room), "{room}");
-            flow.sent(at(seconds), room, 1);
-            flow.written();
-            // The one before is read only now, and no key is answered before the line is free again.
-            assert!(!is_free(&flow, at(seconds + 1.0)));
-            seconds = seconds.max(5.1) + room as f64 / 600.0;
-            flow.answered(at(seconds));
-        }
+        self.marks.clear();
+        self.carried = None;
+        self.confirmed = f64::NEG_INFINITY;
     }
 }

@@ -11,7 +11,7 @@ use std::time::Duration;
 use nix::sys::termios::{FlushArg, tcflush};
 
 use super::event::Event;
-use super::flow::QUESTION;
+use super::flow::Request;
 
 /// How long the last output waits for a slow terminal, and again after everything queued before it
 /// has been dropped.
@@ -57,9 +57,9 @@ impl Output {
         self.queue(text, || ());
     }
 
-    /// Sends a frame, and behind it the question whether the terminal has read it. Returns the bytes of both.
+    /// Sends a chunk of a frame, and behind it the question whether the terminal has read it. Returns the bytes of both.
     pub fn frame(&self, mut frame: String) -> usize {
-        frame.push_str(QUESTION);
+        frame.push_str(Request::Status.text());
         let events = self.events.clone();
         self.queue(&frame, move || {
             let _ = events.send(Event::Written);

@@ -1,23 +1,32 @@
-//! Turns the bytes from the terminal into keys, pasted text, clicks and status reports.
+//! Turns the bytes from the terminal into keys, pasted text, clicks and answers.
 //!
-//! `vte` parses the bytes; this module adds what a keyboard needs. A lone Escape is told from the
-//! start of a sequence by the pause after it. Ctrl-C is recognised in any state of the parser.
+//! The Escape key is told from the start of a sequence by what follows it, or by the pause after it: nothing is bound to
+//! Alt. Ctrl-C is recognised whatever it comes in.
+
+use std::str::from_utf8;
 
 use ratatui::layout::Position;
-use vte::{Params, Parser, Perform};
 
+use super::flow::Request;
 use super::keys::{Key, Named};
 use super::line;
 use super::mouse::Gesture;
 
-/// The pause after which an Escape is a key, milliseconds.
-const LONE_ESCAPE: u16 = 25;
+/// The pause after which an Escape is a key, milliseconds: a network may split a sequence by less.
+const LONE_ESCAPE: u16 = 100;
 
-/// The silence after which a sequence that has begun is given up, in milliseconds.
+/// The silence after which a sequence that has begun is given up, milliseconds.
 const GIVE_UP: u16 = 250;
 
-/// The byte of Ctrl-C.
+/// The same for strings, such as a reply that tells a colour: the rest of one would be taken for keys.
+const GIVE_UP_STRING: u16 = 3000;
+
+/// More bytes than any sequence has that means something here; of longer ones, the ends are kept.
+const LONGEST: usize = 64;
+
+/// The bytes of Ctrl-C and Escape.
 const INTERRUPT: u8 = 3;
+const ESCAPE: u8 = 0x1b;
 
 /// Something that a terminal has sent.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,88 +37,108 @@ pub enum Input {
     Paste(String),
     /// A click, or a turn of the wheel.
     Point(Gesture),
-    /// The status report: the terminal has read everything sent before the request.
-    Ready,
+    /// The answer to a request: the terminal has read everything sent before it.
+    Answer(Request),
     /// The background, as red, green and blue.
     Background([u8; 3]),
     /// Ctrl-C.
     Interrupt,
 }
 
-/// The parser and what it has found.
-#[derive(Default)]
-pub struct Reader {
-    parser: Parser,
-    found: Found,
-    /// The last byte was an Escape that may be a key.
-    is_escape: bool,
-    /// Bytes have come since the last thing found: a sequence may be under way.
-    is_under_way: bool,
-}
-
+/// What has come so far.
 #[derive(Debug, Default)]
-struct Found {
+pub struct Reader {
     inputs: Vec<Input>,
+    /// The bytes of a character or of a sequence that is not whole yet.
+    begun: Vec<u8>,
     /// The text between the marks of a paste.
     paste: Option<String>,
     /// The last character of a paste that has no end yet is that of Ctrl-C; what the terminal answers may follow.
     is_interrupted: bool,
-    /// The character after `ESC O` is a key.
-    is_single_shift: bool,
 }
 
 impl Reader {
     /// Takes in bytes that have come together; what they mean is added to `to`.
     pub fn take(&mut self, bytes: &[u8], to: &mut Vec<Input>) {
         // Within a text that was pasted it is a character, unless a hand has typed it.
-        if bytes.contains(&INTERRUPT) && (self.found.paste.is_none() || bytes == [INTERRUPT]) {
+        if bytes.contains(&INTERRUPT) && (self.paste.is_none() || bytes == [INTERRUPT]) {
             *self = Self::default();
             return to.push(Input::Interrupt);
         }
-        for &byte in bytes {
-            let begins = byte == 0x1b;
-            // An Escape is followed by a printable character where it begins a sequence.
-            if self.is_escape && (begins || byte < b' ') {
-                self.lone_escape();
+        bytes.iter().for_each(|&byte| self.byte(byte));
+        to.append(&mut self.inputs);
+    }
+
+    fn byte(&mut self, byte: u8) {
+        if !may_continue(&self.begun, byte) {
+            // An Escape that does not end a string begins something else.
+            let is_anew = matches!(self.begun[..], [_, _, .., ESCAPE]);
+            self.typed();
+            if is_anew {
+                self.byte(ESCAPE);
+                return self.byte(byte);
             }
-            let before = self.found.inputs.len();
-            self.parser.advance(&mut self.found, &[byte]);
-            self.is_escape = begins;
-            self.is_under_way = self.found.inputs.len() == before;
         }
-        to.append(&mut self.found.inputs);
+        let mut begun = std::mem::take(&mut self.begun);
+        begun.push(byte);
+        if !self.means(&begun) {
+            if begun.len() > LONGEST {
+                begun.remove(LONGEST / 2);
+            }
+            self.begun = begun;
+        }
     }
 
-    fn lone_escape(&mut self) {
-        self.parser = Parser::new();
-        self.is_escape = false;
-        self.found.key(Key::Named(Named::Esc));
+    /// Finds what bytes mean; returns whether they are whole.
+    fn means(&mut self, bytes: &[u8]) -> bool {
+        match bytes {
+            // A click as terminals told it before mode 1006: button, column and row are a byte each.
+            [ESCAPE, b'[', b'M', ..] if self.paste.is_none() => return bytes.len() == 6,
+            [ESCAPE, b'[', numbers @ .., last @ b'@'..=b'~'] => self.sequence(numbers, *last),
+            [ESCAPE, b'O', last] => self.named(*last, 0),
+            [ESCAPE, b']', text @ .., 7] | [ESCAPE, b']', text @ .., ESCAPE, b'\\'] => {
+                let color = text.strip_prefix(b"11;").and_then(color_of);
+                let color = color.filter(|_| self.paste.is_none());
+                self.inputs.extend(color.map(Input::Background));
+            }
+            [ESCAPE, _, .., ESCAPE, b'\\'] => {}
+            [ESCAPE, ..] => return false,
+            [byte @ 0..=31] => self.control(*byte),
+            bytes => match from_utf8(bytes) {
+                Ok(text) => text.chars().for_each(|character| self.character(character)),
+                Err(error) => return error.error_len().is_some(),
+            },
+        }
+        true
     }
 
-    /// How long to wait for more before [`rest`](Self::rest); `None`: forever.
+    /// What looked like the start of a sequence are keys; of a longer one nothing is left.
+    fn typed(&mut self) {
+        let begun = std::mem::take(&mut self.begun);
+        if let [ESCAPE] | [ESCAPE, _] = begun[..] {
+            self.key(Key::Named(Named::Esc));
+            let then = begun.iter().skip(1);
+            then.for_each(|&byte| self.key(Key::Char(char::from(byte))));
+        }
+    }
+
+    /// How long to wait for more before [`rest`](Self::rest), milliseconds; `None`: forever.
     pub fn patience(&self) -> Option<u16> {
-        match self.is_escape {
-            true => Some(LONE_ESCAPE),
-            false => self.is_under_way.then_some(GIVE_UP),
+        match self.begun[..] {
+            [] => self.is_interrupted.then_some(GIVE_UP),
+            [ESCAPE] => Some(LONE_ESCAPE),
+            [ESCAPE, b']' | b'P' | b'X' | b'^' | b'_', _, ..] => Some(GIVE_UP_STRING),
+            _ => Some(GIVE_UP),
         }
     }
 
     /// Nothing more has come for that long.
     pub fn rest(&mut self, to: &mut Vec<Input>) {
-        if self.is_escape {
-            self.lone_escape();
-        }
-        self.found.interrupt();
-        self.parser = Parser::new();
-        self.is_under_way = false;
-        if std::mem::take(&mut self.found.is_single_shift) {
-            self.found.inputs.push(Input::Key(Key::Char('O')));
-        }
-        to.append(&mut self.found.inputs);
+        self.typed();
+        self.interrupt();
+        to.append(&mut self.inputs);
     }
-}
 
-impl Found {
     /// Ctrl-C where a paste has no end, and a hand has typed it behind the text.
     fn interrupt(&mut self) {
         if std::mem::take(&mut self.is_interrupted) {
@@ -124,45 +153,38 @@ impl Found {
         }
     }
 
-    /// The key of a sequence by its last character and first number.
-    fn named(&mut self, last: char, number: u16) {
+    /// The key of a sequence by its last byte and first number.
+    fn named(&mut self, last: u8, number: u16) {
         let named = match (last, number) {
-            ('A', _) => Named::Up,
-            ('B', _) => Named::Down,
-            ('C', _) => Named::Right,
-            ('D', _) => Named::Left,
-            ('H', _) | ('~', 1 | 7) => Named::Home,
-            ('F', _) | ('~', 4 | 8) => Named::End,
-            ('Z', _) => Named::BackTab,
-            ('~', 3) => Named::Delete,
-            ('~', 5) => Named::PageUp,
-            ('~', 6) => Named::PageDown,
+            (b'A', _) => Named::Up,
+            (b'B', _) => Named::Down,
+            (b'C', _) => Named::Right,
+            (b'D', _) => Named::Left,
+            (b'H', _) | (b'~', 1 | 7) => Named::Home,
+            (b'F', _) | (b'~', 4 | 8) => Named::End,
+            (b'Z', _) => Named::BackTab,
+            (b'~', 3) => Named::Delete,
+            (b'~', 5) => Named::PageUp,
+            (b'~', 6) => Named::PageDown,
             _ => return,
         };
         self.key(Key::Named(named));
     }
-}
 
-impl Perform for Found {
-    fn print(&mut self, character: char) {
+    fn character(&mut self, character: char) {
         self.is_interrupted = false;
-        if let Some(text) = &mut self.paste {
-            if text.len() < 4 * line::LONGEST {
-                text.push(character);
-            }
-        } else if std::mem::take(&mut self.is_single_shift) {
-            self.named(character, 0);
-        } else if character == '\x7f' {
-            self.key(Key::Named(Named::Backspace));
-        } else {
-            self.key(Key::Char(character));
+        match &mut self.paste {
+            Some(text) if text.len() < 4 * line::LONGEST => text.push(character),
+            Some(_) => {}
+            None if character == '\x7f' => self.key(Key::Named(Named::Backspace)),
+            None => self.key(Key::Char(character)),
         }
     }
 
-    fn execute(&mut self, byte: u8) {
+    fn control(&mut self, byte: u8) {
         match byte {
             // In a text that is pasted, lines and columns become words.
-            b'\t' | b'\r' | b'\n' if self.paste.is_some() => self.print(' '),
+            b'\t' | b'\r' | b'\n' if self.paste.is_some() => self.character(' '),
             b'\t' => self.key(Key::Named(Named::Tab)),
             b'\r' => self.key(Key::Named(Named::Enter)),
             INTERRUPT if self.paste.is_some() => self.is_interrupted = true,
@@ -172,40 +194,33 @@ impl Perform for Found {
         }
     }
 
-    fn esc_dispatch(&mut self, _: &[u8], _: bool, byte: u8) {
-        match byte {
-            b'O' => self.is_single_shift = true,
-            // A character typed with Alt.
-            b' '..=b'~' => self.key(Key::Char(char::from(byte))),
-            _ => {}
-        }
-    }
-
-    /// The answer to what the background is.
-    fn osc_dispatch(&mut self, parameters: &[&[u8]], _: bool) {
-        if let ([b"11", color], None) = (parameters, &self.paste) {
-            let color = std::str::from_utf8(color).ok().and_then(color_of);
-            self.inputs.extend(color.map(Input::Background));
-        }
-    }
-
-    fn csi_dispatch(&mut self, parameters: &Params, marks: &[u8], _: bool, last: char) {
-        let mut numbers = parameters.iter().filter_map(|sub| sub.first().copied());
-        let mut number = || numbers.next().unwrap_or(0);
-        match (marks, last, number()) {
-            ([], '~', 200) => self.paste = Some(String::new()),
-            ([], '~', 201) => {
+    /// A control sequence (CSI), by its mark and numbers, and its last byte.
+    fn sequence(&mut self, numbers: &[u8], last: u8) {
+        let (mark, numbers) = match numbers {
+            [mark @ b'<'..=b'?', numbers @ ..] => (Some(mark), numbers),
+            numbers => (None, numbers),
+        };
+        let mut numbers = numbers.split(|byte| *byte == b';').map(|digits| {
+            let digits = digits.split(|byte| *byte == b':').next();
+            let digits = digits.and_then(|digits| from_utf8(digits).ok());
+            digits.and_then(|digits| digits.parse::<u16>().ok())
+        });
+        let mut number = || numbers.next().flatten().unwrap_or(0);
+        match (mark, last, number()) {
+            (None, b'~', 200) => self.paste = Some(String::new()),
+            (None, b'~', 201) => {
                 self.is_interrupted = false;
                 let text = self.paste.take();
                 self.inputs.extend(text.map(Input::Paste));
             }
-            ([], 'n', 0) => {
+            (None, b'n', 0) => {
                 // A busy terminal leaves no silence behind a Ctrl-C; its answer tells that no text follows.
                 self.interrupt();
-                self.inputs.push(Input::Ready);
+                self.inputs.push(Input::Answer(Request::Status));
             }
+            (None, b'R', _) => self.inputs.push(Input::Answer(Request::Place)),
             // Presses and the wheel, as mode 1006 tells them: columns and rows count from 1.
-            ([b'<'], 'M', button) => {
+            (Some(b'<'), b'M', button) => {
                 let [x, y] = [number(), number()].map(|place| place.saturating_sub(1));
                 let gesture = match button {
                     0 => Gesture::Click(Position { x, y }),
@@ -215,15 +230,32 @@ impl Perform for Found {
                 };
                 self.inputs.push(Input::Point(gesture));
             }
-            ([], last, number) => self.named(last, number),
+            (None, last, number) => self.named(last, number),
             _ => {}
         }
     }
 }
 
+/// Whether a byte may belong to what has begun; what did not begin with an Escape is a character of UTF-8.
+fn may_continue(begun: &[u8], byte: u8) -> bool {
+    match begun {
+        [] => true,
+        [ESCAPE] => b"[O]PX^_".contains(&byte),
+        [ESCAPE, b'O'] => matches!(byte, b'A'..=b'H' | b'M' | b'P'..=b'S' | b'j'..=b'y'),
+        // Replies begin with a number or a mark.
+        [ESCAPE, b']' | b'P'] => matches!(byte, b'0'..=b'9' | b'!' | b'$' | b'+' | b'<'..=b'?'),
+        [ESCAPE, b'[', b'M', ..] => true,
+        [ESCAPE, b'[', ..] => byte >= b' ',
+        [ESCAPE, .., ESCAPE] => byte == b'\\',
+        [ESCAPE, ..] => true,
+        _ => byte & 0xc0 == 0x80,
+    }
+}
+
 /// The colour that a terminal tells as `rgb:` or `rgba:` and shares of the brightest, one to four
 /// hexadecimal digits each, slashes between them.
-fn color_of(text: &str) -> Option<[u8; 3]> {
+fn color_of(text: &[u8]) -> Option<[u8; 3]> {
+    let text = from_utf8(text).ok()?;
     let (_, shares) = text
         .split_once("rgb:")
         .or_else(|| text.split_once("rgba:"))?;
@@ -288,7 +320,7 @@ mod tests {
 
     #[test]
     fn keys_are_read_however_their_bytes_are_split() {
-        let cases: [(&[u8], Vec<Input>); 14] = [
+        let cases: [(&[u8], Vec<Input>); 17] = [
             (
                 "aé∂ ".as_bytes(),
                 ['a', 'é', '∂', ' '].map(|c| key(Key::Char(c))).to_vec(),
@@ -319,9 +351,35 @@ mod tests {
             (b"\x1b\r", vec![named(Named::Esc), named(Named::Enter)]),
             (
                 b"\x1b[0n\x1b[?1;2c\x1b[5;7Rz",
-                vec![Input::Ready, key(Key::Char('z'))],
+                vec![
+                    Input::Answer(Request::Status),
+                    Input::Answer(Request::Place),
+                    key(Key::Char('z')),
+                ],
             ),
-            (b"\x1bz", vec![key(Key::Char('z'))]),
+            // Nothing is bound to Alt.
+            (b"\x1bz", vec![named(Named::Esc), key(Key::Char('z'))]),
+            (
+                "\x1bé\x1bO".as_bytes(),
+                vec![
+                    named(Named::Esc),
+                    key(Key::Char('é')),
+                    named(Named::Esc),
+                    key(Key::Char('O')),
+                ],
+            ),
+            (
+                b"\x1b]]\x1b[",
+                vec![
+                    named(Named::Esc),
+                    key(Key::Char(']')),
+                    key(Key::Char(']')),
+                    named(Named::Esc),
+                    key(Key::Char('[')),
+                ],
+            ),
+            // A click as old terminals tell it.
+            (b"\x1b[M !q\x1b[A", vec![named(Named::Up)]),
         ];
         for (bytes, expected) in cases {
             assert_eq!(read(&[bytes]), expected, "{bytes:?}");
@@ -369,10 +427,16 @@ mod tests {
 
     #[test]
     fn what_never_ends_is_given_up() {
-        for begun in [b"\x1b]0;title".as_slice(), b"\x1bPx", b"\x1b[12"] {
+        for (begun, least) in [
+            (b"\x1b]0;title".as_slice(), 1000),
+            (b"\x1b]11;rgb:ffff/ff\x1b", 1000),
+            (b"\x1bP1", 1000),
+            (b"\x1b[12", 100),
+            (b"\x1b[M ", 100),
+        ] {
             let (mut reader, mut inputs) = (Reader::default(), Vec::new());
             reader.take(begun, &mut inputs);
-            assert!(reader.patience().is_some(), "{begun:?}");
+            assert!(reader.patience() >= Some(least), "{begun:?}");
             reader.rest(&mut inputs);
             reader.take(b"q", &mut inputs);
             assert_eq!(inputs, [key(Key::Char('q'))], "{begun:?}");

@@ -20,13 +20,13 @@ use vt100::Parser;
 use crate::common::Explorer;
 
 /// The explorer on a terminal that counts.
-struct Counted {
+pub struct Counted {
     line: AnsiWriter,
     explorer: Explorer,
 }
 
 impl Counted {
-    fn new(columns: u16, rows: u16) -> Self {
+    pub fn new(columns: u16, rows: u16) -> Self {
         // The longest names of colours.
         let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
         let mut explorer = Explorer::on("li2019-fig3", theme);
@@ -36,7 +36,7 @@ impl Counted {
     }
 
     /// Plays keys, draws once, and returns the bytes of the frame.
-    fn frame(&mut self, keys: &str) -> usize {
+    pub fn frame(&mut self, keys: &str) -> usize {
         for key in parse_script(keys).expect("a script") {
             self.explorer.app.press(key);
         }
@@ -46,7 +46,7 @@ impl Counted {
     }
 
     /// Takes this many steps as if the run had made them by itself: the worker steps, and no key is pressed.
-    fn running_frame(&mut self, steps: usize) -> usize {
+    pub fn running_frame(&mut self, steps: usize) -> usize {
         for _ in 0..steps {
             self.explorer.worker.orders.send(Worker::step_once);
         }
@@ -57,7 +57,7 @@ impl Counted {
     }
 
     /// What the screen shows.
-    fn screen(&self) -> Buffer {
+    pub fn screen(&self) -> Buffer {
         let area = self.explorer.app.explorer.stage.area;
         let mut buffer = Buffer::empty(area);
         screen::draw(&self.explorer.app, area, &mut buffer);

@@ -32,6 +32,7 @@ mod figures;
 mod fine_period;
 mod fit;
 mod floors;
+mod flow;
 mod ghosts;
 mod growth;
 mod guide;

@@ -20,16 +20,15 @@ fn session(home: &TempDir) -> Session {
     read(&kept(home).expect("a checkpoint"))
 }
 
-/// How long keys take to show, on a line of so many bytes a second.
-fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
+/// How long keys take to show on a line that becomes this slow.
+fn latencies(line: Line) -> Vec<Duration> {
     let home = home();
-    let line = Line {
-        rate: None,
-        answers,
-    };
-    let mut terminal = Terminal::start_on(line, at_home(&home, &[]), 80, 24);
+    let before = Line { rate: None, ..line };
+    let mut terminal = Terminal::start_on(before, at_home(&home, &[]), 80, 24);
     terminal.wait_until("explorer under way", is_under_way);
-    terminal.slow_down(rate);
+    if let Some(rate) = line.rate {
+        terminal.slow_down(rate);
+    }
     // Long enough to fall behind.
     thread::sleep(Duration::from_secs(5));
     let mut latencies = Vec::new();
@@ -40,33 +39,76 @@ fn latencies(rate: u32, answers: bool) -> Vec<Duration> {
         latencies.push(pressed.elapsed());
         thread::sleep(Duration::from_millis(700));
     }
-    eprintln!("{rate} B/s, answers {answers}: {latencies:.1?}");
+    eprintln!("{line:?}: {latencies:.1?}");
     assert_eq!(terminal.ends_soon("q"), 0);
     assert!(session(&home).simulation().cycle() > 0.0);
     latencies
 }
 
 #[test]
-fn at_600_bytes_a_second_a_key_shows_within_two_seconds() {
-    let lines = [true, false].map(|answers| thread::spawn(move || latencies(600, answers)));
-    let [answering, mute] = lines.map(|line| line.join().expect("a line"));
-    // Whoever runs all the tests at once has a busy machine: one of four may be late.
-    let is_late = |late: &&Duration| **late > Duration::from_secs(2);
-    assert!(
-        answering.iter().filter(is_late).count() <= 1,
-        "{answering:.1?}"
-    );
-    // Where nothing tells how slow the line is, an answer is drawn whole, and the next key waits for it.
-    assert!(mute[0] < Duration::from_secs(2), "{mute:.1?}");
-    let latest = mute.iter().max().expect("latencies");
-    assert!(*latest < Duration::from_secs(8), "{mute:.1?}");
+fn on_a_slow_line_a_key_shows_within_two_seconds() {
+    let lines = [
+        (Some(600), true, 0),
+        (Some(600), true, 300),
+        (None, false, 0),
+    ];
+    let lines = lines.map(|(rate, answers, round_trip)| Line {
+        rate,
+        answers,
+        round_trip: Duration::from_millis(round_trip),
+    });
+    let found = lines.map(|line| thread::spawn(move || latencies(line)));
+    for (found, line) in found.into_iter().zip(lines) {
+        let found = found.join().expect("a line");
+        // Whoever runs all the tests at once has a busy machine: one of four may be late.
+        let late = found
+            .iter()
+            .filter(|found| **found > Duration::from_secs(2));
+        assert!(late.count() <= 1, "{line:?}: {found:.1?}");
+    }
+}
+
+/// However far away it is, and whether it answers or not; each takes a few seconds, mostly of waiting.
+#[test]
+fn a_terminal_far_away_shows_the_whole_screen() {
+    let lines = [
+        (None, true, 300, [120, 40]),
+        (None, true, 1000, [80, 24]),
+        (Some(9600), true, 300, [120, 40]),
+        (None, false, 0, [80, 24]),
+    ];
+    let far = lines.map(|(rate, answers, round_trip, [columns, rows])| {
+        thread::spawn(move || {
+            let home = home();
+            let round_trip = Duration::from_millis(round_trip);
+            let line = Line {
+                rate,
+                answers,
+                round_trip,
+            };
+            let start = Instant::now();
+            let mut terminal = Terminal::start_on(line, at_home(&home, &[]), columns, rows);
+            terminal.wait_until("whole screen", |screen| {
+                let rows: Vec<String> = screen.rows(0, columns).collect();
+                let shown = rows.iter().filter(|row| !row.trim().is_empty());
+                is_under_way(screen) && shown.count() + 5 > rows.len()
+            });
+            let took = start.elapsed();
+            eprintln!("{line:?}, {columns} by {rows}: complete after {took:.1?}");
+            assert!(took < Duration::from_secs(8), "{line:?}: {took:.1?}");
+            assert_eq!(terminal.ends_soon("TERM"), 0);
+        })
+    });
+    for far in far {
+        far.join().expect("a line");
+    }
 }
 
 /// An explorer whose first screen is more than a line holds that nobody reads.
 fn stalled(home: &TempDir, arguments: &[&str], fault: &str) -> Terminal {
     let line = Line {
         rate: Some(0),
-        answers: true,
+        ..Line::default()
     };
     let mut command = at_home(home, &[&["--checkpoint-every", "0.02"], arguments].concat());
     command.env("MDR_TUI_FAULT", fault);
@@ -158,7 +200,7 @@ fn a_run_on_a_terminal_that_stops_reading_answers_signals() {
     let home = home();
     let line = Line {
         rate: Some(0),
-        answers: true,
+        ..Line::default()
     };
     let bin = env!("CARGO_BIN_EXE_mdr-tui");
     // What nobody reads is there already.

@@ -408,3 +408,73 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_back() {
         terminal.wait_for_end();
     }
 }
+
+/// Stopped in the middle of a frame, with raw mode on: the shell sets its own modes, and the explorer its own again.
+#[test]
+fn after_a_stop_that_nobody_hears_keys_are_read_again() {
+    let base = tempfile::tempdir().expect("a directory");
+    let mut terminal = shell(base.path());
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    terminal.press(&format!("'{bin}' & (sleep 3; kill -STOP $!) & fg %1\n"));
+    terminal.wait_until("running explorer", is_running);
+    terminal.wait_for("Stopped");
+    terminal.press("fg %1\n");
+    terminal.wait_until("explorer again", |screen| {
+        is_running(screen) && !screen.contents().contains("Stopped")
+    });
+    terminal.press("?");
+    terminal.wait_for("keys (");
+    terminal.press("\x1b");
+    terminal.wait_until("closed help", |screen| {
+        !screen.contents().contains("keys (")
+    });
+    terminal.press("q");
+    terminal.wait_for("resume with");
+    terminal.press("exit\n");
+    terminal.wait_for_end();
+}
+
+#[test]
+fn ctrl_l_draws_the_whole_screen_anew() {
+    let mut terminal = running(&[]);
+    terminal.press(" ");
+    terminal.wait_for("paused");
+    for keys in ["", ":"] {
+        terminal.press(keys);
+        terminal.wait_for_silence();
+        let rows = |screen: &Screen| -> Vec<String> {
+            let rows = screen.rows(0, 80);
+            rows.map(|row| row.trim_end().to_owned()).collect()
+        };
+        let (before, shown) = (terminal.raw().len(), terminal.look(rows));
+        terminal.press("\x0c");
+        terminal.wait_for_silence();
+        let anew = terminal.raw()[before..].to_vec();
+        has(&String::from_utf8_lossy(&anew), "\x1b[2J");
+        assert!(anew.len() > 1000, "{} bytes", anew.len());
+        assert_eq!(terminal.look(rows), shown);
+    }
+    terminal.press("\x03");
+    assert_clean_end(&mut terminal);
+}
+
+/// What a terminal sends by itself, late and in parts, or from a mode that another program has left on, is no key.
+#[test]
+fn what_the_terminal_sends_in_parts_is_no_key() {
+    let mut terminal = running(&[]);
+    terminal.press(" ");
+    terminal.wait_for("paused");
+    terminal.press("\x1b[M q!");
+    terminal.press(":");
+    terminal.wait_for("commands (");
+    terminal.press("\x1b]11;rgb:ffff/ff");
+    thread::sleep(Duration::from_millis(600));
+    terminal.press("ff/ffff\x1b\\");
+    terminal.press("ghost");
+    terminal.wait_for(":ghost");
+    // Escape and a key at once, as tmux sends what comes within its escape time.
+    terminal.press("\x1b?");
+    terminal.wait_for("keys (");
+    terminal.press("\x03");
+    assert_clean_end(&mut terminal);
+}

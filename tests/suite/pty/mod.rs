@@ -4,6 +4,7 @@ use std::io::{Read, Write};
 use std::num::NonZeroU16;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -37,8 +38,10 @@ struct Output {
 pub struct Line {
     /// Bytes a second; none: as fast as they come. Zero: not at all.
     pub rate: Option<u32>,
-    /// Whether it answers when it is asked whether it is ready, as most terminals do.
+    /// Whether it answers when it is asked whether it is ready, or where its cursor is, as most terminals do.
     pub answers: bool,
+    /// How long its answers are on their way, there and back.
+    pub round_trip: Duration,
 }
 
 impl Default for Line {
@@ -46,6 +49,7 @@ impl Default for Line {
         Self {
             rate: None,
             answers: true,
+            round_trip: Duration::ZERO,
         }
     }
 }
@@ -390,11 +394,23 @@ fn collect(
     (writer, output, line): (Writer, Arc<Mutex<Output>>, Arc<Mutex<Line>>),
     is_over: Arc<AtomicBool>,
 ) -> thread::JoinHandle<()> {
-    const QUESTION: &[u8] = b"\x1b[5n";
+    let (answers_to_come, due) = channel::<(Instant, &[u8])>();
+    thread::spawn(move || {
+        for (then, answer) in due {
+            thread::sleep(then.saturating_duration_since(Instant::now()));
+            let mut writer = writer.lock().unwrap_or_else(PoisonError::into_inner);
+            let _ = writer.write_all(answer);
+            let _ = writer.flush();
+        }
+    });
     thread::spawn(move || {
         let mut bytes = [0; 4096];
         loop {
-            let Line { rate, answers } = *line.lock().unwrap_or_else(PoisonError::into_inner);
+            let Line {
+                rate,
+                answers,
+                round_trip,
+            } = *line.lock().unwrap_or_else(PoisonError::into_inner);
             if rate == Some(0) {
                 if is_over.load(Ordering::Relaxed) {
                     return;
@@ -410,19 +426,19 @@ fn collect(
             if is_over.load(Ordering::Relaxed) {
                 return;
             }
-            let questions = {
-                let mut output = output.lock().unwrap_or_else(PoisonError::into_inner);
-                output.parser.process(&bytes[..count]);
-                let before = output.raw.len().saturating_sub(QUESTION.len() - 1);
-                output.raw.extend_from_slice(&bytes[..count]);
-                let new = output.raw[before..].windows(QUESTION.len());
-                new.filter(|bytes| *bytes == QUESTION).count()
-            };
-            for _ in 0..if answers { questions } else { 0 } {
-                let mut writer = writer.lock().unwrap_or_else(PoisonError::into_inner);
-                let _ = writer.write_all(b"\x1b[0n");
-                let _ = writer.flush();
+            let mut output = output.lock().unwrap_or_else(PoisonError::into_inner);
+            output.parser.process(&bytes[..count]);
+            let before = output.raw.len().saturating_sub(3);
+            output.raw.extend_from_slice(&bytes[..count]);
+            for request in output.raw[before..].windows(4).filter(|_| answers) {
+                let answer: &[u8] = match request {
+                    b"\x1b[5n" => b"\x1b[0n",
+                    b"\x1b[6n" => b"\x1b[1;1R",
+                    _ => continue,
+                };
+                let _ = answers_to_come.send((Instant::now() + round_trip, answer));
             }
+            drop(output);
             if let Some(rate) = rate {
                 thread::sleep(Duration::from_secs_f64(count as f64 / f64::from(rate)));
             }

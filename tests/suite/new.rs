@@ -3,6 +3,7 @@
 use mdr_tui::scenario::Scenario;
 
 use crate::pty::{Terminal, program};
+use crate::terminal::assert_given_back;
 use crate::test_dir::{TestDir, has, lacks};
 
 #[test]
@@ -58,4 +59,44 @@ fn questions_are_asked_in_a_terminal_and_answered_at_once() {
     has(&text, "mean = \"20 N\"");
     has(&text, "cycles = 50.0");
     lacks(&text, "[wear]");
+}
+
+/// The terminal is as it was, no lock is left, and one line says what has happened.
+#[test]
+fn questions_that_are_stopped_leave_nothing_behind() {
+    let dir = TestDir::new();
+    for way in ["\x03", "TERM", "HUP", "USR1"] {
+        let mut command = program(&["new", "stopped.toml"]);
+        command.cwd(dir.path("."));
+        let mut terminal = Terminal::start(command, 80, 24);
+        terminal.wait_for("Which shape presses");
+        assert_eq!(terminal.ends_soon(way), 1);
+        terminal.wait_for_end();
+        assert_given_back(&terminal);
+        has(
+            &terminal.text(),
+            "mdr-tui: interrupted; nothing was written",
+        );
+        let left = std::fs::read_dir(dir.path(".")).expect("a directory");
+        assert_eq!(left.count(), 0, "{way}");
+    }
+}
+
+#[test]
+fn questions_that_have_no_room_are_refused() {
+    let dir = TestDir::new();
+    for (columns, rows, then) in [(80, 1, None), (1, 24, None), (80, 24, Some((80, 1)))] {
+        let mut command = program(&["new", "small.toml"]);
+        command.cwd(dir.path("."));
+        let mut terminal = Terminal::start(command, columns, rows);
+        if let Some((columns, rows)) = then {
+            terminal.wait_for("Which shape presses");
+            terminal.resize(columns, rows);
+            terminal.press("\x1b[B");
+        }
+        assert_eq!(terminal.wait_for_end().exit_code(), 2);
+        assert_given_back(&terminal);
+        let raw = String::from_utf8_lossy(&terminal.raw()).replace(['\r', '\n'], "");
+        has(&raw, "questions need 20 by 3");
+    }
 }

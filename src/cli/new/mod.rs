@@ -3,18 +3,23 @@
 //! options are the answers.
 
 use std::io::{self, IsTerminal, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
+use std::{process, thread};
 
 use anyhow::{Context, Result};
 use clap::Parser;
+use dialoguer::console::Term;
 use dialoguer::theme::{ColorfulTheme, SimpleTheme, Theme};
 use dialoguer::{Confirm, Input, Select};
+use signal_hook::iterator::Signals;
 
 use super::args::{Arguments, New};
-use super::explore;
+use super::{FAILED, complain, explore, stop};
 use crate::export::file::shell_word;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, printable};
+use crate::tui::modes::Modes;
 
 mod answers;
 mod forecast;
@@ -28,16 +33,16 @@ const JUMP_FROM: f64 = 1000.0;
 /// Writes a new scenario.
 pub fn new(options: &New) -> Result<()> {
     let path = Path::new(&options.file);
-    let target = Target::claim(path, options.force)?;
+    // Not held while questions wait for answers.
+    drop(Target::claim(path, options.force)?);
     let asks = io::stdin().is_terminal() && io::stderr().is_terminal();
     let interview = Interview {
         options: serde_json::to_value(options)?,
         theme: asks.then(theme),
     };
-    let draft = interview.answers()?;
+    let draft = interview.attended()?;
     let scenario = draft.scenario(&options.file)?;
-    target.write(draft.to_toml().as_bytes())?;
-    drop(target);
+    Target::claim(path, options.force)?.write(draft.to_toml().as_bytes())?;
     let file = shell_word(path);
     let mut out = io::stdout().lock();
     if let Some(forecast) = Forecast::of(&scenario) {
@@ -51,6 +56,7 @@ pub fn new(options: &New) -> Result<()> {
     let mut opens = options.open;
     if let (false, Some(theme)) = (opens, &interview.theme) {
         let question = Confirm::with_theme(&**theme).with_prompt("Open it now?");
+        let _cursor = Cursor;
         let answer = question.default(true).interact();
         opens = answer.context("the scenario is written, but not opened")?;
     }
@@ -62,11 +68,43 @@ pub fn new(options: &New) -> Result<()> {
     Ok(())
 }
 
+/// Whether a question was ended by a signal or by Ctrl-C.
+fn is_interrupted(error: &anyhow::Error) -> bool {
+    let cause = error.downcast_ref();
+    matches!(cause, Some(dialoguer::Error::IO(cause)) if cause.kind() == io::ErrorKind::Interrupted)
+}
+
 fn theme() -> Box<dyn Theme> {
     match std::env::var_os("NO_COLOR") {
         Some(_) => Box::new(SimpleTheme),
         None => Box::new(ColorfulTheme::default()),
     }
+}
+
+/// Shows the cursor again, which questions hide, however they end.
+struct Cursor;
+
+impl Drop for Cursor {
+    fn drop(&mut self) {
+        let _ = Term::stderr().show_cursor();
+    }
+}
+
+/// The fewest rows and columns for questions.
+const LEAST: (u16, u16) = (3, 20);
+
+/// Refuses a terminal that has no room for questions.
+fn check_room() -> Result<(), Refusal> {
+    let (rows, columns) = Term::stderr().size();
+    if rows >= LEAST.0 && columns >= LEAST.1 {
+        return Ok(());
+    }
+    let place = format!("a terminal of {columns} by {rows} characters");
+    let rule = format!("questions need {} by {}; options answer", LEAST.1, LEAST.0);
+    Err(Refusal::new(
+        place,
+        format!("{rule} them too, see mdr-tui new --help"),
+    ))
 }
 
 /// Takes each answer from its option, from the user, or from its default.
@@ -78,6 +116,35 @@ struct Interview {
 }
 
 impl Interview {
+    /// The answers; where questions are asked, the terminal is given back if a signal or a key ends them.
+    fn attended(&self) -> Result<Draft> {
+        if self.theme.is_none() {
+            return self.answers();
+        }
+        check_room()?;
+        let mut signals = Signals::new(stop::ENDING).context("cannot listen for signals")?;
+        let (closing, modes, _cursor) = (signals.handle(), Modes::note()?, Cursor);
+        let watch = thread::spawn(move || {
+            if signals.forever().next().is_some() {
+                modes.restore();
+                drop(Cursor);
+                complain("interrupted; nothing was written");
+                process::exit(FAILED.into());
+            }
+        });
+        let answers = catch_unwind(AssertUnwindSafe(|| self.answers()));
+        if !matches!(&answers, Ok(Err(error)) if is_interrupted(error)) {
+            closing.close();
+        }
+        // A signal, or Ctrl-C, which a question passes on as one, ends the process.
+        let _ = watch.join();
+        // The terminal may have become too small meanwhile.
+        answers.unwrap_or_else(|panic| match check_room() {
+            Err(refusal) => Err(refusal.into()),
+            Ok(()) => resume_unwind(panic),
+        })
+    }
+
     fn answers(&self) -> Result<Draft> {
         let mut draft = Draft::default();
         // What is not asked yet has its default, so that the contact can be described already.

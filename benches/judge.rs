@@ -6,7 +6,8 @@
 //! Times are CPU times of this thread, so that other work on the machine hardly counts. `--limit` ends
 //! the study after that many seconds; `--all` prints a line per scenario. `--estimate` judges
 //! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy; `--checks` the checks of
-//! runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are long runs.
+//! runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are long runs, those from 2000000 on
+//! have thresholds, courses, blocks, scars and other kinds in them.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 
@@ -14,6 +15,8 @@
 mod judge;
 #[path = "../tests/suite/random.rs"]
 mod random;
+#[path = "../tests/suite/random_kinds.rs"]
+mod random_kinds;
 #[path = "../tests/suite/random_scenarios.rs"]
 mod random_scenarios;
 

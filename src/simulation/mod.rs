@@ -70,6 +70,7 @@ pub mod traction;
 mod unworn;
 pub mod waveform;
 mod wear;
+mod within_step;
 
 pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
@@ -118,9 +119,8 @@ impl Simulation {
     fn begin(setup: Setup) -> Result<Self, Breakdown> {
         let model = Model::new(setup, None);
         let mut state = State::new(model.nodes(), model.springs() > 0);
-        if let Some(scar) = &model.setup.scar {
-            let nodes = model.grid.nodes();
-            state.wear = nodes.iter().map(|&r| scar.depth(r)).collect();
+        if model.setup.scar.is_some() {
+            state.wear = model.setup.initial_wear(&model.grid);
             model.plan.image(&state.wear, &mut state.image);
             // Nobody knows by which work it was worn.
             state.ledger.initial_volume = scar_volume(&model, &state.wear);
@@ -275,9 +275,12 @@ impl Simulation {
     /// One step into the spare state, which becomes the present one if all went well.
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
         let (state, spare) = (&self.state, &mut self.spare);
-        match step::step(&self.model, state, spare, &mut self.scratch, cycle) {
-            Err(cause) if cause.lacks_room() && self.grow()? => return self.step_to(cycle, turns),
-            outcome => outcome.map_err(|cause| self.refused(cause))?,
+        if let Err(cause) = step::step(&mut self.model, state, spare, &mut self.scratch, cycle) {
+            self.run_in();
+            return match cause.lacks_room() && self.grow()? {
+                true => self.step_to(cycle, turns),
+                false => Err(self.refused(cause)),
+            };
         }
         std::mem::swap(&mut self.state, &mut self.spare[0]);
         if turns {
@@ -364,6 +367,13 @@ impl Simulation {
 
     /// Worn volume 2π∫(f − f₀) r dr, m³.
     pub fn wear_volume(&self) -> f64 {
-        scar_volume(&self.model, &self.state.wear)
+        scar_volume(&self.model, &self.state.wear) - self.state.ledger.regridded_volume
+    }
+
+    /// What f has grown by since the run began, m, at the nodes.
+    pub fn worn_since_start(&self) -> Vec<f64> {
+        let initial = self.setup().initial_wear(&self.setup().grid);
+        let worn = self.state.wear.iter().zip(initial);
+        worn.map(|(depth, initial)| depth - initial).collect()
     }
 }

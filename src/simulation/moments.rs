@@ -1,5 +1,5 @@
 //! When steps end: at equal fractions of a period of the faster motion, where the motion reverses,
-//! and where contact is made or lost.
+//! where contact is made or lost, and where friction or wear bends on its course over cycles.
 
 use std::sync::Arc;
 
@@ -79,8 +79,11 @@ pub(super) fn next(
         let (from, until) = (now + rounding, regular + sliver);
         let turn = turning(from, until);
         let before = turn.unwrap_or(until);
+        let bending = setup.running_in.as_ref();
+        let bend = bending.and_then(|all| all.corner(from, before, steps.recip()));
+        let before = bend.unwrap_or(before);
         let touching = setup.drive.touching_point(touch.tip, from, before);
-        match touching.or(turn) {
+        match touching.or(bend).or(turn) {
             Some(turn) if (turn - regular).abs() <= rounding => (regular, true),
             Some(turn) if turn < regular || passable(regular) => (turn, true),
             _ => (regular, false),

@@ -2,6 +2,7 @@
 
 use super::breakdown::{Breakdown, Cause};
 use super::model::Model;
+use super::profile::scar_volume;
 use super::state::{JumpMemory, State};
 use super::{Setup, Simulation, border};
 use crate::math::abel::worn;
@@ -40,19 +41,15 @@ impl Simulation {
         } else {
             border::graded(&setup, Some(self))
         };
-        let state = self.state_on(&setup);
-        let mut changed = Self::with(Model::new(setup, Some(&self.model)), state);
+        let (mut changed, lost) = self.moved_to(Model::new(setup, Some(&self.model)));
         let worn = self.wear_volume();
-        changed.settle()?;
-        let lost = worn - changed.wear_volume();
-        if lost.abs() > MOST_LOST * worn {
+        if lost > MOST_LOST * worn {
             return Err(self.refused(Cause::WearBlurred {
                 cells: changed.setup().grid.cells(),
-                share: lost.abs() / worn,
+                share: lost / worn,
             }));
         }
-        // The change of volume by interpolation is no wear.
-        changed.state.ledger.unexplained_volume -= lost;
+        changed.settle()?;
         *self = changed;
         Ok(())
     }
@@ -74,15 +71,8 @@ impl Simulation {
         if before.grid.border().is_some() {
             setup = border::graded(&setup, Some(self));
         }
-        let mut state = self.state_on(&setup);
-        state.jump.length = self.state.jump.length;
-        let model = Model::new(setup, None);
-        let (worn, blurred) = (self.wear_volume(), model.volume(&state.wear));
-        if blurred > 0.0 {
-            let kept = worn / blurred;
-            state.wear.iter_mut().for_each(|depth| *depth *= kept);
-        }
-        let mut wider = Self::with(model, state);
+        let (mut wider, _) = self.moved_to(Model::new(setup, None));
+        wider.state.jump.length = self.state.jump.length;
         wider.settle()?;
         wider.is_shortened = self.is_shortened;
         *self = wider;
@@ -108,6 +98,31 @@ impl Simulation {
         }
     }
 
+    /// The present state with other operators. Interpolation on another grid neither wears nor heals: what has worn
+    /// since the beginning keeps its volume, and what was worn before is read anew from its table. Returns as well by how
+    /// much interpolation would have changed the volume, m³.
+    fn moved_to(&self, model: Model) -> (Self, f64) {
+        let mut state = self.state_on(&model.setup);
+        if model.grid == self.model.grid {
+            return (Self::with(model, state), 0.0);
+        }
+        let scar = self.setup().initial_wear(&model.grid);
+        let before = self
+            .model
+            .volume(&self.setup().initial_wear(&self.model.grid));
+        let initial = scar_volume(&model, &scar);
+        state.ledger.regridded_volume += initial - before;
+        let worn = scar_volume(&self.model, &self.state.wear) - before;
+        let blurred = scar_volume(&model, &state.wear) - initial;
+        if blurred > 0.0 {
+            let kept = worn / blurred;
+            for (depth, scar) in state.wear.iter_mut().zip(scar) {
+                *depth = scar + kept * (*depth - scar);
+            }
+        }
+        (Self::with(model, state), (worn - blurred).abs())
+    }
+
     /// The present state on the grid of another setup.
     pub(super) fn state_on(&self, setup: &Setup) -> State {
         let (grid, springs) = (&self.setup().grid, setup.springs());
@@ -123,9 +138,16 @@ impl Simulation {
         state.jump = JumpMemory::default();
         (state.contact.depth, state.contact.shift) = (before.depth, before.shift);
         let nodes = setup.grid.nodes();
+        let mut since = self.state.wear.clone();
+        let initial = self.setup().initial_wear(grid).into_iter();
+        since
+            .iter_mut()
+            .zip(initial)
+            .for_each(|(worn, initial)| *worn -= initial);
+        state.wear = self.setup().initial_wear(&setup.grid);
         for (worn, &r) in state.wear.iter_mut().zip(nodes) {
             // Between nodes the interpolant may swing below zero by a little.
-            *worn = worn::interpolate(grid, &self.state.wear, r).max(0.0);
+            *worn += worn::interpolate(grid, &since, r).max(0.0);
         }
         if springs > 0 && self.model.springs() > 0 {
             for (u, &r) in state.contact.spring.nodal.iter_mut().zip(nodes) {

@@ -1,7 +1,10 @@
 //! Running in: friction and wear coefficients as functions of accumulated cycles or dissipated
 //! energy, and an energy threshold below which nothing wears.
 //!
-//! Each step uses the values at its start. Cycles are jumped only after the values have settled.
+//! A step is of second order in them: springs slip by the friction at its end, and it wears by the mean of friction
+//! and of k over it. The work of a step is known before its wear, so that of k over energy, and of a threshold that is
+//! passed inside it, the mean is exact: V = k(E_d − E_th) holds over the whole run. Cycles are jumped only after the
+//! values have settled.
 
 use std::sync::Arc;
 
@@ -22,6 +25,36 @@ pub enum Over {
     Cycles,
     /// Work of friction since the start, J.
     Energy,
+}
+
+/// What the contact has been through at the two ends of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    /// Cycles since the start.
+    pub cycles: [f64; 2],
+    /// Work of friction since the start, J.
+    pub energy: [f64; 2],
+}
+
+impl Stretch {
+    /// A moment, after `cycles` and `energy` (J).
+    pub fn moment(cycles: f64, energy: f64) -> Self {
+        Self {
+            cycles: [cycles; 2],
+            energy: [energy; 2],
+        }
+    }
+
+    /// Its end.
+    pub fn end(&self) -> Self {
+        Self::moment(self.cycles[1], self.energy[1])
+    }
+
+    fn is_moment(&self) -> bool {
+        [self.cycles, self.energy]
+            .iter()
+            .all(|[from, until]| from == until)
+    }
 }
 
 /// How a value changes.
@@ -122,6 +155,47 @@ impl Course {
         }
     }
 
+    /// The mean of its values over a stretch, by Simpson's rule.
+    fn mean(&self, stretch: Stretch) -> f64 {
+        if stretch.is_moment() {
+            return self.after(stretch.cycles[0], stretch.energy[0]);
+        }
+        let at = |share: f64| {
+            let [cycles, energy] =
+                [stretch.cycles, stretch.energy].map(|[from, until]| from + share * (until - from));
+            self.after(cycles, energy)
+        };
+        (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+    }
+
+    fn over(&self) -> Over {
+        match self {
+            Self::Exponential { over, .. } | Self::Table { over, .. } => *over,
+        }
+    }
+
+    /// The first corner of a table over cycles after `from` and up to `until`, unless another row is nearer to it than
+    /// `apart` cycles.
+    fn corner(&self, from: f64, until: f64, apart: f64) -> Option<f64> {
+        let Self::Table {
+            rows,
+            over: Over::Cycles,
+        } = self
+        else {
+            return None;
+        };
+        let first = rows.partition_point(|row| row.0 <= from);
+        let near = rows[first..]
+            .iter()
+            .map(|row| row.0)
+            .take_while(|&cycle| cycle <= until);
+        let is_apart = |k: usize| k == 0 || k >= rows.len() || rows[k].0 - rows[k - 1].0 > apart;
+        let mut corners = near.enumerate().map(|(i, cycle)| (first + i, cycle));
+        corners
+            .find(|&(k, _)| is_apart(k) && is_apart(k + 1))
+            .map(|(_, cycle)| cycle)
+    }
+
     /// Whether it does not change any more.
     fn is_settled(&self, cycles: f64, energy: f64) -> bool {
         match self {
@@ -161,17 +235,64 @@ impl RunningIn {
         material: &mut Material,
         wear: &mut Option<WearLaw>,
     ) {
-        if let Some(course) = &self.friction {
-            *material = material.with_friction(course.after(cycles, energy));
-        }
+        let now = Stretch::moment(cycles, energy);
+        self.set_friction(now, material);
         let Some(law) = wear else { return };
-        let coefficient = match (&self.wear, self.wear_per_load) {
-            _ if energy < self.threshold => 0.0,
-            (Some(course), _) => course.after(cycles, energy),
-            (None, Some(per_load)) => per_load / material.friction(),
-            (None, None) => return,
+        let coefficient = self.coefficient(now, material).unwrap_or(law.coefficient());
+        let is_above = energy >= self.threshold;
+        *law = law.with_coefficient(if is_above { coefficient } else { 0.0 });
+    }
+
+    /// Sets friction to its mean over a stretch.
+    pub(super) fn set_friction(&self, stretch: Stretch, material: &mut Material) {
+        if let Some(course) = &self.friction {
+            *material = material.with_friction(course.mean(stretch));
+        }
+    }
+
+    /// Whether the friction at the end of a step that begins after `energy` (J) depends on the work in it.
+    pub(super) fn friction_follows_work(&self, energy: f64) -> bool {
+        let course = self.friction.as_ref();
+        course
+            .is_some_and(|course| course.over() == Over::Energy && !course.is_settled(0.0, energy))
+    }
+
+    /// Sets k of a law to its mean over the work of a stretch, 0 for what is done below the threshold; `material` has the
+    /// mean friction.
+    pub(super) fn set_wear(&self, stretch: Stretch, material: &Material, law: &mut WearLaw) {
+        let [from, until] = stretch.energy;
+        let work = until - from;
+        let below = match (self.threshold - from).max(0.0) {
+            left if left < work => left / work,
+            left if left > 0.0 => return *law = law.with_coefficient(0.0),
+            _ => 0.0,
         };
-        *law = law.with_coefficient(coefficient);
+        let [start, end] = stretch.cycles;
+        let above = Stretch {
+            cycles: [start + below * (end - start), end],
+            energy: [from + below * work, until],
+        };
+        let coefficient = self
+            .coefficient(above, material)
+            .unwrap_or(law.coefficient());
+        *law = law.with_coefficient((1.0 - below) * coefficient);
+    }
+
+    /// The mean of k over a stretch above the threshold, 1/Pa; `None` if it stays as it is.
+    fn coefficient(&self, stretch: Stretch, material: &Material) -> Option<f64> {
+        match (&self.wear, self.wear_per_load) {
+            (Some(course), _) => Some(course.mean(stretch)),
+            (None, Some(per_load)) => Some(per_load / material.friction()),
+            (None, None) => None,
+        }
+    }
+
+    /// The first cycle after `from` and up to `until` at which friction or wear bends, if steps of the length `apart`
+    /// see it.
+    pub(super) fn corner(&self, from: f64, until: f64, apart: f64) -> Option<f64> {
+        let courses = [&self.friction, &self.wear].into_iter().flatten();
+        let corners = courses.filter_map(|course| course.corner(from, until, apart));
+        corners.reduce(f64::min)
     }
 
     /// Whether nothing changes any more, so that cycles are alike.

@@ -62,6 +62,13 @@ impl Setup {
         }
     }
 
+    /// The depth that is worn when the run begins, m, at the nodes of a grid.
+    pub(super) fn initial_wear(&self, grid: &RadialGrid) -> Vec<f64> {
+        let scar = self.scar.as_ref();
+        let depth = |&r: &f64| scar.map_or(0.0, |scar| scar.depth(r));
+        grid.nodes().iter().map(depth).collect()
+    }
+
     /// The largest depth of the motion, m, where the displacement is prescribed.
     pub fn largest_depth(&self) -> Option<f64> {
         self.drive.normal().displacement().map(Oscillation::highest)

@@ -97,11 +97,13 @@ pub struct Ledger {
     pub dissipated_energy: f64,
     /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
     pub expected_volume: f64,
-    /// Volume that no work of friction explains, m³: worn before the run, under other laws, or by a change of
-    /// grid. Left out where wear is compared with work.
+    /// Volume that no work of friction explains, m³: worn before the run, or under other laws. Left out where wear is
+    /// compared with work.
     pub unexplained_volume: f64,
     /// Volume that was worn before the run, m³.
     pub initial_volume: f64,
+    /// By how much the scar that the run began with is larger on the present grid than on the first one, m³: no wear.
+    pub regridded_volume: f64,
     /// The smallest stick radius since the period of the motion began, m.
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete period, m; none before there is one.
@@ -114,6 +116,7 @@ impl Ledger {
         expected_volume: 0.0,
         unexplained_volume: 0.0,
         initial_volume: 0.0,
+        regridded_volume: 0.0,
         smallest_stick_radius: f64::INFINITY,
         settled_stick_radius: None,
     };

@@ -20,6 +20,7 @@ use super::contact::Contact;
 use super::model::Model;
 use super::stability::response;
 use super::traction::{self, Pressure};
+use super::within_step::Within;
 use crate::contact::foundation::NormalContact;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
@@ -50,6 +51,8 @@ pub(super) struct Increment {
     shear_at_ends: [Vec<f64>; 2],
     /// A load without its dome, N/m, while it is transformed.
     pub rest: Vec<f64>,
+    /// What springs do within the step, where the normal load changes.
+    within: Within,
 }
 
 impl Increment {
@@ -69,6 +72,7 @@ impl Increment {
             stiffness: vec![0.0; wearing],
             rubbing: Field::zeros(springs),
             shear_at_ends: [vec![0.0; wearing], vec![0.0; wearing]],
+            within: Within::new(springs),
             ..Self::default()
         }
     }
@@ -159,19 +163,31 @@ impl Increment {
             #[inline(always)]
             move |after, before| 0.5 * friction * (after + before),
         );
-        let outside = leading(&self.slip, |&slip| slip == 0.0);
-        if outside > 0 {
+        let varies = varies(model);
+        if varies {
+            (self.within).follow(model, [before, after], load, &mut self.slip);
+        }
+        let slip = if varies {
+            &self.within.slip
+        } else {
+            &self.slip
+        };
+        let outside = leading(slip, |&slip| slip == 0.0);
+        if outside > 0 && !self.within.has_changed {
             let led_to = led_to(model.grid.squares(), load, outside - 1, &after.normal);
             load[outside - 1] = load[outside - 1].min(led_to);
         }
         let at_edge = match after.normal.nodes {
             0 => 0.0,
-            nodes => self.slip[nodes - 1].abs(),
+            nodes => slip[nodes - 1].abs(),
         };
         let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
-        let between_springs = between(before) + between(after);
+        let between_springs = match self.within.has_changed {
+            true => 0.0,
+            false => between(before) + between(after),
+        };
         let nodal = &self.rubbing.nodal;
-        let in_cells = model.foundation.work(nodal, &self.slip, after.normal);
+        let in_cells = model.foundation.work(nodal, slip, after.normal);
         self.friction_work = friction * between_springs * at_edge + in_cells;
     }
 
@@ -221,11 +237,11 @@ impl Increment {
     /// The mean of the stress over a step in the outermost slip zone: of μp at its ends.
     pub fn mean_of_load(
         &mut self,
-        friction: f64,
+        model: &Model,
         [was, is]: [&Pressure; 2],
         (first, sign): (usize, f64),
     ) {
-        let half = 0.5 * sign * friction;
+        let half = 0.5 * sign * model.setup.material.friction();
         write_each(
             &mut self.shear[first..],
             &was.nodal[first..],
@@ -233,6 +249,22 @@ impl Increment {
             #[inline(always)]
             move |was, is| half * (was + is),
         );
+        if varies(model) {
+            let shares = self.within.share[first..].iter();
+            self.shear[first..]
+                .iter_mut()
+                .zip(shares)
+                .for_each(|(shear, share)| *shear *= share);
+        }
+    }
+
+    /// What each spring did in the step that [rubbed](Self::rub) last and ended with the contact `after`.
+    pub fn states<'a>(&'a self, model: &Model, after: &'a Contact) -> &'a [SpringState] {
+        if varies(model) {
+            &self.within.states
+        } else {
+            &after.spring_state
+        }
     }
 
     /// The mean of the stress over a step between the springs that stick in the middle and the outermost slip `zone`: of τ
@@ -271,6 +303,11 @@ impl Increment {
         );
         2
     }
+}
+
+/// Whether the normal motion loads and unloads springs within a step.
+fn varies(model: &Model) -> bool {
+    model.setup.drive.normal().oscillation().amplitude() > 0.0
 }
 
 /// The load at the spring `k`, N/m, that its neighbours lead to on a line in x²: the two outside, the second of which is the

@@ -11,6 +11,7 @@ mod judge;
 #[cfg(unix)]
 mod pty;
 mod random;
+mod random_kinds;
 mod random_scenarios;
 mod screen_table;
 mod test_dir;

@@ -13,6 +13,8 @@
 //! | ω₁/ω₂ | 1, 2, 3, 5, 1/2, 1/3, 3/2, √2 |
 //! | rubbed-off depth in depths, 4kμE*Uz/a over the run | 0.05 to 3 |
 //! | cycles z | 3 to 100, up to 3000 where cycles are jumped; from the seed [`LONG`] on, 1e4 to 1e6 |
+//!
+//! Seeds from [`KINDS`] on add [more kinds](crate::random_kinds) to these.
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
@@ -20,6 +22,7 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::scenario::Scenario;
 
 use crate::random::Random;
+use crate::random_kinds::{self, KINDS, Known};
 
 /// From this seed on runs are long, and forces held and lift-off more frequent.
 pub const LONG: u64 = 1_000_000;
@@ -38,6 +41,15 @@ pub fn scenario(seed: u64) -> Scenario {
 
 /// The scenario of a seed as TOML.
 pub fn text(seed: u64) -> String {
+    let (text, known) = first(seed);
+    match seed < KINDS {
+        true => text,
+        false => random_kinds::extend(&text, &known, &mut Random::new(!seed)),
+    }
+}
+
+/// The scenario of the first family that belongs to a seed, and what is known of it.
+fn first(seed: u64) -> (String, Known) {
     let mut draw = Random::new(seed);
     let shape = Shape::draw(&mut draw);
     let poisson = draw.between(0.0, 0.5);
@@ -48,7 +60,7 @@ pub fn text(seed: u64) -> String {
     let stick_ratio = stiffness_ratio / friction;
     let pressed = shape.pressed(modulus);
 
-    let is_long = seed >= LONG;
+    let is_long = seed >= LONG && (seed < KINDS || seed.is_multiple_of(10));
     let by_force = draw.chance(if is_long { 0.6 } else { 0.3 });
     let tangential_by_force = by_force && draw.chance(0.4);
     let lifts = !tangential_by_force && draw.chance(if is_long { 0.25 } else { 0.1 });
@@ -156,7 +168,20 @@ pub fn text(seed: u64) -> String {
         };
         toml += &format!("[[changes]]\nat_cycle = {at}\nset = \"{key} = {value:e}\"\n");
     }
-    toml
+    let known = Known {
+        friction,
+        coefficient,
+        cycles,
+        force: pressed.force,
+        radius: pressed.radius,
+        depth: pressed.depth,
+        stiffness: 2.0 * stiffness_ratio * modulus * pressed.radius,
+        shift,
+        gross_slip,
+        tangential_by_force,
+        lifts,
+    };
+    (toml, known)
 }
 
 /// An indenter and how far it is pressed in at the deepest moment.

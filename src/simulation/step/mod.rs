@@ -12,7 +12,7 @@
 //! last: nothing is allocated, and a failed step changes nothing.
 //!
 //! [`euler`] and [`trapezoid`] choose the profile for the contact and the stress for the wear.
-//! [`substep`] takes their steps, in parts where they are too stiff; [`cycle_jump`] takes many cycles at once, by the
+//! [`attempt`] tries a step, [`substep`] takes it, in parts where it is too stiff; [`cycle_jump`] takes many cycles at once, by the
 //! wear of a [steady-state cycle](steady_cycle).
 
 use super::breakdown::{Cause, advice};
@@ -29,6 +29,7 @@ use super::wear::Increment;
 use crate::math::scan::largest;
 use crate::math::vector::{vectorized, write_each};
 
+mod attempt;
 mod cycle_jump;
 mod euler;
 mod steady_cycle;

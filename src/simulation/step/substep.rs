@@ -15,10 +15,10 @@
 
 use super::super::breakdown::Cause;
 use super::super::choices::{Scheme, Stability};
-use super::super::contact;
 use super::super::model::Model;
 use super::super::state::State;
-use super::{Bounds, Scratch, accept, euler, trapezoid, wear};
+use super::attempt::attempt;
+use super::{Bounds, Scratch, accept, euler, trapezoid};
 
 /// By how much a sub-step may be longer than the one before it.
 const GROWTH: f64 = 1.5;
@@ -40,7 +40,7 @@ enum Part {
 
 /// One step from `state` to `cycle`, into the first of two spare states; the other holds the ends of sub-steps.
 pub(in super::super) fn step(
-    model: &Model,
+    model: &mut Model,
     state: &State,
     [next, between]: &mut [State; 2],
     scratch: &mut Scratch,
@@ -107,21 +107,4 @@ pub(in super::super) fn step(
     }
     next.last.stiffness = stiffest;
     Ok(())
-}
-
-/// Solves the contact at `cycle` on the profile in `scratch`, into `next`, and what the step there from `state` wears;
-/// returns how stiff it is.
-fn attempt(
-    model: &Model,
-    state: &State,
-    next: &mut State,
-    scratch: &mut Scratch,
-    cycle: f64,
-) -> Result<f64, Cause> {
-    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
-    let targets = model.setup.drive.targets(cycle);
-    problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)?;
-    wear(model, state, next, scratch, cycle);
-    let seconds = model.seconds(cycle - state.cycle);
-    Ok(scratch.increment.stiffness(model, seconds))
 }

@@ -69,7 +69,7 @@ pub(super) fn wear(
     let increment = &mut scratch.increment;
     increment.rub(model, contacts);
     if let Some(law) = model.setup.wear {
-        let states = &next.contact.spring_state;
+        let states = increment.states(model, &next.contact);
         let stuck = leading(states, |&spring| spring == SpringState::Stick);
         let zone = outer_slip_zone(states);
         increment.find_sliding(model, contacts, stuck);
@@ -81,8 +81,7 @@ pub(super) fn wear(
             scratch.transforms += 1;
             before = &scratch.pressure;
         }
-        let friction = model.setup.material.friction();
-        increment.mean_of_load(friction, [before, &next.pressure], zone);
+        increment.mean_of_load(model, [before, &next.pressure], zone);
         scratch.transforms += 2 + increment.mean_of_shear(model, contacts, zone.0);
         increment.wear(model, model.seconds(cycle - state.cycle));
         let exponent = law.slip_rate_exponent();

@@ -1,8 +1,9 @@
 //! Estimates the error of a run from coarser twins.
 //!
-//! Two twins with a half and a quarter of the cells and of the steps give two differences, which tell the error as
-//! rungs of the [ladder](super::climb) do. A run too coarse to be halved twice is compared with a finer twin instead.
+//! Two twins, one [coarser](TWIN) in cells and steps and one coarser still, give two differences, which tell the error as
+//! rungs of the [ladder](super::climb) do. A run too coarse for that is compared with a finer twin instead.
 
+use super::ladder::TWIN;
 use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
 use super::rung::run;
@@ -25,34 +26,44 @@ pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Differenc
         let twin = run(&twin_of(session, factor)?, cycle, go_on)?;
         Ok(Outcome::of(&twin))
     };
-    if !level.can_be(0.25) {
+    let coarser = TWIN.recip();
+    if !level.can_be(coarser * coarser) {
         // The error of the coarser one is that of the finer one and the difference.
-        let difference = here.against(&ended(2.0)?);
-        let finer = difference.error_of_finer(2.0);
+        let twin = ended(TWIN)?;
+        let difference = here.against(&twin);
+        let finer = difference.error_of_finer(ratio(&here, &twin));
         return Ok(difference.with(&finer, |difference, finer| difference + finer));
     }
-    let half = ended(0.5)?;
-    match ended(0.25) {
-        Ok(quarter) => {
-            let before = quarter.against(&half).error_of_finer(2.0);
-            let error = half.against(&here).error_above(&before, 2.0);
+    let twin = ended(coarser)?;
+    match ended(coarser * coarser) {
+        Ok(coarsest) => {
+            let before = by_twin(&coarsest, &twin);
+            let error = twin
+                .against(&here)
+                .error_above(&before, ratio(&twin, &here));
             Ok(error.as_estimate())
         }
         Err(SessionError::Interrupted) => Err(SessionError::Interrupted),
-        // A quarter that breaks down only leaves unseen that two numbers may agree by chance.
-        Err(_) => Ok(by_twin(&half, &here)),
+        // If the coarsest breaks down, it only stays unseen that two numbers may agree by chance.
+        Err(_) => Ok(by_twin(&twin, &here)),
     }
 }
 
 /// Estimates the error of a run from its [`twin`] alone, at the same cycle.
 pub fn by_twin(twin: &Outcome, run: &Outcome) -> Difference {
-    twin.against(run).error_of_finer(2.0)
+    twin.against(run).error_of_finer(ratio(twin, run))
 }
 
-/// The run with half its cells and steps, at its start; `None` if it is too coarse to be halved.
+/// How many times finer one of two runs is; rounding to whole cells makes this differ from [`TWIN`].
+fn ratio(coarse: &Outcome, fine: &Outcome) -> f64 {
+    fine.grid.cells() as f64 / coarse.grid.cells() as f64
+}
+
+/// The run with fewer cells and steps by [`TWIN`], at its start; `None` if it is too coarse for one.
 pub fn twin(session: &Session) -> Option<Result<Session, SessionError>> {
-    let can_be = Level::of(session.loaded()).can_be(0.5);
-    can_be.then(|| Session::start(twin_of(session, 0.5)?))
+    let coarser = TWIN.recip();
+    let can_be = Level::of(session.loaded()).can_be(coarser);
+    can_be.then(|| Session::start(twin_of(session, coarser)?))
 }
 
 impl Level {

@@ -43,8 +43,9 @@ const WORTH_JUMPING: f64 = 100.0;
 /// How much finer the next rung is, at least and at most.
 const STRIDE: (f64, f64) = (1.6, 3.0);
 
-/// The twins of a rung are this much coarser.
-const TWIN: f64 = 2.0;
+/// The twins of a rung are this much coarser. By a whole number, both would see the same moments and radii, and their
+/// difference would not show what both miss.
+pub(super) const TWIN: f64 = 1.7;
 
 /// The finest level that is tried.
 const MOST_POINTS: usize = 20_000;
@@ -246,7 +247,7 @@ impl Ladder<'_> {
                 Err(Failure::Broken(why)) if self.failures > MOST_STALLS => {
                     break Verdict::Failed(why);
                 }
-                Err(Failure::Broken(_)) => planned = planned.refined([1.0, TWIN, 1.0]),
+                Err(Failure::Broken(_)) => planned = planned.refined([1.0, 2.0, 1.0]),
                 Err(Failure::Late) => break self.out_of_time(),
                 Err(Failure::Over(error)) => return Err(error.into()),
             }
@@ -362,9 +363,11 @@ impl Ladder<'_> {
         (setup.method == AbelMethod::Product && is_open).then_some(&setup.indenter)
     }
 
-    /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar.
+    /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar, or one that they
+    /// would not see.
     fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
-        placing::place(&outcome.grid, &outcome.wear, cells, self.placing()?)
+        let grid = placing::place(&outcome.grid, &outcome.profile, cells, self.placing()?)?;
+        outcome.is_seen_by(&grid).then_some(grid)
     }
 
     /// The level after a rung: finer in what uses up more than its share, where all have equal ones.
@@ -380,10 +383,10 @@ impl Ladder<'_> {
         }
         let outcome = &top.rung.outcome;
         if top.is_unworn() {
-            finer = [STRIDE.1, 1.0, 1.0];
+            finer = [STRIDE.1, STRIDE.0, 1.0];
         } else if finer == [1.0; 3] && outcome.imbalance > MARGIN * self.accuracy {
-            // V and k E_d part where an edge lies between two nodes, or where a jump is too long.
-            finer = [STRIDE.0, 1.0, STRIDE.0];
+            // V and k E_d differ where an edge lies between two nodes, or where a step or a jump is too long.
+            finer = [STRIDE.0; 3];
         }
         self.finer(top, finer)
     }

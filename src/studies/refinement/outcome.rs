@@ -3,6 +3,7 @@
 
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
+use crate::math::quadrature::weighted;
 use crate::math::scan::{largest, rms};
 use crate::scenario::session::Session;
 use crate::simulation::drive::Control;
@@ -24,13 +25,18 @@ const ORDER: f64 = 1.1;
 /// No error falls faster than with this order; what seems to is a coincidence of two runs.
 const HIGHEST_ORDER: f64 = 2.0;
 
+/// A grid sees a scar if its volume there differs by less than this part.
+const SEEN: f64 = 0.5;
+
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     pub(super) grid: RadialGrid,
-    /// Worn depth at the nodes, m.
+    /// Worn depth at the nodes, m, with the scar that the run began with.
+    pub(super) profile: Vec<f64>,
+    /// What has worn of it since, m.
     pub(super) wear: Vec<f64>,
-    /// V, m³.
+    /// V that has worn since the run began, m³.
     pub volume: f64,
     /// E_d, J.
     pub work: f64,
@@ -138,8 +144,9 @@ impl Outcome {
         let sticking = shift.map_or(f64::INFINITY, |shift| stiffness * shift.amplitude());
         Self {
             grid: setup.grid.clone(),
-            wear: simulation.worn_depth().to_vec(),
-            volume: moment.wear_volume,
+            profile: simulation.worn_depth().to_vec(),
+            wear: simulation.worn_since_start(),
+            volume: moment.wear_volume - moment.initial_volume,
             work: moment.dissipated_energy,
             imbalance: moment.energy_residual.unwrap_or(0.0).abs(),
             force: moment.tangential_force,
@@ -154,6 +161,18 @@ impl Outcome {
     /// The largest worn depth, m.
     pub fn scar_depth(&self) -> f64 {
         largest(&self.wear)
+    }
+
+    /// Whether the nodes of a grid see about as much of the scar as there is.
+    pub(super) fn is_seen_by(&self, grid: &RadialGrid) -> bool {
+        let volume =
+            |grid: &RadialGrid, depth: &[f64]| weighted(&worn::volume_weights(grid), depth);
+        let there = grid.nodes().iter();
+        let there: Vec<f64> = there
+            .map(|&r| worn::interpolate(&self.grid, &self.wear, r))
+            .collect();
+        let ratio = volume(grid, &there) / volume(&self.grid, &self.wear);
+        (1.0 - SEEN..1.0 + SEEN).contains(&ratio)
     }
 
     /// Where the scar begins and ends, m, if there is one.

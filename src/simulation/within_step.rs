@@ -1,0 +1,209 @@
+//! Follows springs within a step in which their load changes: when they touch, begin to slip, and leave.
+//!
+//! # Formula
+//!
+//! Over a step, the load and the indenter move at constant rates, q(σ) = q₀ + σ Δq and U(σ) = σ ΔU with σ from 0 to 1. A
+//! spring that stands at u₀ sticks until it meets its limit, and then slips to the end of the step, or to where it leaves:
+//!
+//! ```text
+//! ±(u₀ + σ ΔU) = (μ/G*) q(σ)               where slip begins
+//! |ds/dσ|      = ±ΔU − (μ/G*) Δq            how fast it slips
+//! work         = μ (q_begin + q_end)/2 · |s|
+//! ```
+//!
+//! That is exact for a spring on its own, however long the step. The mean load of the whole step is not: what a spring
+//! holds when it leaves, G* u²/2, is lost in friction for any μ, at loads that are small and over a slip that is short,
+//! and what the indenter moves before a spring touches or after it leaves rubs nothing.
+
+use super::contact::Contact;
+use super::model::Model;
+use crate::contact::tangential::SpringState;
+
+/// What a spring slips under load within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Slip {
+    /// Signed, m.
+    length: f64,
+    /// The mean load during it, N/m.
+    load: f64,
+}
+
+/// The slip of a spring at `before` (m) whose load goes from one of `loads` to the other (N/m), negative where it is out
+/// of contact, while the indenter moves by `increment` (m). `reach` is μ/G*. `None` if it does not slip.
+fn slip_of(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> Option<Slip> {
+    let [from, to] = loads;
+    let change = to - from;
+    let passes_zero = (-from / change).clamp(0.0, 1.0);
+    let (start, end) = match (from > 0.0, to > 0.0) {
+        (true, true) => (0.0, 1.0),
+        (true, false) => (0.0, passes_zero),
+        (false, true) => (passes_zero, 1.0),
+        (false, false) => return None,
+    };
+    // A spring stands at zero when it touches.
+    let held = if from > 0.0 { before } else { 0.0 };
+    let limit = reach * from.max(0.0);
+    let begins = |sign: f64| {
+        let speed = sign * increment - reach * change;
+        let begin = start + (limit - sign * held).max(0.0) / speed;
+        (speed > 0.0 && begin < end).then_some((begin, sign * speed))
+    };
+    let (begin, speed) = match (begins(1.0), begins(-1.0)) {
+        (Some(one), Some(other)) if other.0 < one.0 => other,
+        (one, other) => one.or(other)?,
+    };
+    let at = |share: f64| (from + share * change).max(0.0);
+    Some(Slip {
+        length: (end - begin) * speed,
+        load: 0.5 * (at(begin) + at(end)),
+    })
+}
+
+/// What springs that slip, touch or leave within a step bear meanwhile.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Within {
+    /// What each spring did while it was in contact.
+    pub states: Vec<SpringState>,
+    /// What it bore while it slipped, relative to the mean load of the step.
+    pub share: Vec<f64>,
+    /// The slip that does work, m.
+    pub slip: Vec<f64>,
+    /// Whether springs touched or left.
+    pub has_changed: bool,
+}
+
+impl Within {
+    /// For as many `springs`.
+    pub fn new(springs: usize) -> Self {
+        Self {
+            states: vec![SpringState::Open; springs],
+            share: vec![1.0; springs],
+            slip: vec![0.0; springs],
+            has_changed: false,
+        }
+    }
+
+    /// Follows the springs from one of two contacts to the other, whose friction at the mean load is `friction` (N/m).
+    /// Corrects the slip (m) of those that touch or leave, and the friction of all that slip.
+    pub fn follow(
+        &mut self,
+        model: &Model,
+        [before, after]: [&Contact; 2],
+        friction: &mut [f64],
+        slip: &mut [f64],
+    ) {
+        let material = &model.setup.material;
+        let (coefficient, reach) = (material.friction(), material.reach());
+        let increment = after.shift - before.shift;
+        let sinks = material.normal_modulus() * (after.depth - before.depth);
+        self.states.copy_from_slice(&after.spring_state);
+        self.share.fill(1.0);
+        self.has_changed = false;
+        let end = before.normal.nodes.max(after.normal.nodes);
+        for j in 0..end {
+            let loads = [before.load.nodal[j], after.load.nodal[j]];
+            let changed = match loads.map(|load| load > 0.0) {
+                [true, true] if slip[j] == 0.0 => continue,
+                [false, false] => continue,
+                [true, true] => None,
+                [true, false] => Some([loads[0], (loads[0] + sinks).min(0.0)]),
+                [false, true] => Some([(loads[1] - sinks).min(0.0), loads[1]]),
+            };
+            let load = if let Some(loads) = changed {
+                self.has_changed = true;
+                let found = slip_of(loads, before.spring.nodal[j], increment, reach);
+                slip[j] = found.map_or(0.0, |found| found.length);
+                self.states[j] = match found {
+                    Some(found) if found.length > 0.0 => SpringState::Forward,
+                    Some(_) => SpringState::Backward,
+                    None if loads[1] > 0.0 => SpringState::Stick,
+                    None => SpringState::Open,
+                };
+                found.map_or(0.0, |found| found.load)
+            } else {
+                let change = loads[1] - loads[0];
+                let whole = increment - slip[j].signum() * reach * change;
+                let late = (1.0 - slip[j] / whole).clamp(0.0, 1.0);
+                0.5 * (loads[0] + loads[1] + late * change)
+            };
+            if friction[j] > 0.0 {
+                self.share[j] = coefficient * load / friction[j];
+            }
+            friction[j] = coefficient * load;
+        }
+        self.slip.copy_from_slice(slip);
+        if self.has_changed {
+            self.end_slip(friction, end);
+        }
+    }
+
+    /// Lets the work fall to zero on a line towards springs that do none: what they bear is none of it.
+    fn end_slip(&mut self, friction: &mut [f64], end: usize) {
+        self.slip[end..].fill(0.0);
+        for j in 0..friction.len().min(end + 1) {
+            if self.slip[j] != 0.0 {
+                continue;
+            }
+            let next = self.slip.get(j + 1).is_some_and(|&slip| slip != 0.0);
+            if next {
+                friction[j] = friction[j + 1];
+            } else if j > 0 && self.slip[j - 1] != 0.0 {
+                friction[j] = friction[j - 1];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Coulomb's rule in many small steps: the work per μ, N m/m, and the slip under load, m.
+    fn stepped(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> [f64; 2] {
+        let steps = 200_000;
+        let load = |i: i32| loads[0] + (loads[1] - loads[0]) * f64::from(i) / f64::from(steps);
+        let mut u = before;
+        let (mut work, mut slid) = (0.0, 0.0);
+        for i in 0..steps {
+            let [was, is] = [load(i), load(i + 1)].map(|load| load.max(0.0));
+            if is == 0.0 && was == 0.0 {
+                u = 0.0;
+                continue;
+            }
+            let moved = u + increment / f64::from(steps);
+            let held = moved.clamp(-reach * is, reach * is);
+            work += 0.5 * (was + is) * (moved - held).abs();
+            slid += moved - held;
+            u = held;
+        }
+        [work, slid]
+    }
+
+    #[test]
+    fn a_spring_slips_in_one_step_as_in_many() {
+        for (loads, before, increment, reach) in [
+            ([1.0, 2.0], 0.0, 0.7, 0.2),
+            ([2.0, 1.0], 0.1, -0.7, 0.2),
+            ([1.0, -0.5], 0.05, 0.02, 0.2),
+            ([1.0, -0.5], 0.05, -0.3, 50.0),
+            ([1.0, -3.0], -0.05, 0.01, 1e3),
+            ([-1.0, 2.0], 0.0, 0.5, 0.1),
+            ([-1.0, 2.0], 0.0, -0.5, 0.1),
+        ] {
+            let found = slip_of(loads, before, increment, reach).expect("slip");
+            let [work, slid] = stepped(loads, before, increment, reach);
+            let [of_work, of_slip] = [found.load * found.length.abs() - work, found.length - slid];
+            assert!(
+                of_work.abs() < 2e-4 * work && of_slip.abs() < 2e-4 * slid.abs(),
+                "{found:?} {work} {slid}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_sticks_or_is_open_does_not_slip() {
+        assert_eq!(slip_of([1.0, 2.0], 0.0, 0.1, 0.2), None);
+        assert_eq!(slip_of([-1.0, 2.0], 0.0, 0.1, 0.2), None);
+        assert_eq!(slip_of([-1.0, -2.0], 0.0, 0.1, 0.2), None);
+    }
+}

@@ -17,6 +17,10 @@ use crate::math::scan::largest;
 /// What places of the indenter are rounded to, relative to them.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
+/// A contact that is being made or lost bends a rig by less than this part of its actuator's place. The few springs on the
+/// roughness that rounding leaves on a worn profile then tell no force, and the rig counts as stiff.
+const HARDLY_BENT: f64 = 1e-6;
+
 /// A solved contact: all that the springs are and carry at one moment.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contact {
@@ -242,7 +246,7 @@ impl<'a> Problem<'a> {
         if span <= ROUNDING * (target.abs() + before.shift.abs()) {
             return Ok(wanted);
         }
-        root::bracketed(
+        let found = root::bracketed(
             |increment| {
                 self.shift_by(increment, after, slip);
                 (increment - wanted + compliance * after.tangential_force(model)) / span
@@ -250,8 +254,10 @@ impl<'a> Problem<'a> {
             wanted - span,
             wanted + span,
             1e-15 * (span + target.abs()),
-        )
-        .ok_or(Cause::NotFinite {
+        );
+        let is_hardly_bent = span <= HARDLY_BENT * (target.abs() + before.shift.abs());
+        let found = found.or(is_hardly_bent.then_some(wanted));
+        found.ok_or(Cause::NotFinite {
             quantity: "tangential force",
             advice: advice(setup),
         })

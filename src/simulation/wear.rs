@@ -173,7 +173,7 @@ impl Increment {
             &self.slip
         };
         let outside = leading(slip, |&slip| slip == 0.0);
-        if outside > 0 && !self.within.has_changed {
+        if outside > 0 && !self.within.is_ragged {
             let led_to = led_to(model.grid.squares(), load, outside - 1, &after.normal);
             load[outside - 1] = load[outside - 1].min(led_to);
         }
@@ -182,7 +182,7 @@ impl Increment {
             nodes => slip[nodes - 1].abs(),
         };
         let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
-        let between_springs = match self.within.has_changed {
+        let between_springs = match self.within.is_ragged {
             true => 0.0,
             false => between(before) + between(after),
         };

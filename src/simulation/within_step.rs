@@ -68,9 +68,12 @@ pub(super) struct Within {
     pub share: Vec<f64>,
     /// The slip that does work, m.
     pub slip: Vec<f64>,
-    /// Whether springs touched or left.
-    pub has_changed: bool,
+    /// Whether springs touched or left, or too few slip to show where slip ends between them.
+    pub is_ragged: bool,
 }
+
+/// So few springs do not show where slip begins and ends between them.
+const FEW: usize = 2;
 
 impl Within {
     /// For as many `springs`.
@@ -79,7 +82,7 @@ impl Within {
             states: vec![SpringState::Open; springs],
             share: vec![1.0; springs],
             slip: vec![0.0; springs],
-            has_changed: false,
+            is_ragged: false,
         }
     }
 
@@ -98,7 +101,7 @@ impl Within {
         let sinks = material.normal_modulus() * (after.depth - before.depth);
         self.states.copy_from_slice(&after.spring_state);
         self.share.fill(1.0);
-        self.has_changed = false;
+        let (mut has_changed, mut slipping) = (false, 0);
         let end = before.normal.nodes.max(after.normal.nodes);
         for j in 0..end {
             let loads = [before.load.nodal[j], after.load.nodal[j]];
@@ -109,8 +112,9 @@ impl Within {
                 [true, false] => Some([loads[0], (loads[0] + sinks).min(0.0)]),
                 [false, true] => Some([(loads[1] - sinks).min(0.0), loads[1]]),
             };
+            slipping += 1;
             let load = if let Some(loads) = changed {
-                self.has_changed = true;
+                has_changed = true;
                 let found = slip_of(loads, before.spring.nodal[j], increment, reach);
                 slip[j] = found.map_or(0.0, |found| found.length);
                 self.states[j] = match found {
@@ -132,8 +136,13 @@ impl Within {
             friction[j] = coefficient * load;
         }
         self.slip.copy_from_slice(slip);
-        if self.has_changed {
+        self.is_ragged = has_changed || slipping <= FEW;
+        if self.is_ragged {
             self.end_slip(friction, end);
+        } else {
+            // What is open moves with the indenter and rubs nothing: the edge slips as the last spring in contact does.
+            let at_edge = end.checked_sub(1).map_or(0.0, |last| slip[last]);
+            self.slip[end..].fill(at_edge);
         }
     }
 

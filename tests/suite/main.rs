@@ -82,3 +82,4 @@ mod trade;
 mod two_at_once;
 mod verify;
 mod waveforms;
+mod within_steps;

@@ -108,9 +108,9 @@ fn course(table: &mut Table, name: &str, value: f64, known: &Known, draw: &mut R
         known.cycles
     };
     let keys = section(table, name);
-    let mut level = || value * draw.log_between(0.6, 1.6);
+    let [one, other] = [0; 2].map(|_| value * draw.log_between(0.6, 1.6));
     if draw.chance(0.6) {
-        keys.insert("settled".into(), level().into());
+        keys.insert("settled".into(), one.into());
         let constant = if by_energy {
             "running_in_energy"
         } else {
@@ -124,7 +124,7 @@ fn course(table: &mut Table, name: &str, value: f64, known: &Known, draw: &mut R
     }
     keys.remove("coefficient");
     let ends = [0.0, 0.3, 1.0].map(|share| share * whole * 0.7);
-    let values = [value, level(), level()];
+    let values = [value, one, other];
     let at = if by_energy { "at_energy" } else { "at_cycle" };
     keys.insert(at.into(), floats(&ends));
     keys.insert("values".into(), floats(&values));

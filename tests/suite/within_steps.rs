@@ -2,7 +2,7 @@
 
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::studies::refinement::{Outcome, Verdict, run_to_accuracy};
+use mdr_tui::studies::refinement::{Budget, Outcome, Verdict, run_to_accuracy};
 
 use crate::common::{energy, near, ran, volume};
 
@@ -132,7 +132,7 @@ fn a_lift_off_in_phase_does_hardly_any_work() {
 #[test]
 fn a_scar_in_a_tiny_edge_is_seen() {
     let scenario = scenario("nothing-worn-tiny-edge", &[]);
-    let reached = run_to_accuracy(&scenario, 10.0, 2e-2, f64::INFINITY, &|| true);
+    let reached = run_to_accuracy(&scenario, 10.0, 2e-2, Budget::UNLIMITED, &|| true);
     let reached = reached.expect("a result");
     assert_eq!(reached.verdict, Verdict::Met);
     near("V", reached.rung.outcome.volume, 5.39e-21, 2e-2);

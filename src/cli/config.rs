@@ -10,11 +10,11 @@ use serde::{Deserialize, Deserializer};
 
 use super::args::ColorChoice;
 use super::complain;
-use crate::export::own;
+use crate::export::safe_open;
 use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::Refusal;
-use crate::scenario::limited::{self, Unread};
+use crate::scenario::bounded_read::{self, Unread};
 use crate::scenario::nearest::nearest;
 use crate::scenario::typed;
 use crate::tui::command::{COMMANDS, Command};
@@ -51,11 +51,11 @@ impl Config {
     /// One line with the file and what is wrong in it: invalid TOML, an unknown key, an invalid
     /// value.
     pub fn load() -> Result<Self, Refusal> {
-        let Some(directory) = own::directory("XDG_CONFIG_HOME", ".config") else {
+        let Some(directory) = safe_open::directory("XDG_CONFIG_HOME", ".config") else {
             return Ok(Self::default());
         };
         let path = directory.join("config.toml");
-        match limited::regular_text(&path, LARGEST) {
+        match bounded_read::text(&path, LARGEST) {
             Ok(text) => Self::read(&text, &path),
             Err(Unread::Missing) => Ok(Self::default()),
             Err(why @ (Unread::TooLarge(_) | Unread::NotText(_))) => {

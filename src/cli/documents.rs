@@ -17,6 +17,11 @@ use crate::tui::manual;
 
 /// Prints a script with which the shell asks this program for completions.
 pub fn completions(shell: clap_complete::Shell) -> Result<()> {
+    if shell == clap_complete::Shell::Bash {
+        // The one of clap_complete quotes no blanks and completes nothing behind `=`.
+        io::stdout().write_all(include_bytes!("completion.bash"))?;
+        return Ok(());
+    }
     let mut script = Vec::new();
     let shells = Shells::builtins();
     let completer = shells.completer(&shell.to_string());

@@ -1,5 +1,6 @@
 //! The explorer, opened from the command line.
 
+use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
@@ -8,10 +9,10 @@ use serde::de::IgnoredAny;
 
 use super::args::{ColorChoice, Explore};
 use super::config::Config;
-use super::{accuracy, complain, mistyped_command, without_waiting};
+use super::{accuracy, complain, given, mistyped_command, without_waiting};
 use crate::export::autosave;
 use crate::scenario::session::Session;
-use crate::scenario::{Refusal, Scenario, checkpoint};
+use crate::scenario::{Refusal, checkpoint, printable};
 use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::map::live::Live;
@@ -31,19 +32,20 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
     let colored = colored.and_then(ColorChoice::is_colored);
     command::bind(config.keys);
     let directory = Path::new(&options.scenario);
+    let name = printable(&options.scenario.to_string_lossy());
     let run = match &options.resume {
         Some(file) => checkpoint::read::<IgnoredAny>(file)?.session.into(),
         None if directory.is_dir() => {
             let rule = "continues as it was saved, so --set changes nothing; give its \
                 scenario.toml to start anew";
             let is_as_saved = options.changes.set.is_empty();
-            ensure!(is_as_saved, Refusal::new(&options.scenario, rule));
+            ensure!(is_as_saved, Refusal::new(name, rule));
             snapshot::open(directory).map_err(Refusal::from)?
         }
         None => {
-            let scenario = Scenario::load(&options.scenario, &options.changes.set)
+            let scenario = given::scenario(&options.scenario, &options.changes.set)
                 // The error itself names a preset that is as near.
-                .map_err(|error| match mistyped_command(&options.scenario) {
+                .map_err(|error| match mistyped_command(&name) {
                     Some(refusal) if !error.to_string().contains("did you mean") => refusal,
                     _ => error,
                 })?;
@@ -52,7 +54,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
     };
     let reach = run.simulation().setup().grid.radius();
-    let load = |given: &String| {
+    let load = |given: &OsString| {
         Source::load(given, reach).map_err(|error| Refusal::from(error.to_string()))
     };
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;

@@ -1,29 +1,31 @@
 //! `mdr-tui figure`: figures for a paper, from a run's files or from a scenario.
 
+use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
 
 use super::args::{Figure, PaperFigure, on_paper};
-use super::{accuracy, job};
+use super::{accuracy, given, job};
 use crate::charts::{Recipe, Run, USUAL, depth, scar_depth, volume};
 use crate::export::target::Target;
 use crate::figure::look::Look;
-use crate::figure::{Format, Sheet, paper, study as figure_of_study};
+use crate::figure::{DATA_COLUMNS, Format, Sheet, paper, study as figure_of_study};
 use crate::plot::Chart;
 use crate::plot::theme::Role;
+use crate::scenario::bounded_read::{self, Unread};
 use crate::scenario::columns::Columns;
-use crate::scenario::{Refusal, Scenario, limited, printable};
+use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::Slice;
 use crate::traces::Table;
 
-/// The largest table of a run that is read, in bytes.
-const LARGEST: u64 = 1 << 30;
+/// The largest header of a table that is read, in bytes.
+const LARGEST_HEADER: u64 = 1 << 20;
 
 /// The scenario of the paper's Fig. 3.
 const OF_THE_PAPER: &str = "li2019-fig3";
@@ -73,42 +75,63 @@ pub fn figure(options: &Figure) -> Result<()> {
     Ok(())
 }
 
-/// Where the data of a figure go: to the same name with .csv, or to `map-drawn.csv` where `map.csv` is what is drawn.
+/// Where the data of a figure go: to the same name with .csv, or to `map-drawn.csv` if `map.csv` is what is drawn or holds
+/// anything but the data of a figure.
 fn data_file(path: &Path, options: &Figure) -> PathBuf {
     let real = |path: &Path| path.canonicalize().ok();
     let given = options.source.iter().chain(&options.overlay);
     let given: Vec<PathBuf> = given.filter_map(|name| real(Path::new(name))).collect();
     let mut beside = path.with_extension("csv");
-    while real(&beside).is_some_and(|beside| given.contains(&beside)) {
+    let is_drawn = |beside: &Path| real(beside).is_some_and(|beside| given.contains(&beside));
+    let is_free = |beside: &Path| beside.symlink_metadata().is_err() || is_data_of_a_figure(beside);
+    while is_drawn(&beside) || !is_free(&beside) {
         let stem = beside.file_stem().unwrap_or_default().to_string_lossy();
         beside = beside.with_file_name(format!("{stem}-drawn.csv"));
     }
     beside
 }
 
-/// Whether a file holds what [`Sheet::csv`] writes.
+/// Whether a file holds what [`Sheet::csv`] writes: the columns under the header tell.
 fn is_data_of_a_figure(path: &Path) -> bool {
-    let text = limited::regular_text(path, LARGEST).unwrap_or_default();
-    text.starts_with("# mdr-tui: ") && text.contains("\npanel,curve,x,y,value,error\n")
+    let Ok(file) = bounded_read::open(path) else {
+        return false;
+    };
+    let mut lines = BufReader::new(file.take(LARGEST_HEADER)).lines();
+    let is_ours = |line: Option<io::Result<String>>| {
+        line.is_some_and(|line| line.is_ok_and(|line| line.starts_with("# mdr-tui: ")))
+    };
+    let is_header =
+        |line: &io::Result<String>| line.as_ref().is_ok_and(|line| line.starts_with('#'));
+    is_ours(lines.next())
+        && lines
+            .find(|line| !is_header(line))
+            .is_some_and(|line| line.is_ok_and(|line| line == DATA_COLUMNS))
 }
 
 fn sheet(options: &Figure) -> Result<Sheet> {
     if options.figure == Some(PaperFigure::Fig2) {
         if let Some(source) = &options.source {
+            let source = printable(&source.to_string_lossy());
             let rule = "fig2 is the paper's own error study and takes no source";
             bail!(Refusal::new(source, rule));
         }
         return Ok(paper::errors(paper::POINTS)?);
     }
-    let source = options.source.as_deref().unwrap_or(OF_THE_PAPER);
-    if let Some(record) = record(source) {
+    let path = Path::new(
+        options
+            .source
+            .as_deref()
+            .unwrap_or(OsStr::new(OF_THE_PAPER)),
+    );
+    let source = &*printable(&path.to_string_lossy());
+    if let Some(record) = record(path) {
         return study(source, record, options);
     }
     if let Some(column) = options.column.first() {
         let rule = "is for the table of a sweep; a run has --panel";
         bail!(Refusal::new(format_args!("--column {column}"), rule));
     }
-    let mut run = run(source, options)?;
+    let mut run = run(path, options)?;
     for given in &options.overlay {
         let ghost = ghost(given, &run)?;
         run.ghosts.push(Arc::new(ghost));
@@ -135,9 +158,8 @@ fn sheet(options: &Figure) -> Result<Sheet> {
     })
 }
 
-/// The table of a sweep, if `source` is one.
-fn record(source: &str) -> Option<Record> {
-    let path = Path::new(source);
+/// The table of a sweep, if it is one.
+fn record(path: &Path) -> Option<Record> {
     let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
     is_table.then(|| Record::of_file(path).ok()).flatten()
 }
@@ -186,13 +208,14 @@ fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]
         let names: Vec<&str> = places.map(|panel| panel.name).collect();
         let places = names.join(" or ");
         let rule = format!("is on none of these charts; it belongs to --panel {places}");
+        let given = printable(&given.to_string_lossy());
         ensure!(is_shown, Refusal::new(format!("--overlay {given}"), rule));
     }
     Ok(())
 }
 
 /// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
-fn ghost(given: &str, run: &Run) -> Result<Ghost> {
+fn ghost(given: &OsStr, run: &Run) -> Result<Ghost> {
     let path = Path::new(given);
     let ending = path.extension();
     if path.is_dir() || ending.is_some_and(|end| !end.eq_ignore_ascii_case("toml")) {
@@ -204,16 +227,17 @@ fn ghost(given: &str, run: &Run) -> Result<Ghost> {
     }
     let scenario = Scenario::load(given, &[])?;
     let end = run.end().or(scenario.run().cycles);
-    let end = job::end(end, given)?;
+    let shown = printable(scenario.origin());
+    let end = job::end(end, &shown)?;
     let name = scenario.stem();
     let session = accuracy::session(&scenario, Some(end), true);
-    let mut session = session.with_context(|| printable(given))?;
+    let mut session = session.with_context(|| shown)?;
     Ok(Run::to(&mut session, &[end], false)?.ghost(&name))
 }
 
 /// The tables of a run on disk, or of one run now.
-fn run(source: &str, options: &Figure) -> Result<Run> {
-    let path = Path::new(source);
+fn run(path: &Path, options: &Figure) -> Result<Run> {
+    let source = &*printable(&path.to_string_lossy());
     let ending = path.extension();
     let mut run = Run::default();
     if path.is_dir() {
@@ -221,7 +245,7 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
     } else if ending.is_some_and(|end| end.eq_ignore_ascii_case("csv")) {
         take(&mut run, path)?;
     } else {
-        return from_scenario(source, options);
+        return from_scenario(path.as_os_str(), options);
     }
     let is_as_it_was = options.changes.set.is_empty() && options.cycles.is_none();
     let rule = "a finished run is not run again, so --set and --cycles have no effect";
@@ -243,8 +267,11 @@ fn run(source: &str, options: &Figure) -> Result<Run> {
 
 fn from_directory(directory: &Path) -> Result<Run> {
     let mut run = Run::default();
-    let entries = fs::read_dir(directory).map_err(|error| unread(directory, error))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let failed = |error| Refusal::unread(directory.display(), &Unread::Io(error));
+    let entries = fs::read_dir(directory).map_err(failed)?;
+    let paths = entries.map(|entry| entry.map(|entry| entry.path()));
+    let paths: io::Result<Vec<PathBuf>> = paths.collect();
+    let mut paths = paths.map_err(failed)?;
     paths.sort();
     for path in paths {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -258,7 +285,7 @@ fn from_directory(directory: &Path) -> Result<Run> {
     ensure!(!is_empty, unread(directory, why));
     let scenario = directory.join("scenario.toml");
     if scenario.is_file() {
-        run = run.of(&Scenario::load(&scenario.to_string_lossy(), &[])?);
+        run = run.of(&Scenario::load(&scenario, &[])?);
     }
     Ok(run)
 }
@@ -274,8 +301,9 @@ fn unread(path: &Path, why: impl std::fmt::Display) -> Refusal {
     Refusal::new(path.display(), why)
 }
 
-fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
-    let scenario = Scenario::load(name, &options.changes.set)?;
+fn from_scenario(name: &OsStr, options: &Figure) -> Result<Run> {
+    let scenario = given::scenario(name, &options.changes.set)?;
+    let name = &*printable(scenario.origin());
     let mut cycles: Vec<f64> = match &options.at {
         Some(at) => at.iter().map(|at| at.cycle()).collect(),
         None => {
@@ -287,6 +315,6 @@ fn from_scenario(name: &str, options: &Figure) -> Result<Run> {
     cycles.sort_by(f64::total_cmp);
     let with_field = options.panel.iter().any(|panel| panel.needs_field);
     let session = accuracy::session(&scenario, cycles.last().copied(), options.quiet);
-    let mut session = session.with_context(|| printable(name))?;
+    let mut session = session.with_context(|| name.to_owned())?;
     Ok(Run::to(&mut session, &cycles, with_field)?)
 }

@@ -1,18 +1,19 @@
 //! `mdr-tui fit`: parameters from measured scars, loops and histories.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
 use super::args;
-use super::{accuracy, complain, progress, results, small_multiples};
+use super::{accuracy, complain, given, progress, results, small_multiples};
 use crate::export::target::Target;
 use crate::math::scan::rms;
 use crate::plot::theme::Role;
 use crate::plot::units::reading;
 use crate::plot::{Axis, Chart, Curve, Marker};
-use crate::scenario::Scenario;
 use crate::scenario::columns::Columns;
 use crate::studies::fit::{Fit, Fitted};
 use crate::studies::measured::Measured;
@@ -21,7 +22,7 @@ use crate::traces::Axes;
 
 /// Fits, and prints, draws and writes what was asked for.
 pub fn fit(options: &args::Fit) -> Result<()> {
-    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+    let scenario = given::scenario(&options.scenario, &options.changes.set)?;
     // The fit runs on the points and steps that its start values need.
     let found = accuracy::resolve(&scenario, options.quiet, |scenario| {
         refinement::resolve(scenario, options.cycles, Budget::UNLIMITED, &|| true)
@@ -69,9 +70,12 @@ fn data(options: &args::Fit) -> Result<Vec<Measured>> {
 
 /// `FILE@CYCLE` as a file and a cycle; an existing file with such a name takes precedence.
 fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
-    let text = given.to_string_lossy();
-    let parts = text.rsplit_once('@').filter(|_| !given.exists());
-    let parts = parts.and_then(|(path, cycle)| Some((path, cycle.parse::<f64>().ok()?)));
+    let bytes = given.as_os_str().as_bytes();
+    let sign = bytes.iter().rposition(|&byte| byte == b'@');
+    let parts = sign.filter(|_| !given.exists()).and_then(|at| {
+        let cycle = std::str::from_utf8(&bytes[at + 1..]).ok()?;
+        Some((OsStr::from_bytes(&bytes[..at]), cycle.parse().ok()?))
+    });
     match parts {
         Some((path, cycle)) => (path.into(), Some(cycle)),
         None => (given.to_owned(), None),

@@ -1,15 +1,13 @@
 //! What a run still has to do and what it has recorded. A checkpoint holds it next to the session,
 //! so that an interrupted run writes the same files as an uninterrupted one.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 
-use super::args::{CycleAsGiven, HistoryChoice, Run};
+use super::args::{CycleAsGiven, HistoryChoice, Run, cycles};
 use crate::export::history::History;
-use crate::export::run_directory::rows_in;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 
@@ -20,14 +18,16 @@ const MOST_ROWS: f64 = 1e7;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunJob {
+    /// Tells the run from others: the same for a run of the same scenario and options. See [`RunJob::identify`].
+    pub id: String,
     /// Where the run ends, cycles.
     pub cycles: f64,
     /// Whether the history has a row per step or per cycle.
     every_step: bool,
     /// Cycles at which the state is written, in order, those beyond the end included.
     pub snapshots: Vec<CycleAsGiven>,
-    /// How many of these are done.
-    taken: usize,
+    /// The [checksums](rows_sum) of those done so far; `None` for one that another program was to write.
+    taken: Vec<Option<u32>>,
     /// The rows so far.
     pub history: History,
     /// Statements for the file headers, such as the estimated error.
@@ -77,12 +77,14 @@ impl RunJob {
                 let planned_end = session.loaded().run().cycles.filter(|end| *end > now);
                 Self {
                     cycles: end(cycles.or(planned_end), name)?,
-                    taken: snapshots.iter().filter(|at| at.cycle() < now).count(),
+                    taken: vec![None; snapshots.iter().filter(|at| at.cycle() < now).count()],
                     snapshots,
                     ..Self::default()
                 }
+                .identify(session.loaded())
             }
         };
+        job.check().map_err(|why| Refusal::new(name, why))?;
         job.cycles = cycles.unwrap_or(job.cycles);
         let place = format!("--cycles {}", job.cycles);
         let rule = format!("the checkpoint is already at cycle {now}");
@@ -105,23 +107,44 @@ impl RunJob {
         Ok(self)
     }
 
-    /// Takes the next snapshot before `cycle`; it then counts as done.
-    pub fn next_snapshot(&mut self, cycle: f64) -> Option<CycleAsGiven> {
-        self.has_snapshot_before(cycle).then(|| {
-            self.taken += 1;
-            self.snapshots[self.taken - 1].clone()
-        })
+    /// Gives the run its identity: runs that compute and record the same have the same, so that files of equal runs
+    /// stay equal.
+    #[must_use]
+    pub fn identify(mut self, scenario: &Scenario) -> Self {
+        let mut sum = crc32fast::Hasher::new();
+        sum.update(scenario.to_toml().as_bytes());
+        let options = (self.cycles, self.every_step, &self.snapshots, &self.history);
+        sum.update(format!("{options:?}").as_bytes());
+        self.id = format!("{:08x}", sum.finalize());
+        self
     }
 
-    /// Whether a snapshot is due before `cycle`.
-    pub fn has_snapshot_before(&self, cycle: f64) -> bool {
-        let next = self.snapshots.get(self.taken).map(CycleAsGiven::cycle);
-        next.is_some_and(|next| next < cycle && next <= self.cycles)
+    /// Checks what a checkpoint holds as if it were typed and computed here.
+    fn check(&self) -> Result<(), String> {
+        cycles(&self.cycles.to_string())?;
+        for snapshot in &self.snapshots {
+            snapshot.0.parse::<CycleAsGiven>()?;
+        }
+        if self.taken.len() > self.snapshots.len() {
+            return Err("more snapshots are done than there are".into());
+        }
+        self.history.check()
     }
 
-    /// The snapshots done so far.
-    pub fn taken(&self) -> impl Iterator<Item = &CycleAsGiven> {
-        self.snapshots.iter().take(self.taken)
+    /// The next snapshot before `cycle`.
+    pub fn next_snapshot(&self, cycle: f64) -> Option<&CycleAsGiven> {
+        let next = self.snapshots.get(self.taken.len())?;
+        (next.cycle() < cycle && next.cycle() <= self.cycles).then_some(next)
+    }
+
+    /// Notes that the next snapshot is done, and what its table is.
+    pub fn snapshot_is_done(&mut self, table: &str) {
+        self.taken.push(Some(rows_sum(table.as_bytes())));
+    }
+
+    /// The snapshots done so far, with the checksums of their rows.
+    pub fn taken(&self) -> impl Iterator<Item = (&CycleAsGiven, Option<u32>)> {
+        self.snapshots.iter().zip(self.taken.iter().copied())
     }
 
     /// The snapshots as `scenario.toml` is to name them.
@@ -143,18 +166,6 @@ impl RunJob {
         }
     }
 
-    /// Continues in the directory `to` and copies the rows of the history there.
-    ///
-    /// # Errors
-    ///
-    /// If rows are missing; the history then begins at the present moment.
-    pub fn move_to(&mut self, from: &Path, to: &Path) -> io::Result<()> {
-        let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let (from, to) = (real(from), real(to));
-        self.set_home(&to);
-        self.history.move_rows(&rows_in(&from), &rows_in(&to))
-    }
-
     /// Stores the directory of the run's files in checkpoints.
     pub fn set_home(&mut self, directory: &Path) {
         let real = directory.canonicalize().ok();
@@ -164,9 +175,18 @@ impl RunJob {
 
     /// Goes back to how far the job had come when `earlier` was copied from it.
     pub fn rewind(&mut self, earlier: &Self) {
-        self.taken = earlier.taken;
+        self.taken.truncate(earlier.taken.len());
         self.history.rewind(&earlier.history);
     }
+}
+
+/// The checksum of the rows of a table, without its header: the end of a run may state its errors there.
+pub fn rows_sum(table: &[u8]) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    let rows = table.split_inclusive(|&byte| byte == b'\n');
+    let rows = rows.filter(|line| !line.starts_with(b"#"));
+    rows.for_each(|row| sum.update(row));
+    sum.finalize()
 }
 
 /// The end of a run, which must be known.

@@ -28,6 +28,7 @@ mod documents;
 mod explore;
 mod figure;
 mod fit;
+mod given;
 mod guide;
 mod job;
 mod new;
@@ -146,7 +147,9 @@ fn exit_code(error: &anyhow::Error) -> u8 {
         let wraps_misuse = matches!(cause.downcast_ref(), Some(SessionError::Scenario(_)));
         let written = cause.downcast_ref::<WriteError>();
         wraps_misuse
-            || cause.is::<Refusal>()
+            || cause
+                .downcast_ref()
+                .is_some_and(|refusal: &Refusal| !refusal.is_failure())
             || cause.is::<NoTerminal>()
             || written.is_some_and(WriteError::is_misuse)
     };
@@ -186,7 +189,8 @@ fn refuse(error: &clap::Error) -> ExitCode {
         let _ = error.print();
         return ExitCode::SUCCESS;
     }
-    let first = env::args().nth(1).unwrap_or_default();
+    let first = env::args_os().nth(1).unwrap_or_default();
+    let first = first.to_string_lossy();
     if let Some(refusal) = mistyped_command(&first) {
         complain(&refusal.to_string());
         return ExitCode::from(MISUSED);
@@ -197,7 +201,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
     let words = text.lines().take_while(|line| !is_end(line)).map(str::trim);
     let words: Vec<&str> = words.filter(|line| !line.is_empty()).collect();
     let words = words.join(" ").replace(" tip: ", "; ");
-    let command = match Arguments::command().find_subcommand(&first) {
+    let command = match Arguments::command().find_subcommand(&*first) {
         Some(_) => format!("mdr-tui {first}"),
         None => "mdr-tui".into(),
     };

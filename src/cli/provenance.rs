@@ -10,20 +10,25 @@ use std::time::UNIX_EPOCH;
 
 use crate::export::file::shell_word;
 use crate::export::header;
+use crate::scenario::bounded_read;
 use crate::scenario::values::literal;
 
 /// The name of the file.
 pub const FILE: &str = "provenance.toml";
 
+/// The largest file of that name that is read, in bytes.
+const LARGEST: u64 = 1 << 16;
+
 /// The version, with the commit where it is known.
 pub const VERSION: &str = env!("MDR_TUI_VERSION");
 
-/// What is known of this process and its machine.
-pub fn text() -> String {
+/// What is known of this process, its machine and the identity of its `run`.
+pub fn text(run: &str) -> String {
     let about = "# mdr-tui: how the files beside this one were made; they do not depend on it\n";
     let known = [
         ("version", VERSION.to_owned()),
         ("command", command()),
+        ("run", run.to_owned()),
         ("date", date(now())),
         ("system", format!("{OS} {ARCH}")),
         ("processor", processor().unwrap_or_else(|| "unknown".into())),
@@ -33,10 +38,17 @@ pub fn text() -> String {
     about.to_owned() + &lines.concat()
 }
 
+/// The identity of the run whose files in `directory` were written last, if they tell.
+pub fn run_of(directory: &Path) -> Option<String> {
+    let text = bounded_read::text(&directory.join(FILE), LARGEST).ok()?;
+    let known: toml::Table = toml::from_str(&text).ok()?;
+    Some(known.get("run")?.as_str()?.to_owned())
+}
+
 /// The command line as a shell reads it back.
 fn command() -> String {
     let words = std::env::args_os().skip(1);
-    let words = words.map(|word| shell_word(Path::new(&word)));
+    let words = words.map(|word| shell_word(&word));
     words.fold("mdr-tui".to_owned(), |line, word| line + " " + &word)
 }
 

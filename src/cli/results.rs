@@ -6,8 +6,10 @@ use anyhow::Result;
 use serde::Serialize;
 
 use super::args::Output;
+use super::stop;
 use crate::export::file::WriteError;
 use crate::export::target::Target;
+use crate::scenario::escape;
 use crate::studies::table::Table;
 
 impl Output {
@@ -37,8 +39,9 @@ pub fn write(
 
 /// Prints what was found as JSON, if that is given, or as a text.
 pub fn print<T: Serialize>(json: Option<&T>, text: impl FnOnce() -> String) -> Result<()> {
+    stop::nothing_is_left_to_save();
     let text = match json {
-        Some(found) => serde_json::to_string_pretty(found)? + "\n",
+        Some(found) => escape::json(found, true)? + "\n",
         None => text(),
     };
     Ok(io::stdout().lock().write_all(text.as_bytes())?)

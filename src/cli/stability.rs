@@ -5,20 +5,21 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 
 use super::args::{Guard, Stability};
-use super::{progress, results, stop, succeeded};
+use super::{given, progress, results, stop, succeeded};
 use crate::export::header::number;
-use crate::scenario::{Refusal, Scenario};
+use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Line, Setting, Study};
 
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
     let target = options.output.claim()?;
-    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
+    let scenario = given::scenario(&options.scenario, &options.changes.set)?;
+    let name = printable(scenario.origin());
     let title = scenario.title().to_owned();
     let Some(study) = Study::new(scenario, options.cycles)? else {
         let rule = "nothing wears: the scenario needs [wear], and contact at its start";
-        bail!(Refusal::new(&options.scenario, rule));
+        bail!(Refusal::new(name, rule));
     };
     let go_on = stop::signal().map(stop::unless)?;
     let lines = lines(&study, options, &go_on)?;

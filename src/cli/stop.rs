@@ -1,13 +1,16 @@
 //! Signals that ask a run to stop.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use signal_hook::consts::{
     SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU,
 };
 use signal_hook::flag;
+use signal_hook::iterator::Signals;
 
 use super::FAILED;
 
@@ -17,38 +20,54 @@ pub const ENDING: [i32; 9] = [
     SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU,
 ];
 
-/// Set by the first signal that asks to end: stop after the step and save. A second one ends the
-/// process at once.
-pub fn signal() -> Result<Arc<AtomicBool>> {
-    set_by(&ENDING, &ENDING)
+/// Signals that a user sends from the keyboard.
+const TYPED: [i32; 2] = [SIGINT, SIGQUIT];
+
+/// How long a program may take to stop and save after the first signal.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// Whether everything is done but for what is printed.
+static DONE: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
+/// From here on any signal ends the process at once: a reader of what is printed may not read.
+pub fn nothing_is_left_to_save() {
+    DONE.store(true, Ordering::SeqCst);
 }
 
-/// Like [`signal`], but only a second Ctrl-C ends the process at once: a scheduler may send SIGTERM
-/// twice.
-pub fn patient_signal() -> Result<Arc<AtomicBool>> {
-    set_by(&[SIGINT, SIGTERM, SIGHUP], &[SIGINT])
+/// Returns a flag that is set by the first signal that asks to end. Later signals change nothing, since a scheduler may
+/// send several; but Ctrl-C ends the process at once if it has not stopped in [`GRACE`].
+pub fn signal() -> Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let heard = ENDING.into_iter();
+    // Under `nohup` a run outlives its terminal, as intended.
+    let heard: Vec<i32> = heard
+        .filter(|&signal| signal != SIGHUP || !is_ignored(SIGHUP))
+        .collect();
+    let no_signals = "cannot listen for signals";
+    for signal in &heard {
+        let at_once = flag::register_conditional_shutdown(*signal, FAILED.into(), DONE.clone());
+        at_once.context(no_signals)?;
+        flag::register(*signal, Arc::clone(&stop)).context(no_signals)?;
+    }
+    let mut typed = Signals::new(TYPED).context(no_signals)?;
+    let is_stopping = Arc::clone(&stop);
+    let watch = move || {
+        let mut first = None;
+        for _ in typed.forever() {
+            let first = *first.get_or_insert_with(Instant::now);
+            if is_stopping.load(Ordering::Relaxed) && first.elapsed() > GRACE {
+                std::process::exit(FAILED.into());
+            }
+        }
+    };
+    // Where the system has no thread left, the first signal still counts.
+    let _ = thread::Builder::new().spawn(watch);
+    Ok(stop)
 }
 
 /// Whether to go on: as long as this is not set.
 pub fn unless(stop: Arc<AtomicBool>) -> impl Fn() -> bool {
     move || !stop.load(Ordering::Relaxed)
-}
-
-/// A flag that these signals set; the second of those that end `at_once` ends the process. Under `nohup` a run
-/// outlives its terminal, as intended.
-fn set_by(signals: &[i32], at_once: &[i32]) -> Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let exit = i32::from(FAILED);
-    let is_heard = |signal: &&i32| **signal != SIGHUP || !is_ignored(SIGHUP);
-    for at_once in at_once.iter().filter(is_heard) {
-        let ended = flag::register_conditional_shutdown(*at_once, exit, Arc::clone(&stop));
-        ended.context("cannot listen for signals")?;
-    }
-    for signal in signals.iter().filter(is_heard) {
-        let noted = flag::register(*signal, Arc::clone(&stop));
-        noted.context("cannot listen for signals")?;
-    }
-    Ok(stop)
 }
 
 /// Whether the process was started with this signal ignored; `false` if the system cannot tell.

@@ -6,13 +6,13 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::args::Trade;
 use super::job::end;
-use super::{progress, results, small_multiples, stop, succeeded};
+use super::{given, progress, results, small_multiples, stop, succeeded};
 use crate::export::header::number;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::session::SessionError;
-use crate::scenario::{Refusal, Scenario};
+use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement::{Budget, Level, Reached, SearchError, Verdict, run_to_accuracy};
 use crate::studies::trade::{self, Reference, Setting, Timed, Trial, cheapest, front, table};
 
@@ -31,11 +31,12 @@ const SHARPER: f64 = 3.0;
 /// Runs the study and prints, draws and writes what was asked for.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
     let target = options.output.claim()?;
-    let scenario = Scenario::load(&options.scenario, &options.changes.set)?;
-    let cycles = end(options.cycles.or(scenario.run().cycles), &options.scenario)?;
+    let scenario = given::scenario(&options.scenario, &options.changes.set)?;
+    let name = printable(scenario.origin());
+    let cycles = end(options.cycles.or(scenario.run().cycles), &name)?;
     let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
     let wears = scenario.setup().wear.is_some();
-    ensure!(wears, Refusal::new(&options.scenario, rule));
+    ensure!(wears, Refusal::new(&name, rule));
     let go_on = stop::signal().map(stop::unless)?;
     let found = run(&scenario, cycles, options, &go_on)?;
     let found = found.context("interrupted before the reference was computed: no results");

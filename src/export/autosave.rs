@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 use super::file::{INTERNAL, WriteError, sweep, write_whole};
-use super::own;
+use super::safe_open;
 use super::target::Target;
 use crate::scenario::session::Session;
 
@@ -22,10 +22,13 @@ const KEPT: usize = 20;
 /// The most numbers that are tried for a new checkpoint.
 const MOST_AT_ONCE: u64 = 1000;
 
+/// The largest number that a checkpoint is given. A name that ends in a larger one is not of this program.
+const LARGEST_NUMBER: u64 = 1_000_000_000_000;
+
 /// A temporary file of this age is abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
-/// The newest state of a session on disk: in the file of its run or, while that fails, in a free one of a directory.
+/// The newest state of a session on disk: in the file of its run or, while that fails, in a new file of a directory.
 #[derive(Debug)]
 pub struct Autosave {
     /// The run's own file.
@@ -43,8 +46,8 @@ pub struct Autosave {
 }
 
 impl Autosave {
-    /// Saves at `home`, and in a free place of `directory` where there is no home or while that fails: once per interval
-    /// `every`, or only on request if that is 0.
+    /// Saves to `home`; falls back to a new file in `directory`. Once per interval `every`, or only on request if that
+    /// is 0.
     pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Duration) -> Self {
         Self {
             home,
@@ -188,8 +191,8 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
             excess -= 1;
         }
     }
-    let first = highest.unwrap_or(0).saturating_add(1);
-    for number in first..first.saturating_add(MOST_AT_ONCE) {
+    let first = highest.unwrap_or(0) + 1;
+    for number in first..first + MOST_AT_ONCE {
         let path = directory.join(format!("{stem}-{number}.{ENDING}"));
         match Target::claim(&path, false) {
             // Another explorer has it, or has had it meanwhile.
@@ -211,6 +214,7 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> 
         if let (true, Ok(about)) = (is_one, fs::metadata(&path)) {
             let stem = path.file_stem().map(|stem| stem.to_string_lossy());
             let number = stem.and_then(|stem| stem.rsplit_once('-')?.1.parse().ok());
+            let number = number.filter(|&number| number <= LARGEST_NUMBER);
             found.push((about.modified()?, number.unwrap_or(0), path));
         }
     }
@@ -219,7 +223,7 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> 
 
 /// Directory of the explorer's checkpoints; `None` without a home directory.
 pub fn state_directory() -> Option<PathBuf> {
-    own::directory("XDG_STATE_HOME", ".local/state")
+    safe_open::directory("XDG_STATE_HOME", ".local/state")
 }
 
 #[cfg(test)]
@@ -276,6 +280,22 @@ mod tests {
             come_and_go(base.path(), "hertz");
         }
         assert!(!path.exists());
+    }
+
+    #[test]
+    fn any_name_beside_it_or_of_its_scenario_leaves_room_for_another() {
+        let base = tempfile::tempdir().expect("a directory");
+        for number in [u64::MAX, LARGEST_NUMBER + 1] {
+            let path = base.path().join(format!("x-{number}.{ENDING}"));
+            fs::write(path, b"theirs").expect("a file");
+        }
+        come_and_go(base.path(), "hertz");
+        let name = format!("{}.toml", "\u{3bc}".repeat(120));
+        let path = base.path().join(&name);
+        let hertz = Scenario::load("hertz", &[]).expect("a preset").to_toml();
+        fs::write(&path, hertz).expect("a file");
+        let scenario = Scenario::load(&path, &[]).expect("a scenario");
+        come_and_go(base.path(), &scenario.stem());
     }
 
     #[test]

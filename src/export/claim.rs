@@ -13,7 +13,7 @@ use nix::sys::signal::kill;
 use nix::unistd::Pid;
 
 use super::file::{WriteError, directory_of};
-use super::own;
+use super::safe_open;
 use crate::scenario::printable;
 
 /// The name of the lock file in a directory.
@@ -137,14 +137,14 @@ impl Claim {
     /// The file, locked and with this process in it, or who has it.
     fn locked(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
         loop {
-            let (mut file, is_made_here) = match own::open(path, true) {
+            let (mut file, is_made_here) = match safe_open::open(path, true) {
                 Ok(file) => (file, true),
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                    match own::open(path, false) {
+                    match safe_open::open(path, false) {
                         Ok(file) => (file, false),
                         // That of another user: locked all the same, and left where it is.
                         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
-                            (own::read(path)?, false)
+                            (safe_open::read(path)?, false)
                         }
                         // The previous owner has removed it in the meantime.
                         Err(error) if error.kind() == io::ErrorKind::NotFound => continue,

@@ -1,5 +1,7 @@
 //! Writes whole files or none: into a temporary file, renamed into place.
 
+use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
@@ -9,6 +11,7 @@ use std::time::Duration;
 
 use thiserror::Error;
 
+use crate::scenario::bounded_read::is_avoidable;
 use crate::scenario::{Refusal, printable};
 
 /// A file or directory that could not be written; nothing half-written is left behind.
@@ -43,7 +46,10 @@ impl WriteError {
 
     /// Whether another choice of directory by the user would have avoided it.
     pub fn is_misuse(&self) -> bool {
-        !matches!(self, Self::Io { cause, .. } if cause.kind() == io::ErrorKind::StorageFull)
+        match self {
+            Self::Refused(_) => true,
+            Self::Io { cause, .. } => is_avoidable(cause),
+        }
     }
 }
 
@@ -51,15 +57,39 @@ impl WriteError {
 pub(super) const IRREGULAR: &str =
     "is not a regular file (but a link, a device or a pipe); choose another name";
 
-/// A path as a shell reads it back.
-pub fn shell_word(path: &Path) -> String {
+/// A path as a shell reads it back, and no command takes it for an option.
+pub fn shell_path(path: &Path) -> String {
+    shell_word(before_dash(path).as_os_str())
+}
+
+/// A path of the working directory that begins with a dash, with `./` before it; others as they are.
+pub fn before_dash(path: &Path) -> Cow<'_, Path> {
+    if path.as_os_str().as_encoded_bytes().starts_with(b"-") {
+        return Path::new(".").join(path).into();
+    }
+    path.into()
+}
+
+/// Refuses `-`, which elsewhere stands for the standard output.
+pub(super) fn refuse_dash(path: &Path) -> Result<(), WriteError> {
+    let rule =
+        "is not a name for files; /dev/stdout is the standard output, ./- is a file of this name";
+    if path == Path::new("-") {
+        return Err(WriteError::refused(path, rule));
+    }
+    Ok(())
+}
+
+/// A word as a shell reads it back.
+pub fn shell_word(word: &OsStr) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
-    match path.to_str() {
+    match word.to_str() {
+        Some("") => "''".to_owned(),
         Some(text) if text.chars().all(plain) => text.to_owned(),
         Some(text) if printable(text) == text => format!("'{}'", text.replace('\'', "'\\''")),
         _ => {
             // Bytes that would break the line, or that a terminal would act on.
-            let bytes = path.as_os_str().as_encoded_bytes().iter();
+            let bytes = word.as_encoded_bytes().iter();
             let escaped = bytes.map(|&byte| match byte {
                 b'\'' | b'\\' => format!("\\{}", char::from(byte)),
                 b' '..=b'~' => char::from(byte).to_string(),
@@ -102,12 +132,21 @@ pub fn write_with<T, E: From<WriteError>>(
         .prefix(&prefix)
         .suffix(TEMPORARY)
         .permissions(permissions);
-    let mut file = builder.tempfile_in(directory_of(path)).map_err(failed)?;
+    let made = builder.tempfile_in(directory_of(path));
+    let mut file = made.map_err(|error| failed(without_path(error)))?;
     let filled = fill(file.as_file_mut())?;
     file.as_file().sync_all().map_err(failed)?;
     let persisted = file.persist(path);
     persisted.map_err(|error| failed(error.error))?;
     Ok(filled)
+}
+
+/// An error of the system without the name of a temporary file, which means nothing to a user.
+fn without_path(error: io::Error) -> io::Error {
+    let inner = error.get_ref().and_then(|inner| inner.source());
+    let cause = inner.and_then(|cause| cause.downcast_ref::<io::Error>());
+    let code = cause.and_then(io::Error::raw_os_error);
+    code.map_or(error, io::Error::from_raw_os_error)
 }
 
 /// The directory of a file.
@@ -155,7 +194,14 @@ mod tests {
         write_whole(&path, b"new").expect("a file");
         assert_eq!(fs::read(&path).expect("the file"), b"new");
         assert_eq!(fs::read_dir(base.path()).expect("the directory").count(), 1);
-        assert!(write_whole(&base.path().join("no/such/place.csv"), b"").is_err());
+        let place = base.path().join("no/such/place.csv");
+        let refused = write_whole(&place, b"").expect_err("no such directory");
+        let due = format!(
+            "{}: cannot write: No such file or directory (os error 2)",
+            place.display()
+        );
+        assert_eq!((refused.to_string(), refused.is_misuse()), (due, true));
+        assert!(!WriteError::io(&place)(io::Error::from_raw_os_error(nix::libc::EIO)).is_misuse());
     }
 
     #[test]
@@ -166,8 +212,11 @@ mod tests {
             ("it's", "'it'\\''s'"),
             ("$(x)", "'$(x)'"),
             ("a\nb's \u{a0}\u{1b}", "$'a\\x0ab\\'s \\xc2\\xa0\\x1b'"),
+            ("-5C run", "'./-5C run'"),
         ] {
-            assert_eq!(shell_word(Path::new(path)), word);
+            assert_eq!(shell_path(Path::new(path)), word);
         }
+        assert_eq!(shell_word(OsStr::new("-x")), "-x");
+        assert_eq!(shell_word(OsStr::new("")), "''");
     }
 }

@@ -1,7 +1,7 @@
 //! The `# key: value` lines that open every CSV file, and numbers that read back exactly.
 
 use crate::math::grid::RadialGrid;
-use crate::scenario::printable;
+use crate::scenario::escape::{csv_line, printable};
 pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
@@ -19,14 +19,14 @@ pub fn table<R: AsRef<[String]>>(
     names: &[&str],
     rows: impl IntoIterator<Item = R>,
 ) -> String {
-    let rows = rows.into_iter().map(|row| row.as_ref().join(",") + "\n");
+    let rows = rows.into_iter().map(|row| csv_line(row.as_ref()));
     rows.fold(head(session, names), |text, row| text + &row)
 }
 
 /// A line of a header.
 pub fn line(key: &str, value: &str) -> String {
     // A title must stay on its line and must not control a terminal.
-    format!("# {key}: {}\n", printable(value))
+    format!("# {}: {}\n", printable(key), printable(value))
 }
 
 /// Key and value of the line of a run whose error is not known.

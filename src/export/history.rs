@@ -11,7 +11,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::header::head;
-use super::own;
+use super::safe_open;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
 
@@ -25,8 +25,9 @@ const CHUNK: usize = 64 << 10;
 pub struct History {
     /// The newest rows, which are not in the file yet.
     rows: String,
-    /// How much of the file belongs to this history, in bytes.
+    /// How much of the file belongs to this history, in bytes, and the CRC-32 of that.
     written: u64,
+    checksum: u32,
     last_cycle: Option<f64>,
     /// Columns after the ones that every history has.
     further: Vec<String>,
@@ -82,10 +83,14 @@ impl History {
 
     /// Forgets what was recorded after `earlier` was copied from it.
     pub fn rewind(&mut self, earlier: &Self) {
-        let length = earlier.length();
-        let kept = length.saturating_sub(self.written);
-        self.rows.truncate(kept as usize);
-        self.written = self.written.min(length);
+        match earlier.length().checked_sub(self.written) {
+            Some(kept) => self.rows.truncate(kept as usize),
+            None => {
+                self.checksum = earlier.checksum_with_rows();
+                self.written = earlier.length();
+                self.rows.clear();
+            }
+        }
         self.last_cycle = earlier.last_cycle;
     }
 
@@ -105,42 +110,73 @@ impl History {
         if self.rows.len() < CHUNK {
             return Ok(());
         }
-        let mut file = own::open_or_make(path)?;
+        let mut file = safe_open::open_or_make(path)?;
         // Anything beyond was written by a killed run.
         file.set_len(self.written)?;
         file.seek(SeekFrom::Start(self.written))?;
         file.write_all(self.rows.as_bytes())?;
         // A checkpoint that counts on them may be written at any time from now on.
         file.sync_data()?;
+        self.checksum = self.checksum_with_rows();
         self.written += self.rows.len() as u64;
         // Not only cleared: while the disk was full, it may have become large.
         self.rows = String::new();
         Ok(())
     }
 
-    /// Copies the rows that are in the file at `from` to the one at `to`.
+    /// The checksum of the file once the buffered rows are in it.
+    fn checksum_with_rows(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new_with_initial_len(self.checksum, self.written);
+        sum.update(self.rows.as_bytes());
+        sum.finalize()
+    }
+
+    /// Whether rows are in a file, not in memory.
+    pub fn has_file(&self) -> bool {
+        self.written > 0
+    }
+
+    /// Forgets the rows in the file: the history then begins with those in memory.
+    pub fn forget_file(&mut self) {
+        (self.written, self.checksum) = (0, 0);
+    }
+
+    /// Copies the rows of this history that are in the file at `from`.
     ///
     /// # Errors
     ///
-    /// If rows are missing; the history then begins with the rows in memory.
-    pub fn move_rows(&mut self, from: &Path, to: &Path) -> io::Result<()> {
-        if self.written == 0 {
-            return Ok(());
+    /// If the system refuses, and of the kind `InvalidData` if the file holds others.
+    pub fn copy_rows(&self, from: &Path, to: &mut dyn Write) -> io::Result<()> {
+        let mut rows = safe_open::read(from)?.take(self.written);
+        let mut sum = crc32fast::Hasher::new();
+        let mut chunk = vec![0; CHUNK];
+        loop {
+            let length = rows.read(&mut chunk)?;
+            let read = &chunk[..length];
+            if length == 0 {
+                let is_whole = rows.limit() == 0 && sum.finalize() == self.checksum;
+                return if is_whole { Ok(()) } else { Err(foreign()) };
+            }
+            if !is_of_cells(read) {
+                return Err(foreign());
+            }
+            sum.update(read);
+            to.write_all(read)?;
         }
-        let whole = self.copied(from, to);
-        whole.inspect_err(|_| self.written = 0)
     }
 
-    fn copied(&self, from: &Path, to: &Path) -> io::Result<()> {
-        let rows = own::read(from)?;
-        if rows.metadata()?.len() < self.written {
-            return Err(io::ErrorKind::UnexpectedEof.into());
-        }
-        if from != to {
-            let mut copy = own::open_or_make(to)?;
-            copy.set_len(0)?;
-            io::copy(&mut rows.take(self.written), &mut copy)?;
-            copy.sync_data()?;
+    /// Checks what a checkpoint holds as if it were computed here.
+    ///
+    /// # Errors
+    ///
+    /// In one line, what no history holds.
+    pub fn check(&self) -> Result<(), String> {
+        Self::with(&self.further)?;
+        let commas = self.names().count() - 1;
+        let has_all = |row: &str| row.matches(',').count() == commas;
+        let is_whole = self.rows.is_empty() || self.rows.ends_with('\n');
+        if !(is_whole && is_of_cells(self.rows.as_bytes()) && self.rows.lines().all(has_all)) {
+            return Err("the saved rows of the history are not those of its columns".into());
         }
         Ok(())
     }
@@ -150,12 +186,8 @@ impl History {
     pub fn write(&self, session: &Session, rows: &Path, out: &mut dyn Write) -> io::Result<()> {
         let names: Vec<&str> = self.names().collect();
         out.write_all(head(session, &names).as_bytes())?;
-        if self.written > 0 {
-            let file = own::read(rows)?;
-            let copied = io::copy(&mut file.take(self.written), out)?;
-            if copied < self.written {
-                return Err(io::ErrorKind::UnexpectedEof.into());
-            }
+        if self.has_file() {
+            self.copy_rows(rows, out)?;
         }
         out.write_all(self.rows.as_bytes())?;
         if self.last_cycle == Some(session.simulation().cycle()) {
@@ -163,6 +195,17 @@ impl History {
         }
         writeln!(out, "{}", self.row(session))
     }
+}
+
+/// Whether a text could be of rows: cells are numbers and plain words.
+fn is_of_cells(text: &[u8]) -> bool {
+    let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"+-.,\n".contains(byte);
+    text.iter().all(plain)
+}
+
+/// What is wrong with a file of other rows.
+fn foreign() -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, "holds rows of another run")
 }
 
 /// The fields of a moment, in the order of the columns.

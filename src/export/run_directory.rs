@@ -1,19 +1,24 @@
 //! The directory of one run: what it claims, holds until the run is at its end, and clears.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::claim::Claim;
-use super::file::{INTERNAL, IRREGULAR, WriteError, shell_word, sweep, write_whole};
-use super::own;
+use super::file::{
+    INTERNAL, IRREGULAR, WriteError, before_dash, refuse_dash, shell_path, sweep, write_whole,
+};
+use super::header::number;
+use super::safe_open;
+use crate::scenario::checkpoint::Stamp;
 
 /// The name of the checkpoint in the directory of a run that is not at its end.
 pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 
 /// The name of the file with the rows of the history, until the run is at its end.
-const RUN_ROWS: &str = ".mdr-tui-history";
+pub const RUN_ROWS: &str = ".mdr-tui-history";
 
 /// The directory of one run's files. No other process claims it before this is dropped.
 #[derive(Debug)]
@@ -28,6 +33,7 @@ impl RunDirectory {
     /// refused in any case.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
         let failed = WriteError::io(path);
+        refuse_dash(path)?;
         if path.is_file() {
             return Err(WriteError::refused(path, "is not a directory"));
         }
@@ -35,37 +41,97 @@ impl RunDirectory {
         fs::create_dir_all(path).map_err(failed)?;
         let mut run = Self::reopen(path)?;
         run.claim.is_new = is_new;
-        let entries = fs::read_dir(path).map_err(failed)?;
-        let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
-        let names = entries.flatten().map(name);
-        let mut others = names.filter(|name| !name.starts_with(INTERNAL));
+        if !force {
+            run.refuse_results()?;
+        }
+        Ok(run)
+    }
+
+    /// Refuses a directory that holds anything.
+    fn refuse_results(&self) -> Result<(), WriteError> {
+        let is_empty = self.results()?.is_empty();
+        let checkpoint = self.checkpoint();
+        if checkpoint.symlink_metadata().is_ok() {
+            let checkpoint = shell_path(&checkpoint);
+            let rule = "holds an interrupted run; resume with: mdr-tui run --resume";
+            let rule = format!("{rule} {checkpoint} (--force starts over)");
+            return Err(WriteError::refused(&self.path, rule));
+        }
+        let rule = "not empty; choose another directory or add --force";
+        match is_empty {
+            true => Ok(()),
+            false => Err(WriteError::refused(&self.path, rule)),
+        }
+    }
+
+    /// The names of all files but those that the program keeps for itself.
+    fn results(&self) -> Result<Vec<OsString>, WriteError> {
+        let failed = WriteError::io(&self.path);
+        let entries = fs::read_dir(&self.path).map_err(failed)?;
+        let names = entries.map(|entry| entry.map(|entry| entry.file_name()));
+        let names: Vec<OsString> = names.collect::<Result<_, _>>().map_err(failed)?;
+        let is_result = |name: &OsString| !name.to_string_lossy().starts_with(INTERNAL);
+        Ok(names.into_iter().filter(is_result).collect())
+    }
+
+    /// Takes the directory that the run `stamp` has left, to continue there. `is_own` tells whether a file of this
+    /// name was written by that run.
+    ///
+    /// # Errors
+    ///
+    /// Unless `force` is set, if another run has used the directory since, or this one has come further there.
+    pub fn return_to(
+        path: &Path,
+        stamp: &Stamp,
+        is_own: impl Fn(&str) -> bool,
+        force: bool,
+    ) -> Result<Self, WriteError> {
+        let run = Self::reopen(path)?;
         if force {
             return Ok(run);
         }
-        if run.checkpoint().exists() {
-            let checkpoint = shell_word(&run.checkpoint());
-            let rule = "holds an interrupted run; resume with: mdr-tui run --resume";
-            let rule = format!("{rule} {checkpoint} (--force starts over)");
-            return Err(WriteError::refused(path, rule));
+        let checkpoint = run.checkpoint();
+        if checkpoint.symlink_metadata().is_err() {
+            let is_own = |name: OsString| name.to_str().is_some_and(&is_own);
+            return match run.results()?.into_iter().all(is_own) {
+                true => Ok(run),
+                false => run.refuse_results().map(|()| run),
+            };
         }
-        if others.next().is_some() {
-            let rule = "not empty; choose another directory or add --force";
-            return Err(WriteError::refused(path, rule));
+        let (resume, hint) = (
+            shell_path(&checkpoint),
+            "choose another directory with --out",
+        );
+        match Stamp::read(&checkpoint) {
+            Some(there) if there.run == stamp.run && there.cycle <= stamp.cycle => Ok(run),
+            Some(there) if there.run == stamp.run => {
+                let rule = format!(
+                    "the run has come further there, to cycle {}; resume with: mdr-tui run --resume {resume}, or {hint} \
+                     (--force goes back)",
+                    number(there.cycle)
+                );
+                Err(WriteError::refused(path, rule))
+            }
+            _ => {
+                let rule = "another run has used it since and is interrupted there";
+                let rule = format!("{rule} ({resume}); {hint} (--force gives it up)");
+                Err(WriteError::refused(path, rule))
+            }
         }
-        Ok(run)
     }
 
     /// Takes a directory that is not there yet: `stem`, or `stem-2`, `stem-3`, … in the working
     /// directory.
     pub fn claim_new(stem: &str) -> Result<Self, WriteError> {
-        let mut path = PathBuf::from(stem);
+        let place = |name: &str| before_dash(Path::new(name)).into_owned();
+        let mut path = place(stem);
         let mut number = 1;
         while let Err(cause) = fs::create_dir(&path) {
             if cause.kind() != io::ErrorKind::AlreadyExists {
                 return Err(WriteError::io(&path)(cause));
             }
             number += 1;
-            path = PathBuf::from(format!("{stem}-{number}"));
+            path = place(&format!("{stem}-{number}"));
         }
         let mut run = Self::claim(&path, false)?;
         run.claim.is_new = true;
@@ -77,7 +143,7 @@ impl RunDirectory {
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
         let path = path.to_owned();
         let claim = Claim::of_directory(&path)?;
-        let rows = rows_in(&path);
+        let rows = path.join(RUN_ROWS);
         if rows.symlink_metadata().is_ok_and(|about| !about.is_file()) {
             return Err(WriteError::refused(&rows, IRREGULAR));
         }
@@ -85,17 +151,19 @@ impl RunDirectory {
         Ok(Self { path, claim })
     }
 
-    /// Removes the files of an earlier run, which would be taken for files of this one; what this
-    /// program has not written stays.
-    pub fn clear(&self) -> Result<(), WriteError> {
-        let failed = WriteError::io(&self.path);
-        for entry in fs::read_dir(&self.path).map_err(failed)? {
-            let path = entry.map_err(failed)?.path();
-            if is_of_a_run(&path) {
+    /// Removes the files of an earlier run, which would be taken for files of this one, but for those that `is_own`
+    /// names; what this program has not written stays.
+    pub fn clear(&self, is_own: impl Fn(&str) -> bool) -> Result<(), WriteError> {
+        for name in self.results()? {
+            let path = self.path.join(&name);
+            if is_of_a_run(&path) && !name.to_str().is_some_and(&is_own) {
                 remove(&path)?;
             }
         }
-        self.close()
+        if !is_own(RUN_ROWS) {
+            remove(&self.rows())?;
+        }
+        remove(&self.checkpoint())
     }
 
     /// Where the checkpoint of the run is until it is at its end.
@@ -105,7 +173,7 @@ impl RunDirectory {
 
     /// Where the rows of the history are until the run is at its end.
     pub fn rows(&self) -> PathBuf {
-        rows_in(&self.path)
+        self.path.join(RUN_ROWS)
     }
 
     /// Removes the checkpoint of a finished run.
@@ -144,17 +212,12 @@ fn is_of_a_run(path: &Path) -> bool {
         return false;
     }
     let mut start = [0; MARK.len()];
-    let read = own::read(path).and_then(|mut file| file.read_exact(&mut start));
+    let read = safe_open::read(path).and_then(|mut file| file.read_exact(&mut start));
     read.is_ok() && start == *MARK
 }
 
 /// How tables of this program begin.
 const MARK: &[u8; 11] = b"# mdr-tui: ";
-
-/// Where the rows of the history are of a run that was interrupted in `directory`.
-pub fn rows_in(directory: &Path) -> PathBuf {
-    directory.join(RUN_ROWS)
-}
 
 /// Removes a file, if it is there.
 fn remove(path: &Path) -> Result<(), WriteError> {

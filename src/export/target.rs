@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::claim::Claim;
-use super::file::{IRREGULAR, WriteError, directory_of, sweep, temporary_of, write_whole_with};
+use super::file::{
+    IRREGULAR, WriteError, directory_of, refuse_dash, sweep, temporary_of, write_whole_with,
+};
 
 /// The name under which a result goes to the standard output.
 const STDOUT: &str = "/dev/stdout";
@@ -57,6 +59,7 @@ impl Target {
             return Ok(target);
         }
         let refused = |rule| Err(WriteError::refused(path, rule));
+        refuse_dash(path)?;
         if path.file_name().is_none() || path.is_dir() {
             return refused("is not a file name");
         }

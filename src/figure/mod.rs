@@ -32,7 +32,7 @@ use crate::export::target::{Target, write_all};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::Refusal;
-use crate::studies::table::csv_line;
+use crate::scenario::escape::csv_line;
 
 /// The kinds of files, by what their names end in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
@@ -65,6 +65,9 @@ impl Format {
     }
 }
 
+/// The columns of a figure's data.
+pub const DATA_COLUMNS: &str = "panel,curve,x,y,value,error";
+
 /// Charts on a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
@@ -91,13 +94,14 @@ impl Sheet {
         tables: &[Target],
     ) -> Result<(), WriteError> {
         let canvas = self.draw(size.unwrap_or_else(|| self.usual_size()), look);
+        // The data first: a kill in between leaves no picture with the data of an older one.
+        let data = self.csv().into_bytes();
         let mut files: Vec<(&Target, Vec<u8>)> = Vec::new();
+        files.extend(tables.iter().map(|target| (target, data.clone())));
         for (target, format) in pictures {
             let refused = |error| Refusal::new(target.path().display(), error);
             files.push((target, format.write(&canvas, dpi).map_err(refused)?));
         }
-        let data = self.csv().into_bytes();
-        files.extend(tables.iter().map(|target| (target, data.clone())));
         write_all(&files)
     }
 
@@ -183,9 +187,10 @@ impl Sheet {
             let [x, y] = [&chart.x, &chart.y].map(Axis::in_data_units);
             let value = chart.map.as_ref().map(|map| map.quantity.in_data_units());
             let value = value.map_or(String::new(), |value| format!(", value = {value}"));
-            let _ = writeln!(text, "# panel {panel}: {title}, x = {x}, y = {y}{value}");
+            let about = format!("{title}, x = {x}, y = {y}{value}");
+            text += &line(&format!("panel {panel}"), &about);
         }
-        text.push_str("panel,curve,x,y,value,error\n");
+        text.extend([DATA_COLUMNS, "\n"]);
         for (k, chart) in self.charts.iter().enumerate() {
             let panel = letter(k);
             let inset = chart.inset.iter().flat_map(|inset| &inset.curves);
@@ -196,7 +201,7 @@ impl Sheet {
                 for (i, (x, y)) in curve.points().enumerate() {
                     let error = field(curve.errors.get(i).copied().unwrap_or(f64::NAN));
                     let [x, y] = [x, y].map(number);
-                    text += &csv_line([&place, name, &x, &y, "", &error]);
+                    text += &csv_line([place.as_str(), name, &x, &y, "", &error]);
                 }
             }
             let Some(map) = &chart.map else { continue };

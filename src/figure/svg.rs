@@ -2,7 +2,8 @@
 
 use super::canvas::{Canvas, Shape};
 use super::font::FAMILY;
-use crate::plot::screen_svg::{escaped, hex};
+use crate::plot::screen_svg::hex;
+use crate::scenario::escape::xml;
 
 /// The whole file.
 pub fn write(canvas: &Canvas) -> String {
@@ -12,8 +13,8 @@ pub fn write(canvas: &Canvas) -> String {
          width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"{FAMILY}, Arial, Helvetica, sans-serif\">\n<title>{}</title>\n<desc>{}</desc>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
-        escaped(&canvas.title),
-        escaped(&canvas.caption()),
+        xml(&canvas.title),
+        xml(&canvas.caption()),
     );
     for shape in &canvas.shapes {
         text.push_str(&element(shape));
@@ -59,7 +60,7 @@ fn element(shape: &Shape) -> String {
                 "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{}\"{turned}>{}</text>",
                 length(text.size),
                 text.anchor,
-                escaped(&text.words),
+                xml(&text.words),
             )
         }
     }

@@ -155,7 +155,7 @@ impl RadialGrid {
         if first.to_bits() != 0 || !ascends {
             return Err(refuse("must ascend from 0"));
         }
-        if border.is_some_and(|at| at == 0 || at + 1 >= nodes.len()) {
+        if border.is_some_and(|at| at == 0 || at >= nodes.len() - 1) {
             return Err(refuse(
                 "must hold the border between the first and the last",
             ));

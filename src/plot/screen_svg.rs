@@ -11,6 +11,7 @@ use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
 use super::colormap::{NAMED, Rgb, mixed};
+use crate::scenario::escape;
 
 /// What the terminal's own colours look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -175,16 +176,6 @@ pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Escapes a text for an SVG element.
-pub fn escaped(text: &str) -> String {
-    let printable = |sign: char| sign.is_control() && sign != '\n';
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-        .replace(printable, " ")
-}
-
 /// A run of letters of one look, from a place of its baseline on.
 struct Run {
     look: Look,
@@ -204,7 +195,7 @@ impl Run {
             svg,
             "<text x=\"{x}\" y=\"{y}\" textLength=\"{width}\" fill=\"{}\"{bold}>{}</text>",
             hex(self.look.fore),
-            escaped(text),
+            escape::xml(text),
         );
     }
 }

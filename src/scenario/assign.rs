@@ -3,7 +3,8 @@
 use toml::{Table, Value};
 
 use super::check::unknown;
-use super::error::{Origin, Refusal, echo};
+use super::error::{Origin, Refusal};
+use super::escape::echo;
 use super::hints;
 use super::schema::{self, Kind, Parameter};
 use super::values;
@@ -63,6 +64,11 @@ fn drop_replaced(table: &mut Table, path: &str) {
 
 /// The value as TOML reads it, or the bare text.
 fn parse(parameter: &Parameter, text: &str) -> Value {
+    if parameter.kind == Kind::Number && values::is_large_whole(text) {
+        return text
+            .parse()
+            .map_or_else(|_| Value::String(text.to_owned()), Value::Float);
+    }
     let parsed = text.parse::<Value>();
     match (parameter.kind, parsed) {
         (Kind::Text | Kind::Choice(_), Ok(Value::String(text))) => Value::String(text),

@@ -7,7 +7,8 @@
 use toml::{Table, Value};
 
 use super::check::show;
-use super::error::{Origin, Refusal, echo};
+use super::error::{Origin, Refusal};
+use super::escape::echo;
 use super::{Change, values};
 
 /// The tables whose keys a block may change.

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
-use super::error::{Origin, echo};
+use super::error::Origin;
+use super::escape::echo;
 use super::{Refusal, Scenario, assign, schema, units, values};
 
 /// Maximum number of changes of a run. Each is checked by assembling the scenario that holds from
@@ -93,7 +94,7 @@ impl Scenario {
             assign::assign(&mut table, &mut origin, key, value, &written)?;
         }
         self.refuse_values_in_other_units(&table, changes, place)?;
-        Self::build(table, origin, &self.origin)
+        Self::build(table, origin, &self.origin, &self.directory)
     }
 
     /// A control that changes measures the motion in another unit: metres that were given for the old one

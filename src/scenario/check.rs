@@ -3,7 +3,8 @@
 
 use toml::{Table, Value};
 
-use super::error::{Faults, Origin, Refusal, echo};
+use super::error::{Faults, Origin, Refusal};
+use super::escape::echo;
 use super::hints;
 use super::schema::{self, Parameter};
 use super::{units, values};
@@ -40,22 +41,25 @@ fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: 
             changes(value, origin, faults);
         } else if let Some(parameter) = schema::find(&path) {
             if let Some(rule) = broken(value, parameter, is_force) {
-                faults.note(&shown(), origin.refuse(&shown(), &show(value), rule));
+                faults.note(&shown(), || origin.refuse(&shown(), &show(value), rule));
             }
         } else if schema::is_section(&path) {
             match value {
                 Value::Table(inner) => section(inner, &path, &shown(), origin, faults),
                 other => {
                     let rule = format!("must be a table, [{path}]");
-                    faults.note(&shown(), origin.refuse(&shown(), &show(other), rule));
+                    faults.note(&shown(), || origin.refuse(&shown(), &show(other), rule));
                 }
             }
         } else {
-            faults.note(&shown(), unknown(origin.name(), &path, &shown()));
             // What was meant is not missing as well.
-            for (meant, _) in hints::meant(&path) {
-                faults.blame(meant);
-            }
+            let meant = if faults.is_full() {
+                Vec::new()
+            } else {
+                hints::meant(&path)
+            };
+            faults.note(&shown(), || unknown(origin.name(), &path, &shown()));
+            meant.iter().for_each(|(meant, _)| faults.blame(meant));
         }
     }
 }
@@ -92,19 +96,19 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
         origin.refuse(shown, &show(value), rule)
     };
     let Some(list) = value.as_array_mut() else {
-        return faults.note("changes", refuse("changes", value));
+        return faults.note("changes", || refuse("changes", value));
     };
     for (i, entry) in list.iter_mut().enumerate() {
         let shown = format!("changes[{i}]");
         let Some(table) = entry.as_table_mut() else {
-            faults.note(&shown, refuse(&shown, entry));
+            faults.note(&shown, || refuse(&shown, entry));
             continue;
         };
         section(table, "changes", &shown, origin, faults);
         for parameter in schema::parameters().filter(|known| known.section() == "changes") {
             if !table.contains_key(parameter.key()) && !faults.covers(parameter.path) {
                 let shown = values::join(&shown, parameter.key());
-                faults.note(&shown, origin.missing(&shown, parameter.described()));
+                faults.note(&shown, || origin.missing(&shown, parameter.described()));
             }
         }
     }

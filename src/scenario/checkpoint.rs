@@ -1,27 +1,27 @@
 //! A checkpoint: a session saved in one file, and restored to the same bits.
 //!
 //! ```text
-//! mdr-tui checkpoint 5
+//! mdr-tui checkpoint 6
 //! 20517 bytes, CRC-32 9ae0daaf
-//! written by mdr-tui 0.1.0 at cycle 42.5
+//! run 5f0c2a91, written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>
 //! ```
 //!
 //! Three lines that a person can read, then the scenario as it was loaded, its changes and the
 //! saved run in CBOR (RFC 8949), which keeps every f64 to its bits, infinities and −0 included.
 //! Fields are stored by name, so that added fields can be recognised. Length and checksum of the
-//! contents reveal a damaged file.
+//! contents reveal a damaged file. A checkpoint of `mdr-tui run` also names its run, so that a
+//! directory which another run has used meanwhile is recognised; see [`Stamp`].
 
 use std::borrow::Cow;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::bounded_read::{self, Unread};
 use super::changes::{Change, at_one_cycle};
-use super::limited::Unread;
 use super::session::Session;
 use super::{Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
@@ -29,7 +29,7 @@ use crate::reading::Log;
 use crate::simulation::{Saved, Simulation};
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 /// What the first line begins with.
 const MAGIC: &str = "mdr-tui checkpoint ";
@@ -64,8 +64,47 @@ struct Body<'a, E> {
     job: Option<E>,
 }
 
-/// Encodes a checkpoint of `session`, with the `job` of its driver.
+/// What the third line of a run's checkpoint says: which run it is of, and how far that has come.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stamp {
+    /// The identity of the run.
+    pub run: String,
+    /// Cycles since its start.
+    pub cycle: f64,
+}
+
+impl Stamp {
+    /// The start of the third line that names a run.
+    const RUN: &str = "run ";
+
+    /// Reads the third line of the checkpoint at `path`; `None` for any other file, and for a checkpoint of no run.
+    pub fn read(path: &Path) -> Option<Self> {
+        let mut from = BufReader::new(bounded_read::open(path).ok()?.take(3 * LONGEST_LINE));
+        let mut lines = [const { String::new() }; 3];
+        for line in &mut lines {
+            from.read_line(line).ok()?;
+        }
+        let [magic, _, line] = &lines;
+        let (run, written) = line.strip_prefix(Self::RUN)?.split_once(", written by ")?;
+        let (_, cycle) = written.trim_end().rsplit_once(" at cycle ")?;
+        magic.starts_with(MAGIC).then_some(Self {
+            run: run.to_owned(),
+            cycle: cycle.parse().ok()?,
+        })
+    }
+}
+
+/// Encodes a checkpoint of `session`.
 pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
+    written(session, "", job)
+}
+
+/// Encodes a checkpoint of `session` with the `job` of the run that is identified by `run`.
+pub fn encode_run<E: Serialize>(session: &Session, run: &str, job: &E) -> Vec<u8> {
+    written(session, &format!("{}{run}, ", Stamp::RUN), Some(job))
+}
+
+fn written<E: Serialize>(session: &Session, run: &str, job: Option<&E>) -> Vec<u8> {
     let saved = session.simulation.save();
     let cycle = saved.cycle();
     let body = Body {
@@ -81,7 +120,7 @@ pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
         job,
     };
     let version = env!("CARGO_PKG_VERSION");
-    let mut contents = format!("written by mdr-tui {version} at cycle {cycle}\n").into_bytes();
+    let mut contents = format!("{run}written by mdr-tui {version} at cycle {cycle}\n").into_bytes();
     ciborium::into_writer(&body, &mut contents).expect("CBOR holds any value, and memory takes it");
     sealed(&contents)
 }
@@ -105,7 +144,7 @@ fn seal(length: u64, checksum: u32) -> String {
 /// One line: a file that cannot be read, is no checkpoint of this version, is damaged, or holds no valid run.
 pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, Refusal> {
     let name = printable(&path.display().to_string());
-    let file = File::open(path).map_err(|cause| Refusal::new(&name, Unread::from(cause)))?;
+    let file = bounded_read::open(path).map_err(|why| unreadable(&name, why))?;
     decode(BufReader::new(file), &name)
 }
 
@@ -118,10 +157,7 @@ pub fn decode<E: DeserializeOwned>(
     mut from: impl BufRead,
     name: &str,
 ) -> Result<Checkpoint<E>, Refusal> {
-    let unread = |cause| match Unread::from(cause) {
-        Unread::Directory => Refusal::new(name, "is a directory; a checkpoint is a file"),
-        why => Refusal::new(name, why),
-    };
+    let unread = |cause: io::Error| unreadable(name, cause.into());
     let mut line = || -> Result<String, Refusal> {
         let mut line = Vec::new();
         let mut start = from.by_ref().take(LONGEST_LINE);
@@ -155,17 +191,54 @@ pub fn decode<E: DeserializeOwned>(
     if length > LARGEST {
         return unfit(&format!("it is larger than {} GiB", LARGEST >> 30));
     }
-    let mut contents = Vec::new();
     // One byte more shows that there is more.
-    let mut rest = from.take(length + 1);
-    rest.read_to_end(&mut contents).map_err(unread)?;
-    match contents.len() as u64 {
+    let mut contents = BufReader::new(Summed::new(from.take(length + 1)));
+    let body = body(&mut contents);
+    io::copy(&mut contents, &mut io::sink()).map_err(unread)?;
+    // Only now it is known whether the body is whole.
+    let read = contents.into_inner();
+    match read.length {
         found if found > length => return torn(&format!("it continues after its {length} bytes")),
         found if found < length => return torn(&format!("it has {found} of {length} bytes")),
-        _ if crc32fast::hash(&contents) != checksum => return torn("its checksum does not match"),
+        _ if read.sum.finalize() != checksum => return torn("its checksum does not match"),
         _ => {}
     }
-    restore(&contents).or_else(|why| unfit(&why))
+    body.and_then(restore).or_else(|why| unfit(&why))
+}
+
+/// Counts and sums up what is read, which need not be in memory at once.
+struct Summed<R> {
+    from: R,
+    length: u64,
+    sum: crc32fast::Hasher,
+}
+
+impl<R> Summed<R> {
+    fn new(from: R) -> Self {
+        Self {
+            from,
+            length: 0,
+            sum: crc32fast::Hasher::new(),
+        }
+    }
+}
+
+impl<R: Read> Read for Summed<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = self.from.read(buffer)?;
+        self.sum.update(&buffer[..length]);
+        self.length += length as u64;
+        Ok(length)
+    }
+}
+
+fn unreadable(name: &str, why: Unread) -> Refusal {
+    match why {
+        Unread::Directory | Unread::Irregular => {
+            Refusal::new(name, format_args!("{why}; a checkpoint is a file"))
+        }
+        why => Refusal::unread(name, &why),
+    }
 }
 
 /// Length and checksum of the second line.
@@ -176,15 +249,18 @@ fn promise(line: &str) -> Option<(u64, u32)> {
     (line == seal(length, checksum)).then_some((length, checksum))
 }
 
-/// From contents that are whole to a session; an error is what is wrong with them.
-fn restore<E: DeserializeOwned>(contents: &[u8]) -> Result<Checkpoint<E>, String> {
-    // The line on who wrote it is for people.
-    let start = contents.iter().position(|&byte| byte == b'\n');
-    let start = start.map_or(contents.len(), |end| end + 1);
-    let body: Body<E> = ciborium::from_reader(&contents[start..]).map_err(|error| match error {
+/// Reads the body behind the line on who wrote it.
+fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Body<'static, E>, String> {
+    let mut line = from.by_ref().take(LONGEST_LINE);
+    line.skip_until(b'\n').map_err(|error| error.to_string())?;
+    ciborium::from_reader(from).map_err(|error| match error {
         ciborium::de::Error::Semantic(_, message) => message,
         other => other.to_string(),
-    })?;
+    })
+}
+
+/// Restores a session; an error is what is wrong with its body.
+fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
     let loaded = Scenario::from_toml(&body.scenario, &body.origin, &[])
         .map_err(|error| format!("its scenario {error}"))?;
     let session = |simulation, log, scenario, changes: &[Change]| Session {

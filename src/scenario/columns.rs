@@ -5,14 +5,19 @@
 //! anything, so that a `state.csv` can serve as a scar and a `history.csv` as a history.
 
 use std::fmt::Display;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::error::{Refusal, echo, printable};
-use super::limited::{self, Unread};
+use super::bounded_read::{self, Unread};
+use super::error::Refusal;
+use super::escape::{echo, printable};
 use super::units;
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
+
+/// The largest header that is read without its rows, in bytes.
+const LARGEST_HEADER: u64 = 64 << 10;
 
 /// The units of this program's own columns, which those of a file are converted to, as they end a column's name, and as
 /// they are written.
@@ -48,12 +53,12 @@ impl Columns {
     /// A file that cannot be read, is no table, or has rows of different lengths.
     pub fn read(path: &Path) -> Result<Self, Refusal> {
         let name = printable(&path.display().to_string());
-        let text = limited::regular_text(path, LARGEST).map_err(|why| {
-            let hint = match why {
-                Unread::Directory | Unread::Irregular => "; must be a CSV file",
-                _ => "",
-            };
-            Refusal::new(&name, format_args!("{why}{hint}"))
+        let text = bounded_read::text(path, LARGEST).map_err(|why| {
+            let refusal = Refusal::unread(&name, &why);
+            match why {
+                Unread::Directory | Unread::Irregular => refusal.or("must be a CSV file"),
+                _ => refusal,
+            }
         })?;
         Self::parse(&text, &name)
     }
@@ -91,17 +96,24 @@ impl Columns {
             Ok((row.position().map_or(0, csv::Position::line), row))
         });
         let rows = rows.collect::<Result<_, Refusal>>()?;
-        let said = text.lines().filter_map(|line| {
-            let (key, value) = line.strip_prefix('#')?.split_once(':')?;
-            Some((key.trim().to_owned(), value.trim().to_owned()))
-        });
         Ok(Self {
             path: path.to_owned(),
-            header: said.collect(),
+            header: text.lines().filter_map(said).collect(),
             own: names.iter().map(|name| in_own_unit(name)).collect(),
             names,
             rows,
         })
+    }
+
+    /// The lines `# key: value` at the top of the file at `path`, of which no more is read.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn header_of(path: &Path) -> Result<Vec<(String, String)>, Unread> {
+        let file = bounded_read::open(path)?.take(LARGEST_HEADER);
+        let lines = BufReader::new(file).lines();
+        let header = lines.map_while(|line| line.ok().filter(|line| line.starts_with('#')));
+        Ok(header.filter_map(|line| said(&line)).collect())
     }
 
     /// The line of the file that holds `row`, counted from 1.
@@ -200,6 +212,12 @@ fn problem(error: &csv::Error) -> String {
         }
         _ => printable(&error.to_string()),
     }
+}
+
+/// Key and value of a line `# key: value`. They reach screens, pictures and other files.
+fn said(line: &str) -> Option<(String, String)> {
+    let (key, value) = line.strip_prefix('#')?.split_once(':')?;
+    Some((printable(key.trim()), printable(value.trim())))
 }
 
 #[cfg(test)]

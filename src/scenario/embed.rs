@@ -10,16 +10,18 @@ use super::columns::Columns;
 use super::error::{Origin, Refusal};
 use super::{schema, values};
 
-/// Reads the files that `table` names, relative to the directory of the scenario's file, and puts
+/// Reads the files that `table` names, relative to the `directory` of the scenario's file, and puts
 /// their columns in their place. Values that are not paths stay, for the check of all keys to reject.
-pub(super) fn files(table: &mut Table, scenario: &str, origin: &mut Origin) -> Result<(), Refusal> {
+pub(super) fn files(
+    table: &mut Table,
+    directory: &Path,
+    origin: &mut Origin,
+) -> Result<(), Refusal> {
     for schema::Embedded { key, lists } in &schema::SCHEMA.files {
         let Some(value @ Value::String(file)) = values::at(table, key) else {
             continue;
         };
         let place = origin.place(key, &show(value));
-        // A preset has no directory.
-        let directory = Path::new(scenario).parent().unwrap_or(Path::new(""));
         let columns = Columns::read(&directory.join(file))?;
         values::remove(table, key);
         for lists in lists {

@@ -1,11 +1,12 @@
 //! Scenario errors: one line that says what is wrong, where, and what would be right.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
 use thiserror::Error;
 
-/// Maximum number of characters of a user's text in an error.
-const LONGEST_ECHO: usize = 60;
+use super::bounded_read::{self, Unread};
+use super::escape::{echo, printable};
 
 /// The most errors that are told at once.
 const MOST_ERRORS: usize = 20;
@@ -13,13 +14,25 @@ const MOST_ERRORS: usize = 20;
 /// Wrong input of a user: where it stands, with its value, and what would be right, in one line; of a scenario all that
 /// is wrong with it, a line each.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", .0.join("\n"))]
-pub struct Refusal(Vec<String>);
+#[error("{}", .lines.join("\n"))]
+pub struct Refusal {
+    lines: Vec<String>,
+    /// Whether the system failed, not the user.
+    is_failure: bool,
+}
 
 impl Refusal {
     /// Refuses what stands at `place`: a file, an option, a key.
     pub fn new(place: impl Display, rule: impl Display) -> Self {
         format!("{place}: {rule}").into()
+    }
+
+    /// Refuses the file at `place`, which cannot be read.
+    pub fn unread(place: impl Display, why: &Unread) -> Self {
+        Self {
+            is_failure: matches!(why, Unread::Io(cause) if !bounded_read::is_avoidable(cause)),
+            ..Self::new(place, why)
+        }
     }
 
     /// Refuses `value` at `place`; a long one is cut.
@@ -36,85 +49,103 @@ impl Refusal {
     /// The same with what else the user can do.
     #[must_use]
     pub fn or(self, hint: impl Display) -> Self {
-        format!("{self}; {hint}").into()
+        Self {
+            is_failure: self.is_failure,
+            ..format!("{self}; {hint}").into()
+        }
     }
 
     /// Errors as one; `None` where there are none. Of a long list only the first are told.
     pub(super) fn all(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
-        let mut all: Vec<String> = errors.into_iter().flat_map(|error| error.0).collect();
+        let mut is_failure = false;
+        let lines = errors.into_iter().flat_map(|error| {
+            is_failure |= error.is_failure;
+            error.lines
+        });
+        let mut all: Vec<String> = lines.collect();
         if all.len() > MOST_ERRORS {
             let more = all.split_off(MOST_ERRORS - 1).len();
             all.push(format!("and {more} more errors"));
         }
-        (!all.is_empty()).then_some(Self(all))
+        (!all.is_empty()).then_some(Self {
+            lines: all,
+            is_failure,
+        })
     }
 
     /// What is wrong, one by one.
     pub fn lines(&self) -> &[String] {
-        &self.0
+        &self.lines
+    }
+
+    /// Whether the system failed, so that no other input would have helped.
+    pub fn is_failure(&self) -> bool {
+        self.is_failure
     }
 }
 
 /// A line that says place and rule already.
 impl From<String> for Refusal {
     fn from(line: String) -> Self {
-        Self(vec![line])
+        Self {
+            lines: vec![line],
+            is_failure: false,
+        }
     }
 }
 
-/// The keys of a scenario that errors blame, each with its error, unless one that is there already deals with it.
+/// The keys of a scenario that errors blame, and the errors.
 #[derive(Debug, Default)]
-pub(super) struct Faults(Vec<(String, Option<Refusal>)>);
+pub(super) struct Faults {
+    errors: Vec<Refusal>,
+    /// The number of errors beyond those that are told.
+    more: usize,
+    blamed: BTreeSet<String>,
+}
 
 impl Faults {
-    /// Notes an error that is due to the key at `path`. A key is blamed once.
-    pub fn note(&mut self, path: &str, error: Refusal) {
-        if self.paths().all(|blamed| blamed != path) {
-            self.0.push((path.to_owned(), Some(error)));
+    /// Notes an error that is due to the key at `path`, if it is the first one. Of too many it is not even made.
+    pub fn note(&mut self, path: &str, error: impl FnOnce() -> Refusal) {
+        if !self.blamed.insert(path.to_owned()) {
+            return;
         }
+        if self.is_full() {
+            self.more += 1;
+        } else {
+            self.errors.push(error());
+        }
+    }
+
+    /// Whether there are more errors than are told.
+    pub fn is_full(&self) -> bool {
+        self.errors.len() >= MOST_ERRORS
     }
 
     /// Notes that the key at `path` is dealt with by an error that is there already.
     pub fn blame(&mut self, path: &str) {
-        self.0.push((path.to_owned(), None));
+        self.blamed.insert(path.to_owned());
     }
 
     /// Whether an error deals with the key at `path`, or with the whole table that it stands in.
     pub fn covers(&self, path: &str) -> bool {
-        let mut rest = self.paths().filter_map(|blamed| path.strip_prefix(blamed));
-        rest.any(|rest| rest.is_empty() || rest.starts_with('.'))
+        let tables = path.match_indices('.').map(|(end, _)| &path[..end]);
+        tables.chain([path]).any(|path| self.blamed.contains(path))
     }
 
     /// The keys that errors deal with.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|(path, _)| path.as_str())
+        self.blamed.iter().map(String::as_str)
     }
 
     /// All errors as one; `None` where there are none.
-    pub fn into_error(self) -> Option<Refusal> {
-        Refusal::all(self.0.into_iter().filter_map(|(_, error)| error))
+    pub fn into_error(mut self) -> Option<Refusal> {
+        if self.more > 0 {
+            // The last line tells how many are left out.
+            let more = self.more + self.errors.split_off(MOST_ERRORS - 1).len();
+            self.errors.push(format!("and {more} more errors").into());
+        }
+        Refusal::all(self.errors)
     }
-}
-
-/// `text` on one line, whatever it holds: control and invisible characters become escapes.
-pub fn printable(text: &str) -> String {
-    // Quotes and backslashes are harmless, and would only be harder to read as escapes.
-    ["\"", "'", "\\"]
-        .iter()
-        .fold(text.escape_debug().to_string(), |line, plain| {
-            line.replace(&format!("\\{plain}"), plain)
-        })
-}
-
-/// [`printable`], cut where it grows too long for a line.
-pub(super) fn echo(text: &str) -> String {
-    let mut start: String = text.chars().take(LONGEST_ECHO).collect();
-    let cut = start.len() < text.len();
-    start = printable(&start);
-    if cut {
-        start.push_str("...");
-    }
-    start
 }
 
 /// Where the values of a scenario came from, so that an error points at what the user wrote.
@@ -172,15 +203,6 @@ impl Origin {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn user_text_stays_on_its_line() {
-        assert_eq!(printable("a\nb\u{1b}[31m"), "a\\nb\\u{1b}[31m");
-        assert_eq!(printable("\u{202e}x\u{0}"), "\\u{202e}x\\0");
-        assert_eq!(printable(r#"it's "C:\x""#), r#"it's "C:\x""#);
-        assert_eq!(printable("caf\u{e9} cafe\u{301}"), "caf\u{e9} cafe\u{301}");
-        assert_eq!(echo(&"x".repeat(100)).len(), LONGEST_ECHO + 3);
-    }
 
     #[test]
     fn an_assignment_hides_the_place_in_the_text() {

@@ -5,7 +5,9 @@
 //! `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses with one line that names the
 //! origin, the dotted path, the value and the rule.
 
-use std::path::Path;
+use std::ffi::OsStr;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
@@ -13,6 +15,7 @@ use crate::simulation::{Domain, Integrator, Setup, Spacing};
 
 pub(crate) mod assign;
 pub(crate) mod blocks;
+pub(crate) mod bounded_read;
 mod changes;
 mod check;
 pub mod checkpoint;
@@ -21,9 +24,9 @@ mod complete;
 mod derive;
 mod embed;
 mod error;
+pub mod escape;
 pub mod hints;
 mod kind;
-pub(crate) mod limited;
 pub mod nearest;
 mod parts;
 pub mod preset;
@@ -40,14 +43,21 @@ pub(crate) mod write;
 pub use changes::{Change, MOST_CHANGES};
 pub use complete::USUAL_ACCURACY;
 pub use derive::choices;
-use error::{Faults, Origin, echo};
-pub use error::{Refusal, printable};
+pub use error::Refusal;
+use error::{Faults, Origin};
+use escape::echo;
+pub use escape::printable;
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
+
+/// The longest [stem](Scenario::stem), in bytes.
+const LONGEST_STEM: usize = 200;
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
 #[derive(Debug, Clone)]
 pub struct Scenario {
     origin: String,
+    /// Files that it names are relative to this.
+    directory: PathBuf,
     title: String,
     description: String,
     /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out,
@@ -71,22 +81,40 @@ impl PartialEq for Scenario {
 impl Scenario {
     /// Loads a preset by its name, or a file: what has a `/` or ends in `.toml` is a path. Each of
     /// `sets` is a `KEY=VALUE` that replaces what stands there.
-    pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Refusal> {
-        if preset::is_path(name_or_path) {
-            return Self::from_toml(&read::file(name_or_path)?, name_or_path, sets);
+    pub fn load(name_or_path: impl AsRef<OsStr>, sets: &[String]) -> Result<Self, Refusal> {
+        let path = Path::new(&name_or_path);
+        let name = path.to_string_lossy();
+        if preset::is_path(&name) {
+            return Self::in_directory(&read::file(path)?, &name, path.parent(), sets);
         }
-        match preset::find(name_or_path) {
+        match preset::find(&name) {
             Some(preset) => Self::from_toml(preset.text, preset.name, sets),
             None => {
-                let hint = preset::hint(name_or_path);
+                let hint = preset::hint(&name);
                 let rule = format!("no such preset; {hint} (a path ends in .toml or contains a /)");
-                Err(Refusal::new(echo(name_or_path), rule))
+                Err(Refusal::new(echo(&name), rule))
             }
         }
     }
 
-    /// Reads a scenario from a text that messages call `origin`.
+    /// Reads a scenario from what is open already, such as the standard input; messages call it `origin`.
+    pub fn from_reader(from: impl Read, origin: &str, sets: &[String]) -> Result<Self, Refusal> {
+        Self::from_toml(&read::text(from, origin)?, origin, sets)
+    }
+
+    /// Reads a scenario from a text that messages call `origin`; files that it names are relative to the directory of
+    /// that.
     pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, Refusal> {
+        Self::in_directory(text, origin, Path::new(origin).parent(), sets)
+    }
+
+    fn in_directory(
+        text: &str,
+        origin: &str,
+        directory: Option<&Path>,
+        sets: &[String],
+    ) -> Result<Self, Refusal> {
+        let directory = directory.unwrap_or(Path::new(""));
         let mut from = Origin::new(origin);
         let (mut table, commas) = read::table(text, &from)?;
         for set in sets {
@@ -94,7 +122,7 @@ impl Scenario {
             let (key, value) = assign::split(set, &written)?;
             assign::assign(&mut table, &mut from, key, value, &written)?;
         }
-        let built = Self::build(table, from, origin);
+        let built = Self::build(table, from, origin, directory);
         let errors = commas.into_iter().chain(built.as_ref().err().cloned());
         Refusal::all(errors).map_or(built, Err)
     }
@@ -127,7 +155,7 @@ impl Scenario {
             let written = assign::written(key, value);
             assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
         }
-        Self::build(table, origin, &self.origin)
+        Self::build(table, origin, &self.origin, &self.directory)
     }
 
     /// Where the domain radius comes from.
@@ -204,7 +232,11 @@ impl Scenario {
     pub fn stem(&self) -> String {
         let stem = Path::new(&self.origin).file_stem();
         let stem = stem.map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
-        stem.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-")
+        let mut stem = stem.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-");
+        // With a number and an ending it must stay a name that file systems take.
+        let mut ends = (0..=LONGEST_STEM.min(stem.len())).rev();
+        stem.truncate(ends.find(|&end| stem.is_char_boundary(end)).unwrap_or(0));
+        stem
     }
 
     /// The parts of the simulation, ready to run.
@@ -264,9 +296,14 @@ impl Scenario {
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.
-    fn build(mut table: Table, mut from: Origin, origin: &str) -> Result<Self, Refusal> {
+    fn build(
+        mut table: Table,
+        mut from: Origin,
+        origin: &str,
+        directory: &Path,
+    ) -> Result<Self, Refusal> {
         blocks::expand(&mut table, &from)?;
-        embed::files(&mut table, origin, &mut from)?;
+        embed::files(&mut table, directory, &mut from)?;
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
@@ -283,6 +320,7 @@ impl Scenario {
         let lines: Vec<String> = description.lines().map(printable).collect();
         let scenario = Self {
             origin: origin.to_owned(),
+            directory: directory.to_owned(),
             title: printable(given.as_deref().unwrap_or(origin)),
             description: lines.join("\n"),
             table: complete,

@@ -7,9 +7,14 @@ use super::values::split;
 /// Below this, two names are taken to have nothing to do with each other.
 const LIKELY: f64 = 0.5;
 
+/// Maximum length of a mistyped name, in bytes.
+const LONGEST: usize = 200;
+
 /// The name among `known` that `typed` most likely stands for; dotted paths are compared with regard
 /// to their tables.
 pub fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    // The time that a comparison takes grows with both lengths.
+    let known = known.filter(|_| typed.len() <= LONGEST);
     let scored = known.map(|known| (score(typed, known), known));
     let likely = scored.filter(|(score, _)| *score > LIKELY);
     let best = likely.reduce(|best, next| if next.0 > best.0 { next } else { best });

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::error::printable;
+use super::escape::printable;
 use super::{nearest, schema};
 
 /// A preset.

@@ -1,27 +1,39 @@
 //! From a file to a text, to a TOML table.
 
+use std::io::Read;
 use std::path::Path;
 
 use toml::Table;
 
-use super::error::{Origin, Refusal, printable};
-use super::limited::{self, Unread};
+use super::bounded_read::{self, Unread};
+use super::error::{Origin, Refusal};
+use super::escape::printable;
 use super::units::with_decimal_point;
+use super::values;
 
 /// The largest file that is read as a scenario, in bytes.
 const LARGEST_FILE: u64 = 1 << 20;
 
 /// Reads a file that can be a scenario: text, and not too long.
-pub(super) fn file(path: &str) -> Result<String, Refusal> {
-    limited::text(Path::new(path), LARGEST_FILE).map_err(|why| {
-        let hint = match why {
-            Unread::Missing => "; mdr-tui presets lists what ships",
-            Unread::TooLarge(_) => "; a scenario is a short TOML file",
-            Unread::Io(_) => "",
-            _ => "; a scenario is a TOML file",
-        };
-        Refusal::new(printable(path), format_args!("{why}{hint}"))
-    })
+pub(super) fn file(path: &Path) -> Result<String, Refusal> {
+    let text = bounded_read::text(path, LARGEST_FILE);
+    text.map_err(|why| refusal(&path.to_string_lossy(), why))
+}
+
+/// Reads the text of a scenario from what is open already, which messages call `origin`.
+pub(super) fn text(from: impl Read, origin: &str) -> Result<String, Refusal> {
+    let text = bounded_read::text_from(from, LARGEST_FILE);
+    text.map_err(|why| refusal(origin, why))
+}
+
+fn refusal(origin: &str, why: Unread) -> Refusal {
+    let hint = match why {
+        Unread::Missing => "mdr-tui presets lists what ships",
+        Unread::TooLarge(_) => "a scenario is a short TOML file",
+        Unread::Io(_) => return Refusal::unread(printable(origin), &why),
+        _ => "a scenario is a TOML file",
+    };
+    Refusal::unread(printable(origin), &why).or(hint)
 }
 
 /// The text as a TOML table, and the numbers in it that have a decimal comma: they are read as meant, so
@@ -30,7 +42,7 @@ pub(super) fn table(text: &str, origin: &Origin) -> Result<(Table, Vec<Refusal>)
     let mut text = text.to_owned();
     let mut commas = Vec::new();
     loop {
-        let error = match toml::from_str(&text) {
+        let error = match values::parse(&text) {
             Ok(table) => return Ok((table, commas)),
             Err(error) => error,
         };

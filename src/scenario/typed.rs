@@ -2,8 +2,8 @@
 
 use serde::de::DeserializeOwned;
 
-use super::error::printable;
-use super::nearest;
+use super::escape::printable;
+use super::{nearest, values};
 
 /// serde's words for the types that it expected, and a user's.
 const WORDS: [(&str, &str); 6] = [
@@ -22,7 +22,7 @@ const WORDS: [(&str, &str); 6] = [
 /// One line, without the file: what is no TOML, an unknown key with the nearest known one, a value of the
 /// wrong type.
 pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    toml::from_str(text).map_err(|error| {
+    values::parse(text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
         let line = text.get(..at).unwrap_or(text).matches('\n').count() + 1;
         format!("line {line}: {}", in_words(error.message()))

@@ -7,7 +7,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::error::echo;
+use super::escape::echo;
 use super::schema::{Kind, Parameter};
 
 /// A product of units: powers of metre, kilogram, second, radian and ten, and what else it is worth in SI units.

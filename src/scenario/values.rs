@@ -1,8 +1,11 @@
 //! The values in the table of a scenario, by the dotted paths of their keys, and as TOML has them.
 
+use std::borrow::Cow;
+
+use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
-use super::error::printable;
+use super::escape::printable;
 
 /// A finite number, whole or not.
 pub(crate) fn number(value: &Value) -> Option<f64> {
@@ -11,6 +14,37 @@ pub(crate) fn number(value: &Value) -> Option<f64> {
         Value::Float(number) => Some(*number).filter(|number| number.is_finite()),
         _ => None,
     }
+}
+
+/// Whether a text is a whole number that no 64 bits hold, but a float may.
+pub(super) fn is_large_whole(text: &str) -> bool {
+    let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+    digits.len() > 18
+        && digits.bytes().all(|byte| byte.is_ascii_digit())
+        && text.parse::<i64>().is_err()
+}
+
+/// The most numbers of a text that [`parse`] makes floats.
+const MOST_WIDENED: usize = 100;
+
+/// Parses a TOML text; a whole number that no 64 bits hold is a float.
+pub(super) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, toml::de::Error> {
+    let mut text = Cow::Borrowed(text);
+    for _ in 0..MOST_WIDENED {
+        let error = match toml::from_str(&text) {
+            Ok(parsed) => return Ok(parsed),
+            Err(error) => error,
+        };
+        let at = error.span().map_or(0, |span| span.start);
+        let from = text.get(at..).unwrap_or_default();
+        let end = from.find(|c: char| !(c.is_ascii_digit() || "+-".contains(c)));
+        let end = end.unwrap_or(from.len());
+        if !is_large_whole(&from[..end]) || from[end..].starts_with(['.', 'e', 'E', '_']) {
+            return Err(error);
+        }
+        text.to_mut().insert_str(at + end, ".0");
+    }
+    toml::from_str(&text)
 }
 
 /// The value at a dotted path.
@@ -107,6 +141,22 @@ mod tests {
         assert!(!shown.chars().any(is_rude), "{shown:?}");
         let read = shown.parse::<Value>().expect("a TOML value");
         assert_eq!(read.as_str(), Some(text));
+    }
+
+    #[test]
+    fn whole_numbers_of_any_size_are_numbers() {
+        for text in [
+            "9223372036854775808",
+            "99999999999999999999",
+            "-9223372036854775809",
+        ] {
+            let parsed: Table =
+                parse(&format!("x = [1, {text}]\ny = {text} # {text}")).expect(text);
+            assert_eq!(number(&parsed["y"]), text.parse().ok());
+            assert!(is_large_whole(text));
+        }
+        assert!(!is_large_whole("9223372036854775807") && !is_large_whole("1e400"));
+        assert!(parse::<Table>("x = 99999999999999999999x").is_err());
     }
 
     #[test]

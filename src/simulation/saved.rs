@@ -77,6 +77,9 @@ impl Simulation {
     }
 }
 
+/// The most cycles and steps of a run: beyond, a float no longer tells one from the next.
+const MOST: f64 = 1e15;
+
 /// Refuses what cannot have come out of a step on this setup.
 fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
     let contact: &Contact = &state.contact;
@@ -99,8 +102,28 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
             return Err(Unfit::new(what, rule));
         }
     }
-    if !(state.cycle >= 0.0 && state.cycle.is_finite()) {
-        return Err(Unfit::new("cycle", "is not a number of 0 or more"));
+    if !(0.0..=MOST).contains(&state.cycle) {
+        return Err(Unfit::new(
+            "cycle",
+            format!("is not a number from 0 to {MOST:e}"),
+        ));
+    }
+    let stats = &state.stats;
+    for (what, count) in [
+        ("number of steps", state.steps),
+        ("number of contacts", stats.contacts),
+        ("number of transforms", stats.transforms),
+        ("number of sub-steps", stats.parts),
+        ("number of stepped cycles", stats.evaluated_cycles),
+        ("number of jumps", stats.jumps),
+        ("number of rejected jumps", stats.rejected_jumps),
+    ] {
+        if count as f64 > MOST {
+            return Err(Unfit::new(what, format!("is above {MOST:e}")));
+        }
+    }
+    if state.pressure.from > springs {
+        return Err(Unfit::new("pressure", "begins beyond the grid"));
     }
     for (what, values) in [
         ("wear", &state.wear[..]),

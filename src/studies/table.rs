@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
+use crate::scenario::escape::csv_line;
 use crate::scenario::scalars::{self, Value};
 
 /// How a column is written as text; files always get every digit.
@@ -123,16 +124,6 @@ impl Table {
         let is_of_it = |other: &&Column| other.0 == self.columns[at].0;
         at + self.columns[at..].iter().take_while(is_of_it).count()
     }
-}
-
-/// Returns one line of a CSV file, with its end.
-pub fn csv_line<T: AsRef<[u8]>>(fields: impl IntoIterator<Item = T>) -> String {
-    let mut writer = csv::WriterBuilder::new();
-    let mut writer = writer.comment(Some(b'#')).from_writer(Vec::new());
-    // Memory does not fail to be written.
-    let _ = writer.write_record(fields);
-    let bytes = writer.into_inner().unwrap_or_default();
-    String::from_utf8(bytes).unwrap_or_default()
 }
 
 /// Between columns.

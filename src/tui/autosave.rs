@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::shell_word;
+use crate::export::file::shell_path;
 use crate::export::header::number;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
@@ -81,7 +81,7 @@ impl ScreenAutosave {
         let copy = self.copy.get().clone();
         self.save(session.unwrap_or(&copy));
         let place = self.autosave.kept().map(|(path, cycle)| {
-            let (cycle, path) = (number(cycle), shell_word(path));
+            let (cycle, path) = (number(cycle), shell_path(path));
             format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")
         });
         match (self.autosave.failure(), place) {

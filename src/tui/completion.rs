@@ -128,7 +128,9 @@ pub fn figure(typed: &str, _: &Frame) -> Vec<Completion> {
 /// A preset by its name, or a file.
 pub fn load(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a preset's name, or a path to a .toml file";
-    preset_or(typed, "load", help, |explorer, name| explorer.load(&name))
+    preset_or(typed, "load", help, |explorer, name| {
+        explorer.load(name.as_ref())
+    })
 }
 
 /// Any file or directory; a preset by its name.

@@ -196,14 +196,13 @@ impl Explorer {
     }
 
     /// Loads a scenario, or the state in a directory.
-    pub(super) fn load(&mut self, name: &str) {
-        let path = Path::new(name);
+    pub(super) fn load(&mut self, path: &Path) {
         let loaded = match path.is_dir() {
             true => {
                 snapshot::open(path).map(|run| self.order_anew(|worker| worker.replace_run(run)))
             }
             false => {
-                let scenario = Scenario::load(name, &[]);
+                let scenario = Scenario::load(path, &[]);
                 let scenario = scenario.map_err(|error| one_line(&error.to_string()));
                 scenario.map(|scenario| self.order_anew(|run| _ = run.load(scenario)))
             }

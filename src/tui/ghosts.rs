@@ -1,5 +1,6 @@
 //! Where ghosts come from: files, states that the user freezes, and scenarios that run beside.
 
+use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -29,11 +30,11 @@ impl Source {
     ///
     /// # Errors
     /// What cannot be read, is refused as measured data, or cannot be run.
-    pub fn load(given: &str, reach: f64) -> Result<Self, SessionError> {
-        let path = Path::new(given);
+    pub fn load(given: impl AsRef<OsStr>, reach: f64) -> Result<Self, SessionError> {
+        let path = Path::new(&given);
         let ending = path.extension();
         if ending.is_none_or(|end| end.eq_ignore_ascii_case("toml")) && !path.is_dir() {
-            let scenario = Scenario::load(given, &[])?;
+            let scenario = Scenario::load(path, &[])?;
             let start = Session::start(refinement::resolve_soon(&scenario)?.scenario)?;
             return Ok(Self {
                 ghost: Arc::new(Ghost::new(&scenario.stem())),

@@ -90,8 +90,11 @@ fn checkpoint_in(directory: &Path) -> Option<PathBuf> {
 /// What `path` is if a state can be opened from there: its cycle, title and note, in a line.
 pub(super) fn about(path: &Path) -> Option<String> {
     checkpoint_in(path)?;
-    let state = Table::of_file(&Columns::read(&path.join("state.csv")).ok()?);
-    let fact = |key: &str| state.fact(key).map(printable);
+    let header = Columns::header_of(&path.join("state.csv")).ok()?;
+    let fact = |key: &str| {
+        let (_, value) = header.iter().find(|(known, _)| known == key)?;
+        Some(value)
+    };
     let (cycle, title) = (fact("cycle")?, fact("scenario")?);
     let note = fact("note").map_or_else(String::new, |note| format!(" Note: {note}."));
     let next = "Enter goes on from there";

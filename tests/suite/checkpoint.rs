@@ -201,6 +201,60 @@ fn shorten(value: &mut Value, left: &mut usize, inside: bool) -> bool {
     }
 }
 
+/// Puts extreme values in the place of every saved number in turn: each is refused in a line, or the run goes on.
+#[test]
+fn no_saved_number_is_believed() {
+    let session = ran(load("li2019-fig3", &["numerics.points=4"]), 0.31);
+    let whole = encode(&session, None::<&()>);
+    let start = whole.iter().enumerate().filter(|(_, byte)| **byte == b'\n');
+    let start = start.map(|(at, _)| at + 1).nth(2).expect("three lines");
+    let body: Value = ciborium::from_reader(&whole[start..]).expect("CBOR");
+    let (mut place, mut refused) = (0, 0);
+    loop {
+        let mut bent = body.clone();
+        let mut left = place;
+        if !bend(&mut bent, &mut left, place) {
+            break;
+        }
+        place += 1;
+        let mut contents = b"\n".to_vec();
+        ciborium::into_writer(&bent, &mut contents).expect("CBOR");
+        match decode::<()>(&sealed(&contents)[..], "x.checkpoint") {
+            Ok(kept) => {
+                let mut session = kept.session;
+                for _ in 0..2 {
+                    let _ = session.step_until(session.simulation().cycle() + 0.01);
+                }
+                seen(&session);
+            }
+            Err(error) => {
+                refused += 1;
+                assert_eq!(error.to_string().lines().count(), 1, "{error}");
+            }
+        }
+    }
+    assert!(place > 80 && refused > 20, "{refused} of {place}");
+}
+
+/// Puts an extreme value in the place of the number that comes after `left` others; false if there is none.
+fn bend(value: &mut Value, left: &mut usize, which: usize) -> bool {
+    let extreme = match value {
+        Value::Map(fields) => {
+            return fields.iter_mut().any(|(_, value)| bend(value, left, which));
+        }
+        Value::Array(list) => return list.iter_mut().any(|value| bend(value, left, which)),
+        Value::Integer(_) => Value::from([u64::MAX, 1 << 40, u64::MAX - 1][which % 3]),
+        Value::Float(_) => Value::from([f64::NAN, f64::INFINITY, -1.0, 1e300][which % 4]),
+        _ => return false,
+    };
+    let found = *left == 0;
+    *left = left.wrapping_sub(1);
+    if found {
+        *value = extreme;
+    }
+    found
+}
+
 /// What is said of a file of another kind, and of one that is not whole.
 const FOREIGN: &str = "is not a checkpoint of mdr-tui";
 const TORN: &str = "is damaged: ";
@@ -239,14 +293,14 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
     let body = whole.splitn(2, |&byte| byte == b'\n').nth(1);
     let body = body.expect("a body");
     let later = [b"mdr-tui checkpoint 9\n", body].concat();
-    let due = "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 5";
+    let due = "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 6";
     assert_eq!(refusal(&later), due);
     let rude = [b"mdr-tui checkpoint \x1b[31m1\n", body].concat();
     assert!(refusal(&rude).contains("is a checkpoint of version"));
     for bytes in [&b""[..], b"title = \"x\"\n", &[0; 4096], b"\xff\xfe"] {
         assert!(refusal(bytes).contains(FOREIGN));
     }
-    let huge = b"mdr-tui checkpoint 5\n99999999999999 bytes, CRC-32 00000000\nx";
+    let huge = b"mdr-tui checkpoint 6\n99999999999999 bytes, CRC-32 00000000\nx";
     has(&refusal(huge), "larger than 4 GiB");
 }
 

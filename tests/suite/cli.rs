@@ -173,3 +173,38 @@ fn the_version_is_that_of_the_crate() {
     let version = TestDir::new().done("--version");
     assert_eq!(version, format!("mdr-tui {}\n", env!("CARGO_PKG_VERSION")));
 }
+
+/// What bash puts on the line: names with blanks are quoted, and behind `=` comes the value alone.
+#[cfg(target_os = "linux")]
+#[test]
+fn bash_completes_names_with_blanks_and_values_behind_an_equals_sign() {
+    let dir = TestDir::new();
+    dir.write("my scenario.toml", b"");
+    dir.write("completion", dir.done("completions bash").as_bytes());
+    let script = r#"
+        mdr-tui() { "$BIN" "$@"; }
+        compopt() { :; }
+        . ./completion
+        complete_words() {
+            COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMP_WORDBREAKS=$' \t\n"\'><=;|&(:'
+            COMP_LINE=$line COMP_POINT=${#line} COMPREPLY=()
+            _mdr_tui
+            printf '[%s]' "${COMPREPLY[@]}"; echo
+        }
+        line='mdr-tui run my'; complete_words mdr-tui run my
+        line='mdr-tui run "my'; complete_words mdr-tui run '"my'
+        line='mdr-tui run my\ sc'; complete_words mdr-tui run 'my\ sc'
+        line='mdr-tui run cone --set indenter.shape=co'; complete_words mdr-tui run cone --set indenter.shape = co
+        line='mdr-tui run cone --set friction.coeff'; complete_words mdr-tui run cone --set friction.coeff
+        line='mdr-tui --theme='; complete_words mdr-tui --theme =
+    "#;
+    let said = dir.shell(script);
+    let due = r"[my\ scenario.toml]
+[my scenario.toml]
+[my\ scenario.toml]
+[cone]
+[friction.coefficient=]
+[dark][light][mono]
+";
+    assert_eq!((said.out.as_str(), said.err.as_str()), (due, ""));
+}

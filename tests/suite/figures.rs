@@ -462,3 +462,22 @@ fn pixels_have_the_size_that_was_asked_for_and_pages_their_font() {
         assert!(holds(word), "{}", String::from_utf8_lossy(word));
     }
 }
+
+/// The data of a figure go to a file of their own, whatever `--force` says.
+#[test]
+fn data_of_a_figure_replace_data_of_figures_alone() {
+    let dir = TestDir::new();
+    dir.done("run mindlin --cycles 1 --out x --quiet");
+    dir.write("loop.csv", b"u_um,F_N\n1,2\n");
+    dir.write("state.csv", dir.read("x/state.csv").as_bytes());
+    for force in ["", " --force", " --force"] {
+        let word = dir.done(&format!("figure x --panel loop -o loop.pdf{force}"));
+        assert_eq!(word, "loop.pdf and loop-drawn.csv\n");
+        dir.done(&format!(
+            "figure x --panel stresses -o state.svg --quiet{force}"
+        ));
+    }
+    assert_eq!(dir.read("loop.csv"), "u_um,F_N\n1,2\n");
+    assert_eq!(dir.read("state.csv"), dir.read("x/state.csv"));
+    has(&dir.read("state-drawn.csv"), "panel,curve,x,y,value,error");
+}

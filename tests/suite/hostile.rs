@@ -169,3 +169,180 @@ fn rude_paths_and_arguments_reach_no_terminal() {
     assert_eq!(said.code, 0, "{}", said.err);
     assert_harmless(&(said.out + &said.err), "--out");
 }
+
+/// A table without the characters of a terminal, and with the cells that it should have.
+#[track_caller]
+fn assert_cells(dir: &TestDir, name: &str, columns: usize, rows: usize) {
+    let text = dir.read(name);
+    assert_harmless(&text, name);
+    let table = dir.table(name);
+    assert_eq!(
+        (table.columns.len(), table.rows.len()),
+        (columns, rows),
+        "{text}"
+    );
+    for cell in table.rows.concat() {
+        let is_formula = cell.starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err();
+        assert!(!is_formula, "{cell}");
+    }
+}
+
+#[test]
+fn texts_of_a_study_stay_in_their_cells() {
+    let dir = TestDir::new();
+    let study = r#"base = "li2019-fig3"
+columns = ["wear_volume_m3"]
+set."run.cycles" = 0.25
+set."numerics.points" = 20
+[[axis]]
+key = "title"
+values = ["A\nb,c,1,2,3", "B\u001b]0;x\u0007\u202e", "=cmd|x!A1", "-1+cmd", "@x"]
+"#;
+    dir.write("s.toml", study.as_bytes());
+    dir.done("sweep s.toml --out m.csv --quiet");
+    assert_cells(&dir, "m.csv", 3, 5);
+    // The rows are found again by their values.
+    dir.done("sweep s.toml --out m.csv --resume --quiet");
+    assert_cells(&dir, "m.csv", 3, 5);
+    dir.done("figure m.csv -o m.svg --quiet");
+    assert_cells(&dir, "m-drawn.csv", 6, 5);
+    assert_harmless(&dir.done("sweep s.toml --out n.csv --json"), "json");
+}
+
+#[test]
+fn a_strangers_header_and_file_name_make_a_whole_picture() {
+    let dir = TestDir::new();
+    dir.done("run hertz --cycles 0 --out x --quiet");
+    let title = "A\u{ffff}B \u{202e}\u{9b}<&\u{1}";
+    let state = dir.read("x/state.csv");
+    let state = state.replacen("# scenario: ", &format!("# scenario: {title}"), 1);
+    dir.write("s.csv", state.as_bytes());
+    let name = format!("{}.csv", title.replace('/', ""));
+    dir.write(&name, b"r_um,wear_nm\n0,0\n5,1\n9,2\n");
+    for figure in [
+        vec!["figure", "s.csv", "-o", "s.svg", "-o", "s.pdf"],
+        vec![
+            "figure",
+            "x",
+            "--overlay",
+            &name,
+            "--panel",
+            "profile",
+            "-o",
+            "o.svg",
+        ],
+    ] {
+        let said = dir.say(&figure);
+        assert_eq!(said.code, 0, "{}", said.err);
+        assert_harmless(&said.out, "figure");
+    }
+    for picture in ["s.svg", "o.svg"] {
+        let picture = dir.read(picture);
+        assert_harmless(&picture, "a picture");
+        assert!(!picture.contains('\u{ffff}'), "{picture}");
+    }
+    assert_harmless(&dir.read("s-drawn.csv"), "data");
+}
+
+#[test]
+fn pipes_and_huge_files_are_refused_at_once() {
+    let dir = TestDir::new();
+    let made = std::process::Command::new("mkfifo")
+        .arg(dir.path("p.toml"))
+        .status();
+    assert!(made.expect("mkfifo").success());
+    std::os::unix::fs::symlink("p.toml", dir.path("run.checkpoint")).expect("a link");
+    dir.write(
+        "s.toml",
+        b"base = \"p.toml\"\n[[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1]\n",
+    );
+    for line in [
+        "run p.toml --cycles 1 --out x",
+        "p.toml --print 80x24",
+        "sweep p.toml --out x",
+        "sweep s.toml --out x",
+        "run --resume run.checkpoint",
+        "figure p.toml -o x.svg",
+        "fit hertz --scar p.toml --free wear.coefficient",
+    ] {
+        dir.refuse_line(line, "is not a file (but a pipe, a device or a socket)");
+    }
+    // The standard input is read where a user asks for it.
+    let preset = dir.done("presets hertz");
+    dir.write("hertz.toml", preset.as_bytes());
+    let bash = format!(
+        "'{}' run - --cycles 0 --out y --quiet < hertz.toml",
+        env!("CARGO_BIN_EXE_mdr-tui")
+    );
+    let mut command = std::process::Command::new("bash");
+    let status = command
+        .args(["-c", &bash])
+        .current_dir(dir.path(""))
+        .status();
+    assert!(status.expect("bash").success());
+    dir.done("run hertz.toml --cycles 0 --out z --quiet");
+    let [one, other] = ["y", "z"].map(|out| dir.read(&format!("{out}/state.csv")));
+    assert_eq!(one, other);
+    dir.refuse_line("run hertz --cycles 0 --out -", "is not a name for files");
+    // A checkpoint is not read into memory before it is known to be one.
+    let head = "mdr-tui checkpoint 6\n4000000000 bytes, CRC-32 00000000\n";
+    dir.write("big.checkpoint", head.as_bytes());
+    let big = std::fs::File::options()
+        .write(true)
+        .open(dir.path("big.checkpoint"));
+    big.expect("a file")
+        .set_len(300 << 20)
+        .expect("a sparse file");
+    dir.refuse_line("run --resume big.checkpoint", "is damaged");
+}
+
+#[test]
+fn many_unknown_keys_are_counted_not_compared() {
+    let keys: String = (0..60_000).map(|k| format!("kxyz{k} = 1\n")).collect();
+    let error = mdr_tui::scenario::Scenario::from_toml(&keys, "x.toml", &[]).expect_err("unknown");
+    let error = error.to_string();
+    assert_eq!(error.lines().count(), 20, "{error}");
+    assert!(error.ends_with("more errors"), "{error}");
+    let long = format!("{} = 1\n", "k".repeat(500_000));
+    assert!(mdr_tui::scenario::Scenario::from_toml(&long, "x.toml", &[]).is_err());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn names_of_any_bytes_and_dashes_are_taken() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let dir = TestDir::new();
+    let name = OsStr::from_bytes(b"caf\xe9.toml");
+    std::fs::write(dir.path("").join(name), dir.done("presets hertz")).expect("a file");
+    std::fs::write(dir.path("").join("-5C.toml"), dir.done("presets hertz")).expect("a file");
+    let say = |words: &[&OsStr]| {
+        let mut command = dir.command(&[]);
+        let output = command.args(words).output().expect("the program starts");
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stderr).into_owned(),
+        )
+    };
+    let words = |line: &'static str| line.split(' ').map(OsStr::new).collect::<Vec<_>>();
+    for (line, code) in [
+        ("run % --cycles 0 --out x --quiet", 0),
+        ("% --print 80x24", 0),
+        ("figure % -o f.svg --cycles 0 --quiet", 0),
+        ("figure x -o g.svg --overlay % --quiet", 0),
+        ("trade % --cycles nothing", 2),
+        ("fit hertz --scar % --free wear.coefficient", 2),
+        ("%", 2),
+    ] {
+        let words: Vec<&OsStr> = words(line)
+            .into_iter()
+            .map(|word| if word == "%" { name } else { word })
+            .collect();
+        let (found, err) = say(&words);
+        assert_eq!(found, Some(code), "{line}: {err}");
+        assert!(!err.contains("panicked") && !err.contains("bug"), "{err}");
+    }
+    dir.done("run ./-5C.toml --cycles 0 --quiet");
+    dir.done("figure ./-5C-run -o d.svg --quiet");
+    dir.refuse_line("run ./-5C.toml --cycles 0 --out ./-5C-run", "not empty");
+}

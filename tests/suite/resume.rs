@@ -67,6 +67,80 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
     }
 }
 
+/// Starts a run with snapshots and many rows in `out`, and interrupts it after its second snapshot.
+fn interrupted(dir: &TestDir, out: &str, more: &str) {
+    let line = format!(
+        "run li2019-fig3 --cycles 9e4 --set numerics.points=30 --snapshot-at 1,8 --history every-step \
+         --checkpoint-every 0.001 --out {out} {more}"
+    );
+    let mut child = dir.start(&line, &[]);
+    dir.wait_for(&mut child, &format!("{out}/state-8.csv"));
+    signal(&child, "TERM");
+    let said = end(child);
+    assert!(
+        dir.path(&format!("{out}/run.checkpoint")).exists(),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn a_copy_of_a_checkpoint_leaves_the_run_that_took_its_place_alone() {
+    let dir = TestDir::new();
+    interrupted(&dir, "x", "");
+    fs::copy(dir.path("x/run.checkpoint"), dir.path("copy")).expect("a copy");
+    fs::rename(dir.path("x"), dir.path("kept")).expect("a directory");
+    interrupted(&dir, "x", "--set friction.coefficient=0.3");
+    let before = dir.inventory();
+    dir.refuse_line("run --resume copy", "another run has used it since");
+    dir.refuse_line("run --resume copy --out x", "another run has used it since");
+    // Neither its rows nor its snapshots are taken for those of the copy.
+    dir.refuse_line(
+        "run --resume copy --out y",
+        "is not what this run has written",
+    );
+    // Even where the checkpoint is gone.
+    fs::remove_file(dir.path("x/run.checkpoint")).expect("a file");
+    dir.refuse_line("run --resume copy", "not empty");
+    fs::remove_file(dir.path("x/state-1.csv")).expect("a file");
+    dir.refuse_line("run --resume copy --out y", "x/state-8.csv: is not what");
+    fs::remove_file(dir.path("x/state-8.csv")).expect("a file");
+    dir.refuse_line(
+        "run --resume copy --out y",
+        "x/.mdr-tui-history: is not what",
+    );
+    assert!(dir.inventory().len() == before.len() - 3);
+    // With its own files back, the run goes on, to the same numbers.
+    fs::rename(dir.path("x"), dir.path("other")).expect("a directory");
+    fs::rename(dir.path("kept"), dir.path("x")).expect("a directory");
+    dir.done("run --resume copy --cycles 20 --out y --quiet");
+    let line = "run li2019-fig3 --cycles 20 --set numerics.points=30 --snapshot-at 1,8 --history every-step";
+    dir.done(&format!("{line} --out whole --quiet"));
+    dir.alike("whole", "y");
+}
+
+#[test]
+fn an_older_checkpoint_does_not_undo_what_its_run_has_done_since() {
+    let dir = TestDir::new();
+    interrupted(&dir, "x", "");
+    fs::copy(dir.path("x/run.checkpoint"), dir.path("older")).expect("a copy");
+    let mut child = dir.start(
+        "run --resume x/run.checkpoint --checkpoint-every 0.001",
+        &[],
+    );
+    let cycle = |name: &str| crate::pty::read(&dir.path(name)).simulation().cycle();
+    let reached = cycle("older");
+    while cycle("x/run.checkpoint") <= reached {
+        assert!(matches!(child.try_wait(), Ok(None)), "an early end");
+    }
+    kill(child);
+    let before = dir.inventory();
+    dir.refuse_line("run --resume older", "the run has come further there");
+    assert!(dir.inventory() == before);
+    dir.line("run --resume older --cycles 20 --force --quiet")
+        .ends(0, "");
+}
+
 #[test]
 fn a_resumed_run_may_go_further() {
     let dir = TestDir::new();

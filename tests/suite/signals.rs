@@ -73,6 +73,40 @@ fn a_step_that_takes_an_hour_keeps_no_signal_waiting() {
     ends(&dir, child, "TERM", "x");
 }
 
+// The faults are there in debug builds only.
+#[cfg(debug_assertions)]
+#[test]
+fn a_second_signal_does_not_cost_the_checkpoint() {
+    let dir = TestDir::new();
+    for (first, second) in [("HUP", "TERM"), ("INT", "INT")] {
+        let child = start(&dir, first, "long step");
+        thread::sleep(Duration::from_millis(300));
+        signal(&child, first);
+        thread::sleep(Duration::from_millis(100));
+        ends(&dir, child, second, first);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_sweep_stops_at_the_signals_of_queues_and_starts_no_idle_threads() {
+    let dir = TestDir::new();
+    let study = "base = \"li2019-fig3\"\n[set]\n\"run.cycles\" = 1e6\n\"numerics.points\" = 20\n\
+                 [[axis]]\nkey = \"friction.coefficient\"\nvalues = [0.1, 0.2, 0.3]\n";
+    dir.write("s.toml", study.as_bytes());
+    for sign in ["USR1", "XCPU"] {
+        let out = format!("{sign}.csv");
+        let mut child = dir.start(&format!("sweep s.toml --threads 4096 --out {out}"), &[]);
+        dir.wait_for(&mut child, &format!(".mdr-tui-{out}.lock"));
+        thread::sleep(Duration::from_millis(300));
+        let threads = std::fs::read_dir(format!("/proc/{}/task", child.id()));
+        let threads = threads.expect("a process").count();
+        assert!(threads <= 3 + 3, "{threads} threads");
+        signal(&child, sign);
+        end(child).ends(75, "interrupted: 0 of 3 points");
+    }
+}
+
 #[test]
 fn a_file_that_has_grown_to_its_limit_is_an_error_in_one_line() {
     let dir = TestDir::new();

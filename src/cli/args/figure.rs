@@ -1,5 +1,6 @@
 //! Options of `mdr-tui figure`.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -22,7 +23,7 @@ pub struct Figure {
     /// A run's directory, a CSV file of one, the table of a sweep, a preset's name, or a path to a .toml file,
     /// which is run.
     #[arg(required_unless_present = "figure")]
-    pub source: Option<String>,
+    pub source: Option<OsString>,
     /// Output file; the ending .svg, .png or .pdf gives the format. Can be repeated.
     #[arg(short, long, value_name = "FILE", required = true)]
     pub out: Vec<PathBuf>,
@@ -44,7 +45,7 @@ pub struct Figure {
         conflicts_with = "figure",
         add = ArgValueCompleter::new(complete::overlays)
     )]
-    pub overlay: Vec<String>,
+    pub overlay: Vec<OsString>,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,

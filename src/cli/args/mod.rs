@@ -1,5 +1,6 @@
 //! The command line and its help.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -22,8 +23,9 @@ mod values;
 pub use figure::{Figure, PaperFigure, on_paper};
 pub use studies::{Fit, Guard, Output, Stability, Trade, Verify};
 pub use sweep::Sweep;
+pub use values::cycles;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
-use values::{budget, cycles, interval, listed};
+use values::{budget, interval, listed};
 
 /// Watch a fretting contact wear away, live in the terminal.
 #[derive(Debug, Parser)]
@@ -97,7 +99,7 @@ pub struct Changes {
 pub struct Explore {
     /// A preset's name, a path to a .toml file, or a snapshot's directory, to continue its run.
     #[arg(default_value = "li2019-fig3", add = ArgValueCompleter::new(complete::scenarios))]
-    pub scenario: String,
+    pub scenario: OsString,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
@@ -107,7 +109,7 @@ pub struct Explore {
     /// error_... for error bars), a run's or a snapshot's directory, one of its tables, or a scenario, which runs
     /// beside.
     #[arg(long, value_name = "FILE", add = ArgValueCompleter::new(complete::overlays))]
-    pub overlay: Vec<String>,
+    pub overlay: Vec<OsString>,
     /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
     #[arg(long)]
     pub present: bool,
@@ -168,9 +170,9 @@ pub struct Screen {
 )]
 #[command(after_help = include_str!("examples/run.txt").trim_end())]
 pub struct Run {
-    /// A preset's name, or a path to a .toml file.
+    /// A preset's name, or a path to a .toml file; - is the standard input.
     #[arg(required_unless_present = "resume", add = ArgValueCompleter::new(complete::scenarios))]
-    pub scenario: Option<String>,
+    pub scenario: Option<OsString>,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
@@ -248,7 +250,8 @@ pub struct Manual {
 pub struct New {
     /// The file to write.
     #[arg(default_value = "new.toml")]
-    pub file: String,
+    #[serde(skip)]
+    pub file: PathBuf,
     /// A ball of this radius.
     #[arg(long, value_name = "RADIUS", conflicts_with = "punch")]
     pub ball: Option<String>,

@@ -1,5 +1,6 @@
 //! Options of the studies. Those for the rows of their tables are the same for all.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::builder::{RangedI64ValueParser, TypedValueParser};
@@ -55,7 +56,7 @@ pub struct Verify {
 ]))]
 pub struct Trade {
     /// A preset's name, or a path to a .toml file.
-    pub scenario: String,
+    pub scenario: OsString,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
@@ -96,7 +97,7 @@ pub struct Trade {
 ]))]
 pub struct Stability {
     /// A preset's name, or a path to a .toml file.
-    pub scenario: String,
+    pub scenario: OsString,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
@@ -134,7 +135,7 @@ pub struct Stability {
 ]))]
 pub struct Fit {
     /// A preset's name, or a path to a .toml file; its values start the search.
-    pub scenario: String,
+    pub scenario: OsString,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,

@@ -82,7 +82,8 @@ pub(super) fn budget(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "a budget is a time of 0 or more, e.g. 60s, 5min or 1h".into())
 }
 
-pub(super) fn cycles(text: &str) -> Result<f64, String> {
+/// A number of cycles.
+pub fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.0..=MOST_CYCLES).contains(&value) => Ok(value),
         Ok(value) if value > MOST_CYCLES && value.is_finite() => {

@@ -4,7 +4,6 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::Path;
 use std::{process, thread};
 
 use anyhow::{Context, Result};
@@ -16,7 +15,7 @@ use signal_hook::iterator::Signals;
 
 use super::args::{Arguments, New};
 use super::{FAILED, complain, explore, stop};
-use crate::export::file::shell_word;
+use crate::export::file::shell_path;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, printable};
 use crate::tui::modes::Modes;
@@ -32,7 +31,7 @@ const JUMP_FROM: f64 = 1000.0;
 
 /// Writes a new scenario.
 pub fn new(options: &New) -> Result<()> {
-    let path = Path::new(&options.file);
+    let path = options.file.as_path();
     // Not held while questions wait for answers.
     drop(Target::claim(path, options.force)?);
     let asks = io::stdin().is_terminal() && io::stderr().is_terminal();
@@ -41,9 +40,9 @@ pub fn new(options: &New) -> Result<()> {
         theme: asks.then(theme),
     };
     let draft = interview.attended()?;
-    let scenario = draft.scenario(&options.file)?;
+    let scenario = draft.scenario(&options.file.to_string_lossy())?;
     Target::claim(path, options.force)?.write(draft.to_toml().as_bytes())?;
-    let file = shell_word(path);
+    let file = shell_path(path);
     let mut out = io::stdout().lock();
     if let Some(forecast) = Forecast::of(&scenario) {
         writeln!(out, "{}: {}", scenario.title(), forecast.contact())?;
@@ -62,7 +61,8 @@ pub fn new(options: &New) -> Result<()> {
     }
     if opens {
         // A name that begins with a dash is not an option.
-        let explorer = Arguments::parse_from(["mdr-tui", "--", &options.file]).explore;
+        let words = ["mdr-tui".as_ref(), "--".as_ref(), options.file.as_os_str()];
+        let explorer = Arguments::parse_from(words).explore;
         explore::explore(&explorer, None)?;
     }
     Ok(())

@@ -1,19 +1,22 @@
 //! How a run begins: from a scenario, or where an interrupted one ended.
 
-use std::path::Path;
+use std::ffi::OsStr;
 
 use anyhow::Context;
 
+use super::past::Past;
 use super::*;
 use crate::export::autosave::state_directory;
-use crate::export::file::{directory_of, write_whole};
+use crate::export::file::directory_of;
 use crate::export::run_directory::RUN_CHECKPOINT;
+use crate::scenario::checkpoint::Stamp;
 use crate::studies::refinement::Budget;
 
 impl<'a> Job<'a> {
-    /// Starts the scenario called `name`.
-    pub(super) fn start(options: &'a Run, name: &str, go_on: &dyn Fn() -> bool) -> Result<Self> {
-        let mut scenario = Scenario::load(name, &options.changes.set)?;
+    /// Starts the scenario that is given as `name`.
+    pub(super) fn start(options: &'a Run, name: &OsStr, go_on: &dyn Fn() -> bool) -> Result<Self> {
+        let mut scenario = given::scenario(name, &options.changes.set)?;
+        let name = &*scenario.origin().to_owned();
         let mut job = RunJob::new(options, &scenario, name)?;
         let directory = match &options.out {
             Some(path) => RunDirectory::claim(path, options.force)?,
@@ -34,24 +37,21 @@ impl<'a> Job<'a> {
             scenario = found.scenario;
             job.statements = found.statements;
         }
+        job = job.identify(&scenario);
         let session = Session::start(scenario).with_context(|| printable(name))?;
         // Only now, when there is something to put in their place.
         if options.force {
-            directory.clear()?;
+            directory.clear(|_| false)?;
         }
         job.set_home(directory.path());
         Ok(Self::new(options, name.to_owned(), session, job, directory))
     }
 
-    /// Resumes a run in its own directory, or in another one, to which the files written so far are
-    /// copied.
+    /// Resumes a run in its own directory, or in another one, to which the files written so far are copied.
     pub(super) fn resume(options: &'a Run, file: &Path) -> Result<Self> {
         let name = printable(&file.display().to_string());
-        let real = |path: &Path| path.canonicalize().ok();
         let out = options.out.as_deref();
-        let is_out = |home: &Path| {
-            out.is_none_or(|out| real(out).is_some_and(|out| real(home) == Some(out)))
-        };
+        let is_out = |home: &Path| out.is_none_or(|out| is_same(home, out));
         let is_of_a_run = file.is_file() && file.ends_with(RUN_CHECKPOINT);
         let beside = is_of_a_run.then(|| directory_of(file));
         // Only the first process may resume it.
@@ -61,33 +61,28 @@ impl<'a> Job<'a> {
         let session = kept.session;
         let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
         let home = beside.or(job.home.as_deref()).map(Path::to_owned);
+        let past = Past::find(&job, home.as_deref())?;
+        let is_returning = claimed.is_none();
         let inside = home.as_deref();
         let inside = inside.filter(|home| is_out(home) && home.is_dir());
-        let directory = match (claimed, inside.or(out)) {
-            (Some(directory), _) => directory,
-            (None, Some(home)) if inside.is_some() && home.join(RUN_CHECKPOINT).exists() => {
-                RunDirectory::reopen(home)?
+        let directory = match (claimed, inside, out) {
+            (Some(directory), ..) => directory,
+            (None, Some(home), _) => {
+                let (run, cycle) = (job.id.clone(), session.simulation().cycle());
+                let is_own = |name: &str| past.is_own(name);
+                RunDirectory::return_to(home, &Stamp { run, cycle }, is_own, options.force)?
             }
-            (None, Some(directory)) => RunDirectory::claim(directory, options.force)?,
-            (None, None) => new_directory(session.loaded())?,
+            (None, None, Some(out)) => RunDirectory::claim(out, options.force)?,
+            (None, None, None) => new_directory(session.loaded())?,
         };
-        let from = home.as_deref().unwrap_or(Path::new("."));
-        for snapshot in job.taken() {
-            let name = file_of(snapshot);
-            let (from, to) = (from.join(&name), directory.path().join(&name));
-            if to.exists() {
-                continue;
-            }
-            match fs::read(&from) {
-                Ok(table) => write_whole(&to, &table)?,
-                Err(_) => complain(&format!("{}: no longer exists", from.display())),
-            }
+        past.refuse_foreign(options.force)?;
+        let is_at_home = home.as_deref();
+        let is_at_home = is_at_home.is_some_and(|home| is_same(home, directory.path()));
+        if is_returning && options.force {
+            directory.clear(|name| is_at_home && past.is_own(name))?;
         }
-        if let Err(error) = job.move_to(from, directory.path()) {
-            let cycle = number(session.simulation().cycle());
-            let lost = format!("the history before cycle {cycle} no longer exists");
-            complain(&format!("{name}: {lost}: {error}"));
-        }
+        job.set_home(directory.path());
+        past.bring(&mut job, &directory, is_at_home)?;
         let resumed = Self::new(options, name, session, job, directory);
         let cycle = resumed.session.simulation().cycle();
         locked(&resumed.safe).checkpoints.remember(file, cycle);
@@ -118,6 +113,12 @@ impl<'a> Job<'a> {
             owed: Vec::new(),
         }
     }
+}
+
+/// Whether two paths lead to one directory.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(|path| path.canonicalize().ok());
+    one.is_some() && one == other
 }
 
 /// A new directory named after the scenario.

@@ -5,6 +5,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -16,9 +17,9 @@ use anyhow::{Result, anyhow};
 use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::progress::Progress;
-use super::{FAILED, UNFINISHED, accuracy, complain, provenance, stop};
+use super::{FAILED, UNFINISHED, accuracy, complain, given, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::{WriteError, shell_word, write_whole_with};
+use crate::export::file::{WriteError, shell_path, write_whole_with};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, last_loop, state};
@@ -28,6 +29,7 @@ use crate::scenario::{Scenario, checkpoint, printable};
 use crate::studies::refinement;
 
 mod begin;
+mod past;
 mod summary;
 
 use summary::remarks;
@@ -94,8 +96,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if matches!(outcome, Ok(None) | Err(_)) {
         job.directory.close()?;
     }
-    // Everything is done: blocking on the reader of the summary must not need a second signal.
-    stop.store(true, Ordering::SeqCst);
+    stop::nothing_is_left_to_save();
     let directory = job.directory.path().display();
     match outcome {
         Ok(None) => {
@@ -194,7 +195,7 @@ impl Safe {
     }
 
     fn save_silently(&mut self, session: &Session, job: &RunJob) -> Option<String> {
-        let checkpoint = checkpoint::encode(session, Some(job));
+        let checkpoint = checkpoint::encode_run(session, &job.id, job);
         self.checkpoints.save(session, &checkpoint)
     }
 
@@ -203,7 +204,7 @@ impl Safe {
         let Some((path, cycle)) = self.checkpoints.kept() else {
             return "there is no checkpoint".into();
         };
-        let path = shell_word(path);
+        let path = shell_path(path);
         if cycle == now {
             return format!("resume with: mdr-tui run --resume {path}");
         }
@@ -310,7 +311,7 @@ impl Job<'_> {
             false => simulation.next_moment(),
         };
         // A copy between two steps takes a fraction of a step and does not change the run.
-        *before = self.job.has_snapshot_before(reach).then(|| session.clone());
+        *before = self.job.next_snapshot(reach).map(|_| session.clone());
         Ok(())
     }
 
@@ -347,7 +348,8 @@ impl Job<'_> {
     /// written are tried again at the end.
     fn take_snapshots(&mut self, session: &Session, end: f64) -> Result<()> {
         while let Some(snapshot) = self.job.next_snapshot(end) {
-            let (name, table) = (file_of(&snapshot), table_at(&snapshot, session)?);
+            let (name, table) = (file_of(snapshot), table_at(snapshot, session)?);
+            self.job.snapshot_is_done(&table);
             if let Err(error) = self.directory.write(&name, &table) {
                 let hint = "the run continues and tries again at its end";
                 complain(&format!("{error}; {hint}"));
@@ -371,7 +373,7 @@ impl Job<'_> {
         let files = [
             ("scenario.toml", Some(scenario)),
             ("state.csv", Some(state::table(session))),
-            (provenance::FILE, Some(provenance::text())),
+            (provenance::FILE, Some(provenance::text(&job.id))),
             ("loop.csv", last_loop),
             ("field.csv", field),
         ];

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::*;
 use crate::reading::verdict;
+use crate::scenario::escape;
 use crate::scenario::scalars::Value;
 
 /// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
@@ -29,7 +30,7 @@ impl Job<'_> {
         let directory = self.directory.path().display().to_string();
         let directory = [("directory".to_owned(), directory.into())];
         let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
-        let summary = serde_json::to_string(&summary)?;
+        let summary = escape::json(&summary, false)?;
         Ok(writeln!(io::stdout().lock(), "{summary}")?)
     }
 

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use std::{env, fs};
+use std::{env, fs, thread};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Parser;
@@ -14,9 +14,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::args::{Arguments, Sweep};
 use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
-use crate::export::file::shell_word;
+use crate::export::file::{shell_path, shell_word};
 use crate::export::target::Target;
-use crate::scenario::{Refusal, limited, printable};
+use crate::scenario::{Refusal, bounded_read, printable};
 use crate::studies::sweep::engine;
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record};
@@ -54,7 +54,7 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
         let rule = "the study has no axis (only --sensitivity works without one)";
         bail!(Refusal::new(path.display(), rule));
     } else if options.slurm {
-        let pool = pool(options)?;
+        let pool = pool(options, study.points())?;
         refuse_invalid(options, &study, Shard::WHOLE, &pool, Duration::MAX)?;
         let script = slurm::script(&path, options, study.points());
         io::stdout().write_all(script.as_bytes())?;
@@ -72,9 +72,11 @@ fn view(file: &Path, options: &Sweep) -> Result<()> {
     explore::explore(&explorer, Some(map))
 }
 
-/// The threads to run on: as many as are asked for, or one for each processor.
-fn pool(options: &Sweep) -> Result<ThreadPool> {
-    let threads = options.threads.map_or(0, usize::from);
+/// The threads to run this many `points` on: as many as are asked for, or one for each processor, but no idle ones.
+fn pool(options: &Sweep, points: usize) -> Result<ThreadPool> {
+    let processors = || thread::available_parallelism().map_or(1, usize::from);
+    let threads = options.threads.map_or_else(processors, usize::from);
+    let threads = threads.clamp(1, points.max(1));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.context("cannot start the threads")
 }
@@ -82,8 +84,8 @@ fn pool(options: &Sweep) -> Result<ThreadPool> {
 /// Reads a study, with the assignments of the command line in its `[set]`.
 fn read(path: &Path, sets: &[String]) -> Result<Study> {
     let name = printable(&path.display().to_string());
-    let text = limited::text(path, LARGEST_STUDY)
-        .map_err(|why| Refusal::new(&name, why).or("a study is a TOML file"))?;
+    let text = bounded_read::text(path, LARGEST_STUDY)
+        .map_err(|why| Refusal::unread(&name, &why).or("a study is a TOML file"))?;
     let directory = path.parent().unwrap_or(Path::new(""));
     let mut study = Study::read(&text, &name, directory)?;
     for set in sets {
@@ -135,11 +137,11 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let shard = shard(options)?;
     let out = options.out.clone();
     let out = out.unwrap_or_else(|| default_out(path, shard));
-    let pool = pool(options)?;
     let mine = shard.points(study.points()).count();
+    let pool = pool(options, mine)?;
     refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
     let mut output = Output::open(&out, study, shard, options)?;
-    let go_on = stop::patient_signal().map(stop::unless)?;
+    let go_on = stop::signal().map(stop::unless)?;
     crate::panics::capture();
     let bar = progress::bar(mine, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
@@ -178,7 +180,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let (there, failed) = (output.ledger.rows(), output.ledger.failed());
     let hint = format!(
         "{there} of {mine} points are in {}; continue with the same command and --resume",
-        shell_word(&out)
+        shell_path(&out)
     );
     outcome.with_context(|| hint.clone())?;
     kept.map_err(|error| anyhow!("{error}; {hint}"))?;
@@ -204,7 +206,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         return Ok(succeeded(!is_failure));
     }
     if !options.quiet && !options.json && !output.target.is_stdout() {
-        writeln!(io::stdout(), "{there} points in {}", shell_word(&out))?;
+        writeln!(io::stdout(), "{there} points in {}", shell_path(&out))?;
     }
     Ok(ExitCode::SUCCESS)
 }

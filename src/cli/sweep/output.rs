@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::export::file::{WriteError, write_with};
-use crate::export::{header, own};
+use crate::export::{header, safe_open};
 
 /// How often rows are flushed to disk. A killed process loses none, since the system has them
 /// already; a crash of the machine loses at most this much.
@@ -32,7 +32,7 @@ impl Output {
             let refuse = |why: String| Refusal::new(path.display(), why);
             let rule = "already exists; --resume continues it, --force starts over, --out names another file";
             ensure!(options.resume, refuse(rule.into()));
-            let file = own::read(path);
+            let file = safe_open::read(path);
             let file = file.map_err(|error| refuse(format!("cannot be read: {error}")))?;
             let record = Record::open(file, &path.display().to_string())?;
             record.expect(study, "the study now")?;

@@ -7,8 +7,8 @@ use crate::studies::sweep::sensitivity;
 /// Runs the study of sensitivities and prints, or writes, its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
-    let pool = super::pool(options)?;
-    let go_on = stop::patient_signal().map(stop::unless)?;
+    let pool = super::pool(options, usize::MAX)?;
+    let go_on = stop::signal().map(stop::unless)?;
     let found = sensitivity::run(study, &pool, &go_on)?;
     let found = found.context("interrupted before all runs had finished: nothing was saved")?;
     let table = &found.table;

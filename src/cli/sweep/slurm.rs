@@ -19,8 +19,8 @@ pub fn script(study: &Path, options: &Sweep, points: usize) -> String {
     let shards = options.shards.unwrap_or(1);
     let directory = options.out.clone();
     let directory = directory.unwrap_or_else(|| named_after(study, "shards"));
-    let (study, directory) = (shell_word(study), shell_word(&directory));
-    let set = |set: &String| format!(" --set {}", shell_word(Path::new(set)));
+    let (study, directory) = (shell_path(study), shell_path(&directory));
+    let set = |set: &String| format!(" --set {}", shell_word(set.as_ref()));
     let mut more: String = options.changes.set.iter().map(set).collect();
     if options.skip_invalid {
         more += " --skip-invalid";

@@ -182,7 +182,7 @@ impl Parts<'_> {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();
         if !faults.covers(path) {
-            faults.note(path, error.clone());
+            faults.note(path, || error.clone());
         }
         error
     }

@@ -1,7 +1,7 @@
 //! From the values that a row begins with to the points that have them.
 
 use super::{Axis, Design, Study};
-use crate::scenario::printable;
+use crate::scenario::escape::cell;
 use crate::scenario::scalars::number;
 
 /// Finds the points of a study by their values. It grows with the lengths of the axes, and not with the number of
@@ -59,7 +59,7 @@ impl Finder {
 
 /// The value at a place of an axis as a row shows it, numbers in one form.
 fn value(axis: &Axis, place: usize) -> Vec<u8> {
-    normal(&printable(&axis.text(place)))
+    normal(&cell(&axis.text(place)))
 }
 
 /// One form for all ways to write a number.

@@ -10,8 +10,8 @@ use std::path::Path;
 use super::finder::Finder;
 use super::record::{self, Refused};
 use super::{Shard, Study, Success};
+use crate::scenario::escape::csv_line;
 use crate::scenario::scalars::number;
-use crate::studies::table::csv_line;
 
 /// The bytes of an entry of the index.
 const ENTRY: usize = 16;

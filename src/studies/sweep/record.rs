@@ -19,15 +19,15 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::{Shard, Study};
-use crate::scenario::limited::Unread;
+use crate::scenario::bounded_read::{self, Unread};
+use crate::scenario::escape::{self, csv_line};
 use crate::scenario::scalars::Value;
 use crate::scenario::{Refusal, printable};
-use crate::studies::table::{Object, csv_line};
+use crate::studies::table::Object;
 
 /// The longest line and the longest header that are read, in bytes.
 const LONGEST: u64 = 1 << 26;
@@ -81,7 +81,7 @@ pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) 
         _ => field.clone().into(),
     };
     let values: Vec<Value> = fields.into_iter().map(value).collect();
-    serde_json::to_string(&Object(columns, &values)).unwrap_or_default()
+    escape::json(&Object(columns, &values), false).unwrap_or_default()
 }
 
 /// A table that is read back, row by row.
@@ -107,7 +107,7 @@ impl Record {
     /// As [`open`](Self::open), and if the file cannot be opened.
     pub fn of_file(path: &Path) -> Result<Self, Refusal> {
         let name = path.display();
-        let file = File::open(path).map_err(|error| Refusal::new(&name, Unread::Io(error)))?;
+        let file = bounded_read::open(path).map_err(|why| Refusal::unread(&name, &why))?;
         Self::open(file, &name.to_string())
     }
 
@@ -119,7 +119,7 @@ impl Record {
     pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, Refusal> {
         let name = printable(name);
         let refuse = |why: &str| Refusal::new(&name, why);
-        let unread = |error: io::Error| Refusal::new(&name, Unread::Io(error));
+        let unread = |error: io::Error| Refusal::unread(&name, &Unread::Io(error));
         let mut lines: Box<dyn BufRead> = Box::new(BufReader::new(source));
         let (mut header, mut shard) = (String::new(), Shard::WHOLE);
         let mut arithmetic = Arithmetic::new();
@@ -218,7 +218,7 @@ impl Record {
         if self.columns.len() > wanted.len() {
             return Err(refuse("has a column twice".into()));
         }
-        let unread = move |error| Refusal::new(&self.name, Unread::Io(error));
+        let unread = move |error| Refusal::unread(&self.name, &Unread::Io(error));
         Ok(std::iter::from_fn(move || {
             loop {
                 let line = match next_line(&mut *self.lines) {

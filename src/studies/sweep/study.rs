@@ -7,6 +7,7 @@ use toml::{Table, Value};
 
 use super::Design;
 use super::axis::{self, Axis, known_key};
+use crate::scenario::escape::cell;
 use crate::scenario::scalars::Scalar;
 use crate::scenario::values::{self, literal};
 use crate::scenario::{Refusal, Scenario, printable};
@@ -75,7 +76,7 @@ impl Study {
     pub fn values(&self, point: usize) -> Vec<String> {
         let places = self.places(point);
         let axes = self.axes.iter().zip(places);
-        let shown = axes.map(|(axis, place)| printable(&axis.text(place)));
+        let shown = axes.map(|(axis, place)| cell(&axis.text(place)));
         shown.collect()
     }
 

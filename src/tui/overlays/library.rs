@@ -82,7 +82,7 @@ impl Entry {
             Kind::Directory => return format!("the scenarios in {}", self.path.display()),
             Kind::Scenario => {}
         }
-        match Scenario::load(&self.path.to_string_lossy(), &[]) {
+        match Scenario::load(&self.path, &[]) {
             Ok(scenario) => {
                 let mut about = scenario.title().to_owned();
                 if !scenario.description().is_empty() {
@@ -98,11 +98,22 @@ impl Entry {
     }
 }
 
+/// What is listed of a directory, in any order.
+fn list(directory: &Path) -> std::io::Result<Vec<Entry>> {
+    let entries = std::fs::read_dir(directory)?;
+    let found = entries.map(|entry| Ok(Entry::at(entry?.path())));
+    found.filter_map(Result::transpose).take(LONGEST).collect()
+}
+
 /// The scenarios and the directories in a directory, by name.
 fn files(directory: &Path) -> Vec<Entry> {
-    let found = std::fs::read_dir(directory).into_iter().flatten().flatten();
-    let found = found.filter_map(|entry| Entry::at(entry.path()));
-    let mut found: Vec<Entry> = found.take(LONGEST).collect();
+    let mut found = list(directory).unwrap_or_else(|error| {
+        vec![Entry {
+            name: format!("cannot be listed: {error}"),
+            path: directory.to_owned(),
+            kind: Kind::Directory,
+        }]
+    });
     let is_file = |entry: &Entry| matches!(entry.kind, Kind::Scenario);
     found.sort_by_cached_key(|entry| (!is_file(entry), entry.name.clone()));
     found.push(Entry {
@@ -152,7 +163,7 @@ impl Library {
     fn take(&mut self, explorer: &mut Explorer) -> Answer {
         let entry = &self.entries[self.at];
         if !matches!(entry.kind, Kind::Directory) {
-            explorer.load(&entry.path.to_string_lossy());
+            explorer.load(&entry.path);
             return Answer::Close;
         }
         self.enter(entry.path.clone());

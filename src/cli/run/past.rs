@@ -1,0 +1,133 @@
+//! What an interrupted run has written so far. Its checksums tell, so that files which another run has put in their
+//! place are never taken for its own.
+
+use std::io::Read;
+use std::path::PathBuf;
+
+use super::*;
+use crate::cli::job::rows_sum;
+use crate::export::run_directory::RUN_ROWS;
+use crate::export::safe_open;
+use crate::scenario::Refusal;
+use crate::scenario::bounded_read::Unread;
+
+/// The files of a run that its checkpoint counts on.
+pub(super) struct Past {
+    /// Their directory.
+    home: PathBuf,
+    /// Those that are as the run has written them.
+    own: Vec<String>,
+    missing: Vec<String>,
+    /// Those that something else has written.
+    foreign: Vec<String>,
+    /// Whether the directory says that this run was the last one to write its end there.
+    is_last: bool,
+}
+
+impl Past {
+    /// Looks for the files of `job` in the directory `home`.
+    ///
+    /// # Errors
+    ///
+    /// If the system refuses to read one.
+    pub(super) fn find(job: &RunJob, home: Option<&Path>) -> Result<Self, Refusal> {
+        let home = home.unwrap_or(Path::new(".")).to_owned();
+        let mut past = Self {
+            is_last: provenance::run_of(&home).as_ref() == Some(&job.id),
+            home,
+            own: Vec::new(),
+            missing: Vec::new(),
+            foreign: Vec::new(),
+        };
+        for (snapshot, sum) in job.taken() {
+            let name = file_of(snapshot);
+            // The explorer writes none: what has this name is something else.
+            if sum.is_some() {
+                let found = sum_of(&past.home.join(&name)).map(|found| Some(found) == sum);
+                past.sort(name, found)?;
+            }
+        }
+        if job.history.has_file() {
+            let rows = past.home.join(RUN_ROWS);
+            let found = job.history.copy_rows(&rows, &mut io::sink());
+            past.sort(RUN_ROWS.into(), found.map(|()| true))?;
+        }
+        Ok(past)
+    }
+
+    fn sort(&mut self, name: String, is_own: io::Result<bool>) -> Result<(), Refusal> {
+        use io::ErrorKind::{InvalidData, NotFound, Other};
+        let list = match is_own {
+            Ok(true) => &mut self.own,
+            Err(error) if error.kind() == NotFound => &mut self.missing,
+            Ok(false) => &mut self.foreign,
+            Err(error) if [InvalidData, Other].contains(&error.kind()) => &mut self.foreign,
+            Err(error) => {
+                let path = self.home.join(name);
+                return Err(Refusal::unread(path.display(), &Unread::Io(error)));
+            }
+        };
+        list.push(name);
+        Ok(())
+    }
+
+    /// Whether the run has written the file of this name.
+    pub(super) fn is_own(&self, name: &str) -> bool {
+        self.is_last || self.own.iter().any(|own| own == name)
+    }
+
+    /// Refuses to continue without files that something else has replaced, unless `force` is set.
+    ///
+    /// # Errors
+    ///
+    /// If there is one.
+    pub(super) fn refuse_foreign(&self, force: bool) -> Result<(), Refusal> {
+        let Some(name) = self.foreign.first().filter(|_| !force) else {
+            return Ok(());
+        };
+        let path = self.home.join(name);
+        let rule = "is not what this run has written: something else has used its directory since; --force continues \
+                    without it";
+        Err(Refusal::new(path.display(), rule))
+    }
+
+    /// Brings the files into `directory`, unless they are there, and tells what is lost.
+    ///
+    /// # Errors
+    ///
+    /// If one cannot be copied.
+    pub(super) fn bring(
+        &self,
+        job: &mut RunJob,
+        directory: &RunDirectory,
+        is_there: bool,
+    ) -> Result<()> {
+        for name in self.own.iter().filter(|_| !is_there) {
+            let from = self.home.join(name);
+            let to = directory.path().join(name);
+            write_whole_with(&to, |out| match name.as_str() {
+                RUN_ROWS => job.history.copy_rows(&from, out),
+                _ => io::copy(&mut safe_open::read(&from)?, out).map(drop),
+            })?;
+        }
+        for name in self.missing.iter().chain(&self.foreign) {
+            if name == RUN_ROWS {
+                job.history.forget_file();
+            }
+            let path = self.home.join(name);
+            let what = match name.as_str() {
+                RUN_ROWS => "the history so far no longer exists",
+                _ => "no longer exists",
+            };
+            complain(&format!("{}: {what}", path.display()));
+        }
+        Ok(())
+    }
+}
+
+/// The checksum of the rows in a file.
+fn sum_of(path: &Path) -> io::Result<u32> {
+    let mut table = Vec::new();
+    safe_open::read(path)?.read_to_end(&mut table)?;
+    Ok(rows_sum(&table))
+}

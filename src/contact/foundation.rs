@@ -1,12 +1,18 @@
 //! The Winkler foundation: the row of springs that represents the half-space.
 
+use std::f64::consts::FRAC_2_PI;
+
 use serde::{Deserialize, Serialize};
 
 use crate::math::abel::dome::Dome;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
+use crate::math::abel::line;
+use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::{ProductWeights, line_weights, weighted_each, weighted_first};
+use crate::math::quadrature::{
+    ProductWeights, line_weights, weighted, weighted_each, weighted_first,
+};
 use crate::math::scan::{leading, trailing};
 
 /// What pressing a profile to a depth gives, beside the line load itself.
@@ -26,24 +32,37 @@ pub struct NormalContact {
 /// ends between two of them: the kinks of a [`Field`] say where, and its dome how a load ends at the edge of a scar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WinklerFoundation {
+    geometry: Geometry,
     grid: RadialGrid,
     weights: Vec<f64>,
     tip: Tip,
-    /// Of ∫ q s dx in each cell.
+    /// Of the work of q on the slip in each cell.
     products: ProductWeights,
     /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
     bubbles: Vec<f64>,
+    /// Of ∫ (−u′) ln(R/s) ds, R the grid's radius; none of a round contact.
+    logs: Vec<f64>,
 }
 
 impl WinklerFoundation {
-    /// Springs at the nodes of a grid.
+    /// Springs of a round contact at the nodes of a grid.
     pub fn new(grid: &RadialGrid) -> Self {
+        Self::of(Geometry::Round, grid)
+    }
+
+    /// Springs of a contact of this `geometry` at the nodes of a grid.
+    pub fn of(geometry: Geometry, grid: &RadialGrid) -> Self {
         Self {
+            geometry,
             grid: grid.clone(),
             weights: line_weights(grid.nodes()),
             tip: Tip::new(grid.nodes()),
-            products: ProductWeights::new(grid.nodes()),
+            products: ProductWeights::new(grid.nodes(), |x| geometry.measure(x)),
             bubbles: bubbles(grid.nodes()),
+            logs: match geometry {
+                Geometry::Round => Vec::new(),
+                Geometry::Line { .. } => log_weights(grid),
+            },
         }
     }
 
@@ -58,10 +77,14 @@ impl WinklerFoundation {
     }
 
     /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its kinks, that ends where the `contact` does.
+    /// Of a line contact it is the spring at the centre that tells the force, L q(0).
     ///
     /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
     /// added.
     pub fn force(&self, load: &Field, contact: NormalContact) -> f64 {
+        if let Some(length) = self.geometry.length() {
+            return length * load.nodal[0];
+        }
         let nodal = weighted_first(&self.weights, &load.nodal, contact.nodes);
         let kinked = nodal + load.between_nodes(self.grid.radius());
         2.0 * (kinked + self.cusp_integral(&load.nodal, contact))
@@ -70,6 +93,10 @@ impl WinklerFoundation {
     /// A dome with what its integral has beyond that of its polyline.
     pub fn measured(&self, dome: Dome) -> Dome {
         let Dome { edge, last, .. } = dome;
+        if self.geometry.is_line() {
+            let beyond = line::beyond_polyline(&dome, self.squares());
+            return Dome { beyond, ..dome };
+        }
         let (weights, squares) = (&self.weights[..=last], &self.squares()[..=last]);
         let nodal = weighted_each(
             weights,
@@ -84,20 +111,73 @@ impl WinklerFoundation {
 
     /// What no force (N) of a line load of up to `strongest` (N/m) exceeds: finite where an f64 holds the force.
     pub fn most_force(&self, strongest: f64) -> f64 {
+        if let Some(length) = self.geometry.length() {
+            return length * strongest;
+        }
         // Cusps are integrated by their bubbles: 0 · ∞ is none.
         2.0 * strongest * self.grid.radius() + 0.0 * self.bubbles[self.bubbles.len() - 1]
     }
 
     /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends where the `contact` does on a slip (m).
-    /// Both are linear in x² in each cell.
+    /// Both are linear in x² in each cell. Of a line contact, that on the slip beyond the rigid one, and the force on
+    /// the rigid slip: see [`Geometry`].
     pub fn work(&self, load: &[f64], slip: &[f64], contact: NormalContact) -> f64 {
+        let rigid = self.rigid_slip(slip);
         // Most springs stick or carry nothing.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
         let end = load.len() + 1 - trailing(load, |&load| load == 0.0);
         let end = end.min(load.len()).saturating_sub(1).max(first);
-        let smooth = self.products.integral(first..end, load, slip);
+        let smooth = self.products.integral(first..end, load, slip, rigid);
+        if let Some(length) = self.geometry.length() {
+            return 2.0 * smooth + length * load[0] * rigid;
+        }
         let cusp = self.cusp_integral(load, contact) * slip[0].abs();
         2.0 * (smooth + cusp)
+    }
+
+    /// Half of the work (J) per slip (m) of what the kinks of a load (N/m) add between the springs.
+    pub fn between_springs(&self, load: &Field) -> f64 {
+        let radius = self.grid.radius();
+        match self.geometry {
+            Geometry::Round => load.between_nodes(radius),
+            Geometry::Line { .. } => {
+                let dome = load.dome.map_or(0.0, |dome| dome.beyond);
+                let kinks = line::log_integral(&load.kinks, radius);
+                self.geometry.measure(1.0) * (kinks + dome)
+            }
+        }
+    }
+
+    /// How far springs of a line contact that stand at `spring` (m) move the body against a point of the half-plane
+    /// that lies at the depth `gauge` (m) far below the contact, m:
+    ///
+    /// ```text
+    /// (2/π) ∫ (−u′) arcosh(L/s) ds ≈ (2/π) [u(0) ln(2L/R) + ∫ (−u′) ln(R/s) ds]
+    /// ```
+    ///
+    /// L the gauge, R the grid's radius.
+    pub fn shift_against(&self, gauge: f64, spring: &Field) -> f64 {
+        let radius = self.grid.radius();
+        let nodal = weighted(&self.logs, &spring.nodal);
+        let kinked: f64 = spring
+            .kinks
+            .iter()
+            .map(|kink| kink.jump * log_moment(kink.at))
+            .sum();
+        FRAC_2_PI * (spring.nodal[0] * (2.0 * gauge / radius).ln() + nodal + kinked)
+    }
+
+    /// How far the spring `k` slips beyond the rigid slip, m.
+    pub fn beyond_rigid(&self, slip: &[f64], k: usize) -> f64 {
+        slip[k].abs() - self.rigid_slip(slip)
+    }
+
+    /// How far the bodies slip as a whole, m: what the half-plane of a line contact does not resist.
+    fn rigid_slip(&self, slip: &[f64]) -> f64 {
+        match self.geometry {
+            Geometry::Round => 0.0,
+            Geometry::Line { .. } => slip[0].abs(),
+        }
     }
 
     /// The slope of `values` at the tip, x → 0, if there is a cusp and the contact extends beyond it; otherwise 0.
@@ -118,6 +198,28 @@ impl WinklerFoundation {
         let last = contact.nodes - 1;
         let inner = self.nodes()[last];
         cusp * (self.bubbles[last] + bubble(inner, contact.radius))
+    }
+}
+
+/// Weights of ∫ (−u′) ln(R/s) ds for nodal values u that are linear in t = s².
+fn log_weights(grid: &RadialGrid) -> Vec<f64> {
+    let edge = grid.radius() * grid.radius();
+    let mut weights = vec![0.0; grid.len()];
+    for (k, cell) in grid.squares().windows(2).enumerate() {
+        let [a, b] = [cell[0], cell[1]];
+        let logs = 0.5 * edge.ln() + (log_moment(b) - log_moment(a)) / (b - a);
+        weights[k] += logs;
+        weights[k + 1] -= logs;
+    }
+    weights
+}
+
+/// ∫ −ln √t dt from 0 to `t`.
+fn log_moment(t: f64) -> f64 {
+    if t > 0.0 {
+        0.5 * t * (1.0 - t.ln())
+    } else {
+        0.0
     }
 }
 

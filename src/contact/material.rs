@@ -104,6 +104,16 @@ impl Material {
         })
     }
 
+    /// The same pair in a line contact: in plane strain a half-plane resists a tangential load as it does a normal one,
+    /// G* = E*.
+    #[must_use]
+    pub fn in_plane_strain(self) -> Self {
+        Self {
+            tangential_modulus: self.normal_modulus,
+            ..self
+        }
+    }
+
     /// ν of the half-space, or of the elastic body where that is rigid: what stresses inside depend on.
     pub fn poisson(&self) -> f64 {
         self.poisson

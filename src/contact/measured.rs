@@ -77,7 +77,7 @@ impl MeasuredProfile {
         let number = radii.len();
         let curve = Monotone::new(radii, heights)
             .ok_or_else(|| Invalid::new("radii", number, "must increase"))?;
-        check_disc(&curve)?;
+        check_disc(&curve, |x| curve.image(x))?;
         Ok(Self {
             curve: Arc::new(curve),
             treatment,
@@ -92,6 +92,19 @@ impl MeasuredProfile {
     /// g(x), m: Eq. (1) of the interpolant in closed form.
     pub fn profile_1d(&self, x: f64) -> f64 {
         self.curve.image(x)
+    }
+
+    /// g(x), m, of a line contact: Eq. (1L) of the interpolant in closed form.
+    pub fn line_profile_1d(&self, x: f64) -> f64 {
+        self.curve.line_image(x)
+    }
+
+    /// Checks that the contact of a cylinder with this section is one strip at every depth.
+    ///
+    /// # Errors
+    /// Its 1D image falls somewhere.
+    pub fn check_strip(&self) -> Result<(), Invalid> {
+        check_disc(&self.curve, |x| self.curve.line_image(x))
     }
 
     /// The outermost radius at which f reaches `height`, m.
@@ -245,7 +258,7 @@ fn smoothed(radii: &[f64], heights: &[f64], length: f64) -> Vec<f64> {
 
 /// Contact is a disc at every depth only where g rises: a spring that begins outside of one that does
 /// not touch yet would be a ring.
-fn check_disc(curve: &Monotone) -> Result<(), Invalid> {
+fn check_disc(curve: &Monotone, image: impl Fn(f64) -> f64) -> Result<(), Invalid> {
     let (nodes, values) = (curve.nodes(), curve.values());
     let last = nodes.len() - 1;
     let highest = values.iter().copied().fold(0.0, f64::max);
@@ -256,7 +269,7 @@ fn check_disc(curve: &Monotone) -> Result<(), Invalid> {
     let mut reached = 0.0;
     for pair in nodes.windows(2) {
         for x in [0.5 * (pair[0] + pair[1]), pair[1]] {
-            let g = curve.image(x);
+            let g = image(x);
             if g < reached - LEVEL * highest {
                 let rule = format!(
                     "the 1D profile g falls by {:.1e} m at x = {x:.3e} m, so the contact would be \

@@ -2,6 +2,7 @@
 
 pub mod abel;
 pub mod chebyshev;
+pub mod geometry;
 pub mod grid;
 pub mod invalid;
 pub mod monotone;

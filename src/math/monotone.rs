@@ -14,7 +14,8 @@
 //! On a segment f′ = A + Br + Cr², and with s = √(x² − r²)
 //!
 //! ```text
-//! ∫ f′/s dr = A asin(r/x) − B s + ½C [x² asin(r/x) − r s]
+//! ∫ f′/s dr   = A asin(r/x) − B s + ½C [x² asin(r/x) − r s]                Eq. (1)
+//! ∫ r f′/s dr = −A s + ½B [x² asin(r/x) − r s] − C [x² s − s³/3]           Eq. (1L)
 //! ```
 
 use super::root;
@@ -97,6 +98,24 @@ impl Monotone {
             from = to;
         }
         x * sum
+    }
+
+    /// ∫₀ˣ r f′(r)/√(x² − r²) dr, Eq. (1L), for a curve whose first node is 0.
+    pub fn line_image(&self, x: f64) -> f64 {
+        let moments = |r: f64| {
+            let root = ((x - r) * (x + r)).max(0.0).sqrt();
+            let square = 0.5 * (x * x * (r / x).min(1.0).asin() - r * root);
+            [-root, square, root * (root * root / 3.0 - x * x)]
+        };
+        let inside = self.nodes.partition_point(|&node| node < x);
+        let segments = (0..inside).map(|k| {
+            let end = self.nodes.get(k + 1).map_or(x, |&next| next.min(x));
+            let (from, to) = (moments(self.nodes[k]), moments(end));
+            let (constant, linear, square) = self.derivative(k);
+            let parts = [constant, linear, square].into_iter().enumerate();
+            parts.map(|(i, part)| part * (to[i] - from[i])).sum::<f64>()
+        });
+        segments.sum()
     }
 
     /// The outermost x at which the value is still `value`; beyond the last point by its slope,
@@ -205,6 +224,9 @@ mod tests {
     #[test]
     fn lines_and_parabolas_are_exact() {
         assert!(error(1.0, std::f64::consts::FRAC_PI_2, 17) < 1e-13);
+        let cubic = of(|r| 3.0 * r + 2.0 * r * r, 17);
+        let image = 3.0 * 1.3 + std::f64::consts::PI * 1.3 * 1.3;
+        assert!((cubic.line_image(1.3) - image).abs() < 1e-12);
         assert!(error(2.0, 2.0, 17) < 1e-12);
         let parabola = of(|r| 3.0 * r * r, 9);
         assert!((parabola.at(1.234) - 3.0 * 1.234 * 1.234).abs() < 1e-13);

@@ -42,7 +42,7 @@ pub fn gauss_in_pieces([from, to]: [f64; 2], y: impl Fn(f64) -> f64) -> f64 {
     (0..PIECES).map(|i| gauss(at(i), at(i + 1), &y)).sum()
 }
 
-/// Weights of ∫ y z dx in each cell, y and z linear in x² there.
+/// Weights of ∫ y z m dx in each cell, y and z linear in x² there, m(x) a measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProductWeights {
     /// Of the product of the inner values.
@@ -54,12 +54,14 @@ pub struct ProductWeights {
 }
 
 impl ProductWeights {
-    /// For values at the nodes `xs`.
-    pub fn new(xs: &[f64]) -> Self {
+    /// For values at the nodes `xs` and a smooth `measure`, which may be infinite at 0 if y or z vanishes there.
+    pub fn new(xs: &[f64], measure: impl Fn(f64) -> f64) -> Self {
         let each = |weight: fn(f64) -> f64| {
             let cells = xs.windows(2).map(|cell| {
                 let [a, b] = [cell[0], cell[1]];
-                gauss(a, b, |x| weight((x - a) * (x + a) / ((b - a) * (b + a))))
+                gauss(a, b, |x| {
+                    measure(x) * weight((x - a) * (x + a) / ((b - a) * (b + a)))
+                })
             });
             cells.collect()
         };
@@ -70,10 +72,10 @@ impl ProductWeights {
         }
     }
 
-    /// ∫ y |z| dx over some `cells` of nodal y and z, z of one sign in each.
+    /// ∫ y (|z| − `rigid`) m dx over some `cells` of nodal y and z, z of one sign in each.
     ///
     /// Eight sums, as in [`weighted`].
-    pub fn integral(&self, cells: Range<usize>, y: &[f64], z: &[f64]) -> f64 {
+    pub fn integral(&self, cells: Range<usize>, y: &[f64], z: &[f64], rigid: f64) -> f64 {
         const EIGHT: usize = 8;
         let behind = cells.start + 1..cells.end + 1;
         let weights =
@@ -85,7 +87,7 @@ impl ProductWeights {
             #[inline(always)]
             move || {
                 let cell = |[inner, mixed, outer, y0, y1, z0, z1]: [f64; 7]| {
-                    let [z0, z1] = [z0.abs(), z1.abs()];
+                    let [z0, z1] = [z0.abs() - rigid, z1.abs() - rigid];
                     inner * y0 * z0 + mixed * (y0 * z1 + y1 * z0) + outer * y1 * z1
                 };
                 let all = [inner, mixed, outer, y0, y1, z0, z1];
@@ -170,7 +172,7 @@ mod tests {
         let hertz: Vec<f64> = nodes.iter().map(|x| 1.0 - x * x).collect();
         assert!((weighted(&line_weights(&nodes), &hertz) - 2.0 / 3.0).abs() < 1e-15);
         let cells = 0..nodes.len() - 1;
-        let twice = ProductWeights::new(&nodes).integral(cells, &hertz, &hertz);
+        let twice = ProductWeights::new(&nodes, |_| 1.0).integral(cells, &hertz, &hertz, 0.0);
         assert!((twice - 8.0 / 15.0).abs() < 1e-15);
         assert!((gauss(1.0, 3.0, |x| x.powi(5)) - 364.0 / 3.0).abs() < 1e-13);
         let cap: Vec<f64> = nodes.iter().map(|r| 1.0 - r * r).collect();
@@ -184,10 +186,10 @@ mod tests {
         let nodes: Vec<f64> = (0..=40).map(|i| f64::from(i) / 40.0).collect();
         let cap: Vec<f64> = nodes.iter().map(|x| 1.0 - x * x).collect();
         let against: Vec<f64> = cap.iter().map(|y| -y).collect();
-        let weights = ProductWeights::new(&nodes);
+        let weights = ProductWeights::new(&nodes, |_| 1.0);
         let exact = |x: f64| x - 2.0 * x.powi(3) / 3.0 + x.powi(5) / 5.0;
         for cells in [0..40, 3..14, 7..23, 39..40, 5..5] {
-            let found = weights.integral(cells.clone(), &cap, &against);
+            let found = weights.integral(cells.clone(), &cap, &against, 0.0);
             let due = exact(nodes[cells.end]) - exact(nodes[cells.start]);
             assert!((found - due).abs() < 1e-15, "{cells:?}: {found} {due}");
         }

@@ -14,6 +14,11 @@ const ROOM_TO_SINK: f64 = 3.0;
 /// Room beyond the depth at which wear ends, for what cells and steps err by.
 const BEYOND_SETTLED: f64 = 1.05;
 
+/// The domain of a line contact in half-widths of the unworn one: where nothing wears, and where nobody knows how far the
+/// scar will reach. It grows with the contact.
+const UNWORN_LINE: f64 = 1.5;
+const WORN_LINE: f64 = 2.0;
+
 /// Grid and scheme where the scenario gives none: the published methods run as they were published.
 pub fn choices(method: AbelMethod) -> (Spacing, Scheme) {
     match AbelMethod::PUBLISHED.contains(&method) {
@@ -28,6 +33,9 @@ impl Unworn<'_> {
     /// run begins. `None` where no contact can carry the force.
     pub(super) fn domain_radius(&self, friction_is_constant: bool, worn: f64) -> Option<f64> {
         let start = self.deepest();
+        if self.geometry.is_line() {
+            return self.line_domain(start, friction_is_constant, worn);
+        }
         let depth = match self.drive.normal() {
             Control::Displacement(_) => start,
             Control::Force(force) => {
@@ -38,6 +46,30 @@ impl Unworn<'_> {
             }
         };
         start.is_finite().then(|| self.indenter.radius_at(depth))
+    }
+
+    /// That of a line contact with the depth `start` (m), as far as it is known before the run.
+    ///
+    /// Worn to its limit, a cylinder touches up to b = c cosh θ, sinh(2θ)/2θ = (a₀/c)², a₀ the unworn half-width and c that
+    /// of the permanent stick zone; with c falls what bounds it. Other shapes are not far from that.
+    fn line_domain(&self, start: f64, friction_is_constant: bool, worn: f64) -> Option<f64> {
+        let edge = self.radius(start);
+        let melan = self.melan().filter(|_| friction_is_constant);
+        let in_edges = match (self.drive.tangential(), melan) {
+            (None, _) => UNWORN_LINE,
+            (_, Some((_, stick))) if stick > 0.0 => {
+                let ratio = (edge / stick).powi(2);
+                let grows = |theta: f64| (2.0 * theta).sinh() / (2.0 * theta) / ratio - 1.0;
+                let theta = root::bracketed(grows, 1e-6, 4.0, 1e-9).unwrap_or(0.0);
+                let settled = theta.cosh() * stick / edge;
+                (BEYOND_SETTLED * settled).clamp(BEYOND_SETTLED, WORN_LINE)
+            }
+            _ => WORN_LINE,
+        };
+        let radius = (in_edges * edge).max(self.indenter.radius_at(worn));
+        let room = self.indenter.end().filter(|&end| end > edge);
+        let radius = radius.min(room.unwrap_or(f64::INFINITY));
+        (radius > 0.0 && radius.is_finite()).then_some(radius)
     }
 
     /// The depth, m, at which a held normal force and a tangential amplitude U have worn all that slips: within
@@ -78,6 +110,10 @@ impl Unworn<'_> {
         let velocity = match self.drive.tangential() {
             None => 0.0,
             Some(Control::Displacement(shift)) => shift.greatest_speed(),
+            Some(Control::Force(_)) if self.geometry.is_line() => {
+                let motion = self.drive.shift_of_springs();
+                motion.map_or(0.0, |motion| motion.greatest_speed())
+            }
             Some(Control::Force(force)) => {
                 let stiffness = 2.0 * self.material.tangential_modulus() * self.radius(depth);
                 force.greatest_speed() / stiffness
@@ -94,6 +130,7 @@ mod tests {
     use super::*;
     use crate::contact::indenter::Indenter;
     use crate::contact::material::Material;
+    use crate::math::geometry::Geometry;
     use crate::simulation::drive::{Drive, Oscillation};
 
     fn hertz() -> (Indenter, Material, f64) {
@@ -109,6 +146,7 @@ mod tests {
         let held = Oscillation::new(force, 0.0, 1.0, 0.0).expect("a force");
         let drive = Drive::new(Control::Force(held), Some(Control::Displacement(swing)));
         let contact = Unworn {
+            geometry: Geometry::Round,
             indenter: &indenter,
             material: &material,
             drive: &drive,
@@ -137,6 +175,7 @@ mod tests {
         let references = |drive: &Drive| {
             let (indenter, material) = (&indenter, &material);
             let contact = Unworn {
+                geometry: Geometry::Round,
                 indenter,
                 material,
                 drive,

@@ -271,10 +271,10 @@ mod tests {
         assert_eq!(cycles, Range::Within(0.0, MOST_CYCLES));
         let snapshots = find("run.snapshot_at").expect("a key").most;
         assert_eq!(snapshots, Some(MOST_SNAPSHOTS));
-        // Both directions of the motion have the same keys, but for the rig.
+        // Both directions of the motion have the same keys, but for the rig and the gauge.
         let of = |section: &'static str| {
             let keys = parameters().filter(move |known| known.section() == section);
-            keys.filter(|known| known.key() != "rig_stiffness")
+            keys.filter(|known| !["rig_stiffness", "gauge_length"].contains(&known.key()))
         };
         for (normal, tangential) in of("motion.normal").zip(of("motion.tangential")) {
             assert_eq!(normal.key(), tangential.key());

@@ -58,6 +58,7 @@ pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
         && before.material == after.material
         && before.indenter == after.indenter
         && before.drive == after.drive
+        && before.geometry == after.geometry
 }
 
 /// The same setup, its grid graded towards where wear is steep, where it asks for that and the pilot run succeeds;
@@ -166,6 +167,7 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
     let unworn = Unworn::of(setup);
     let edge = unworn.radius(unworn.deepest());
     let inside = |hair: f64| border - hair.max(INSIDE_MOVED * moved);
+    let is_line = setup.geometry.is_line();
     let grid = if let Some(within) = thin_ring(&rough, border, edge) {
         let hair = INSIDE_CELL * (edge - border) / RING_CELLS as f64;
         RadialGrid::ringed(cells, [inside(hair), edge], within, radius)
@@ -175,7 +177,9 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
         let hair = f64::max(INSIDE_DOMAIN * radius, INSIDE_CELL * cell);
         RadialGrid::graded(cells, inside(hair), radius)
     };
-    Some(setup.on(grid.ok()?))
+    let grid = grid.ok()?;
+    // The basis with a root at the border has no kernel of a line yet.
+    Some(setup.on(if is_line { grid.without_border() } else { grid }))
 }
 
 /// Runs `setup` over `periods` of the motion, with at most `steps` steps a cycle.

@@ -24,9 +24,9 @@ const HARDLY_BENT: f64 = 1e-6;
 /// A solved contact: all that the springs are and carry at one moment.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contact {
-    /// Depth d = u_z, m.
+    /// Depth d = u_z, m; of a line contact that of its springs, P/(E*L).
     pub depth: f64,
-    /// Tangential displacement of the indenter u_x⁽⁰⁾, m.
+    /// Tangential displacement of the indenter u_x⁽⁰⁾, m; of a line contact against a point at the gauge length.
     pub shift: f64,
     /// The edge of the contact and its largest load.
     pub normal: NormalContact,
@@ -63,6 +63,13 @@ impl Contact {
         }
         let springs = model.foundation.force(&self.spring, self.normal);
         model.setup.material.tangential_modulus() * springs
+    }
+
+    /// How far the springs of a line contact move the indenter against a point at the gauge length, m: what of
+    /// the displacement is no rigid slip.
+    pub(super) fn elastic_shift(&self, model: &Model) -> f64 {
+        let gauge = model.setup.drive.gauge_length().unwrap_or_default();
+        model.foundation.shift_against(gauge, &self.spring)
     }
 
     /// u_x(r), m, of the surface by Eq. (2).
@@ -110,6 +117,12 @@ impl<'a> Problem<'a> {
         let Self { before, .. } = self;
         self.press(targets.normal, after)?;
         after.shift = before.shift;
+        if self.model.setup.geometry.is_line() {
+            return match targets.tangential {
+                None => Ok(()),
+                Some(target) => self.shift_line(target, after, slip),
+            };
+        }
         let is_stiff = self.model.setup.drive.rig_compliance() == 0.0;
         let (increment, shift) = match targets.tangential {
             None => return Ok(()),
@@ -148,8 +161,9 @@ impl<'a> Problem<'a> {
         if setup.indenter.rim().is_none() && normal.nodes > last && at_end > 1e-9 * modulus * depth
         {
             let radius = setup.grid.radius();
-            // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches.
-            return Err(if model.unworn[last] >= depth * (1.0 - 1e-9) {
+            // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches. A line has no such end.
+            let has_end = !setup.geometry.is_line();
+            return Err(if has_end && model.unworn[last] >= depth * (1.0 - 1e-9) {
                 Cause::BlownUp {
                     radius,
                     advice: advice(setup),
@@ -178,6 +192,9 @@ impl<'a> Problem<'a> {
             Target::Force(force) => force,
         };
         let modulus = setup.material.normal_modulus();
+        if let Some(length) = setup.geometry.length() {
+            return Ok(force / (modulus * length));
+        }
         let deepest = match setup.indenter.rim() {
             // A punch carries any load; its springs yield at most what the load needs.
             Some(rim) => largest(g) + 2.0 * (force / (2.0 * modulus * rim)).abs(),
@@ -226,6 +243,61 @@ impl<'a> Problem<'a> {
             tangential::take_along_late(input, increment, depths, &profile.g, springs);
         }
         after.stick_radius = Some(tangential::borders(input, spring, states));
+    }
+
+    /// Moves the springs of a line contact: by the force on them, which the spring at the centre tells, or by the
+    /// displacement that the actuator has against a point at the gauge length, U = CF_x + elastic shift + rigid slip.
+    ///
+    /// It rises with the increment of the springs. Where that is beyond what any spring bears, it is the increment alone,
+    /// the rigid slip, that rises.
+    fn shift_line(
+        self,
+        target: Target,
+        after: &mut Contact,
+        slip: &mut [f64],
+    ) -> Result<(), Cause> {
+        let Self { model, before, .. } = self;
+        let setup = &model.setup;
+        let rigid = before.shift - before.elastic_shift(model);
+        let place = |after: &Contact, slip: &[f64]| rigid + slip[0] + after.elastic_shift(model);
+        let target = match target {
+            Target::Force(force) => {
+                let limit = setup.material.friction() * after.normal_force(model);
+                if force.abs() >= limit && force != 0.0 {
+                    return Err(Cause::FrictionExceeded { force, limit });
+                }
+                let per_spring =
+                    setup.material.tangential_modulus() * setup.geometry.length().unwrap_or(1.0);
+                let increment = force / per_spring - before.spring.nodal[0];
+                self.shift_by(increment, after, slip);
+                after.shift = place(after, slip);
+                return Ok(());
+            }
+            Target::Displacement(target) => target,
+        };
+        let compliance = setup.drive.rig_compliance();
+        let span = 2.0 * after.normal.strongest * setup.material.reach();
+        let mut beyond = |increment: f64| {
+            self.shift_by(increment, after, slip);
+            place(after, slip) + compliance * after.tangential_force(model) - target
+        };
+        let (least, most) = (beyond(-span), beyond(span));
+        let increment = if most <= 0.0 {
+            span - most
+        } else if least >= 0.0 {
+            -span - least
+        } else {
+            let scale = span.max(target.abs());
+            root::bracketed(|at| beyond(at) / scale, -span, span, 1e-15 * scale).ok_or(
+                Cause::NotFinite {
+                    quantity: "tangential displacement",
+                    advice: advice(setup),
+                },
+            )?
+        };
+        self.shift_by(increment, after, slip);
+        after.shift = place(after, slip);
+        Ok(())
     }
 
     /// The increment of displacement (m) that a rig leaves to the contact where its actuator stands at

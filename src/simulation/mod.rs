@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use mdr_tui::contact::{indenter::Indenter, material::Material};
-//! use mdr_tui::math::{abel::AbelMethod, grid::RadialGrid};
+//! use mdr_tui::math::{abel::AbelMethod, geometry::Geometry, grid::RadialGrid};
 //! use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 //! use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 //! use mdr_tui::wear::WearLaw;
@@ -20,6 +20,7 @@
 //!     grid: RadialGrid::uniform(100, 1.5e-4)?,
 //!     material: Material::new(2.3e11, 0.3, 0.1)?,
 //!     indenter: Indenter::paraboloid(1e-2)?,
+//!     geometry: Geometry::Round,
 //!     drive: Drive::new(
 //!         Control::Displacement(Oscillation::new(1e-6, 0.0, 100.0, 0.0)?),
 //!         Some(Control::Displacement(Oscillation::new(0.0, 5e-8, 100.0, 0.0)?)),
@@ -365,7 +366,7 @@ impl Simulation {
         pressure
     }
 
-    /// Worn volume 2π∫(f − f₀) r dr, m³.
+    /// Worn volume, m³: 2π∫(f − f₀) r dr, or 2L∫(f − f₀) dr of a line.
     pub fn wear_volume(&self) -> f64 {
         scar_volume(&self.model, &self.state.wear) - self.state.ledger.regridded_volume
     }

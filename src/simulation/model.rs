@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
-use crate::math::abel::worn;
 use crate::math::abel::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
@@ -26,7 +25,7 @@ pub(crate) struct Operators {
     pub grid: RadialGrid,
     /// 1/h, h the width of the cell around each node, 1/m.
     pub per_width: Vec<f64>,
-    /// Weights of 2π∫ y r dr, m².
+    /// Weights of the volume 2π∫ y r dr, or 2L∫ y dr of a line, m².
     pub volume_weights: Vec<f64>,
     /// f₀ and its 1D image g₀, m.
     pub unworn: Arc<[f64]>,
@@ -35,22 +34,22 @@ pub(crate) struct Operators {
 
 impl Operators {
     fn new(setup: &Setup) -> Self {
-        let plan = AbelPlan::new(setup.method, &setup.grid);
+        let plan = AbelPlan::of(setup.geometry, setup.method, &setup.grid);
         let nodes = setup.grid.nodes();
         let unworn: Arc<[f64]> = nodes.iter().map(|&r| setup.indenter.profile(r)).collect();
         let mut unworn_1d = vec![0.0; nodes.len()];
         match setup.method {
             AbelMethod::Product => {
                 for (g, &x) in unworn_1d.iter_mut().zip(nodes) {
-                    *g = setup.indenter.profile_1d(x);
+                    *g = setup.indenter.image(setup.geometry, x);
                 }
             }
             _ => plan.profile(&unworn, &mut unworn_1d),
         }
         Self {
-            foundation: WinklerFoundation::new(&setup.grid),
+            foundation: WinklerFoundation::of(setup.geometry, &setup.grid),
             per_width: setup.grid.widths().map(f64::recip).collect(),
-            volume_weights: worn::volume_weights(&setup.grid),
+            volume_weights: setup.geometry.volume_weights(&setup.grid),
             grid: setup.grid.clone(),
             plan,
             unworn,
@@ -74,6 +73,7 @@ impl Model {
             before.setup.grid == setup.grid
                 && before.setup.method == setup.method
                 && before.setup.indenter == setup.indenter
+                && before.setup.geometry == setup.geometry
         };
         let operators = match before.filter(fits) {
             Some(before) => Arc::clone(&before.operators),
@@ -120,7 +120,7 @@ impl Model {
         parts.map(|(unworn, image)| unworn + image)
     }
 
-    /// 2π∫ r dr of a nodal depth (m), m³.
+    /// The volume, m³, of a nodal depth (m).
     pub fn volume(&self, depth: &[f64]) -> f64 {
         weighted(&self.volume_weights, depth)
     }

@@ -68,7 +68,7 @@ impl Simulation {
             return Ok(false);
         };
         let mut setup = before.on(grid);
-        if before.grid.border().is_some() {
+        if before.grid.border().is_some() || before.geometry.is_line() {
             setup = border::graded(&setup, Some(self));
         }
         let (mut wider, _) = self.moved_to(Model::new(setup, None));

@@ -1,12 +1,13 @@
 //! The parts that a run is assembled from.
 
 use super::choices::{Integrator, Scheme, Spacing, Stability};
-use super::drive::{Drive, Oscillation};
+use super::drive::{Drive, SpringMotion};
 use super::running_in::RunningIn;
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
 use crate::math::abel::AbelMethod;
+use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
 use crate::wear::WearLaw;
 
@@ -15,6 +16,8 @@ use crate::wear::WearLaw;
 pub struct Setup {
     /// Nodes of the 3D and of the 1D contact.
     pub grid: RadialGrid,
+    /// Round, or a line; the drive and the material are [of the same](Drive::on).
+    pub geometry: Geometry,
     /// Moduli and friction.
     pub material: Material,
     /// The unworn shape.
@@ -69,9 +72,11 @@ impl Setup {
         grid.nodes().iter().map(depth).collect()
     }
 
-    /// The largest depth of the motion, m, where the displacement is prescribed.
+    /// The largest depth of the springs, m, where their motion is prescribed.
     pub fn largest_depth(&self) -> Option<f64> {
-        self.drive.normal().displacement().map(Oscillation::highest)
+        self.drive
+            .depth_of_springs()
+            .map(|depth| SpringMotion::highest(&depth))
     }
 
     /// Steps in a cycle, but for those that end where the motion turns: a normal motion that is faster than the

@@ -11,21 +11,31 @@
 //! E_d    = 8G* ∫ y (U − y) dx over the springs with y = λ(d − g) < U, of a settled cycle
 //! ```
 //!
+//! Of a line of the length L, with dx/(πx) in the place of dx and U = Q/(E*L),
+//!
+//! ```text
+//! F_z(d) = L E* d
+//! u_x    = μ [s(d) − s(d_c)],   s(d) = (2/π) [d ln(2ℓ/a) + ∫₀ᵃ g dx/x]   against a point at the gauge length ℓ
+//! ```
+//!
 //! C. Cattaneo (1938), R. D. Mindlin and H. Deresiewicz (1953), for any shape M. Ciavarella (1998); by springs
 //! V. L. Popov and M. Heß (2015), ch. 5.
 
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_2_PI;
 
 use super::Setup;
-use super::drive::{Control, Drive};
+use super::drive::{Control, Drive, Oscillation};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
+use crate::math::geometry::Geometry;
 use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
 
 /// What makes a contact, before anything is worn.
 #[derive(Clone, Copy)]
 pub struct Unworn<'a> {
+    /// Round, or a line.
+    pub geometry: Geometry,
     /// The unworn shape.
     pub indenter: &'a Indenter,
     /// What both bodies are made of.
@@ -51,6 +61,7 @@ impl<'a> Unworn<'a> {
     /// The unworn contact of a setup.
     pub fn of(setup: &'a Setup) -> Self {
         Self {
+            geometry: setup.geometry,
             indenter: &setup.indenter,
             material: &setup.material,
             drive: &setup.drive,
@@ -65,24 +76,35 @@ impl<'a> Unworn<'a> {
         }
         // f₀ < g₀: what touches at all reaches no further.
         let end = indenter.radius_at(depth);
-        root::first([0.0, end], |x| indenter.profile_1d(x) >= depth)
+        root::first([0.0, end], |x| self.image(x) >= depth)
+    }
+
+    /// g₀(x), m.
+    fn image(&self, x: f64) -> f64 {
+        self.indenter.image(self.geometry, x)
     }
 
     /// F_z, N, at a `depth` (m).
     pub fn force(&self, depth: f64) -> f64 {
-        let gap = |x: f64| (depth - self.indenter.profile_1d(x)).max(0.0);
+        if let Some(length) = self.geometry.length() {
+            return self.material.normal_modulus() * length * depth.max(0.0);
+        }
+        let gap = |x: f64| (depth - self.image(x)).max(0.0);
         2.0 * self.material.normal_modulus() * gauss_in_pieces([0.0, self.radius(depth)], gap)
     }
 
-    /// F_z/(π a²), Pa, at a `depth` (m).
+    /// F_z over the area of the contact, Pa, at a `depth` (m).
     pub fn mean_pressure(&self, depth: f64) -> f64 {
-        let area = PI * self.radius(depth).powi(2);
+        let area = self.geometry.area(self.radius(depth));
         self.force(depth) / area.max(f64::MIN_POSITIVE)
     }
 
     /// The depth, m, that carries a `force` (N); infinite where none does.
     pub fn depth(&self, force: f64) -> f64 {
         let modulus = self.material.normal_modulus();
+        if let Some(length) = self.geometry.length() {
+            return force.max(0.0) / (modulus * length);
+        }
         if let Some(radius) = self.indenter.rim() {
             return force / (2.0 * modulus * radius);
         }
@@ -92,7 +114,7 @@ impl<'a> Unworn<'a> {
         // F(a) = 2n/(n+1) E* κₙ f₀(a) a exceeds E* f₀(a) a for every n ≥ 1, and a flat tip adds to it.
         let carries = |&a: &f64| modulus * self.indenter.profile(a) * a >= force;
         let mut radii = std::iter::successors(Some(1e-15), |a| (*a < 1e15).then_some(2.0 * a));
-        let deepest = radii.find(carries).map(|a| self.indenter.profile_1d(a));
+        let deepest = radii.find(carries).map(|a| self.image(a));
         let missing = |depth: f64| self.force(depth) / force - 1.0;
         let depth = deepest.and_then(|end| root::bracketed(missing, 0.0, end, 1e-15 * end));
         depth.unwrap_or(f64::INFINITY)
@@ -106,7 +128,39 @@ impl<'a> Unworn<'a> {
         }
     }
 
-    /// By Melan's theorem, where both displacements are prescribed: g at the border of the permanent stick zone, m, and
+    /// How far a line contact that sticks at a `depth` (m) and slides in full moves over μ against a point at the gauge
+    /// length, m; 0 of a round one.
+    fn shift_over_friction(&self, depth: f64) -> f64 {
+        let gauge = self.drive.gauge_length().unwrap_or_default();
+        let edge = self.radius(depth);
+        if edge <= 0.0 || !self.geometry.is_line() {
+            return 0.0;
+        }
+        let own = gauss_in_pieces([0.0, edge], |x| self.image(x) / x);
+        FRAC_2_PI * (depth * (2.0 * gauge / edge).ln() + own)
+    }
+
+    /// The displacement of the actuator, m, under which a held load slips from where the unworn contact of the `border`
+    /// depth (m) ends: the largest without gross slip at 0.
+    pub(crate) fn line_shift(&self, depth: f64, border: f64) -> f64 {
+        let own = self.shift_over_friction(depth) - self.shift_over_friction(border);
+        let in_rig = self.drive.rig_compliance() * (self.force(depth) - self.force(border));
+        self.material.friction() * (own + in_rig)
+    }
+
+    /// The depth, m, at the stick border of a line contact at a `depth` (m) whose actuator swings; below 0 in gross slip,
+    /// by what it slides as a whole over μ.
+    fn line_border(&self, depth: f64, swing: &Oscillation) -> f64 {
+        let (friction, amplitude) = (self.material.friction(), swing.amplitude());
+        let beyond = |border: f64| self.line_shift(depth, border) / amplitude - 1.0;
+        let sliding = amplitude - self.line_shift(depth, 0.0);
+        if sliding >= 0.0 {
+            return -sliding / friction;
+        }
+        root::bracketed(beyond, 0.0, depth, 1e-13 * depth).unwrap_or(depth)
+    }
+
+    /// By Melan's theorem, where the motion of the springs is prescribed: g at the border of the permanent stick zone, m, and
     /// the radius c at which the unworn indenter has it, m. `None` without such a zone.
     pub(crate) fn melan(&self) -> Option<(f64, f64)> {
         let ratio = self.material.stick_ratio();
@@ -144,6 +198,9 @@ impl<'a> Unworn<'a> {
         let yields = friction * self.material.normal_modulus() / modulus;
         let swing = self.drive.tangential()?;
         let border = match swing {
+            Control::Displacement(shift) if self.geometry.is_line() => {
+                self.line_border(depth, shift)
+            }
             Control::Displacement(shift) => self.border_on_rig(depth, shift.amplitude())?,
             Control::Force(force) => {
                 let left = self.force(depth) - force.amplitude() / friction;
@@ -159,28 +216,36 @@ impl<'a> Unworn<'a> {
         } else {
             0.0
         };
-        let reach = yields * (depth - border);
-        let slipping = |x: f64| {
-            let limit = yields * (depth - self.indenter.profile_1d(x)).max(0.0);
-            limit * (reach - limit).max(0.0)
+        // A line slides by the rest, with all of its force.
+        let (reach, sliding) = match self.geometry {
+            Geometry::Round => (yields * (depth - border), 0.0),
+            Geometry::Line { .. } => (yields * (depth - border.max(0.0)), -border.min(0.0)),
         };
+        let slipping = |x: f64| {
+            let limit = yields * (depth - self.image(x)).max(0.0);
+            limit * (reach - limit).max(0.0) * self.geometry.measure(x)
+        };
+        let of_sliding = 4.0 * friction * self.force(depth) * friction * sliding;
         Some(Ring {
             contact_radius,
             stick_radius,
             force: friction * (self.force(depth) - self.force(border.max(0.0))),
-            energy: 8.0 * modulus * gauss_in_pieces([stick_radius, contact_radius], slipping),
+            energy: 8.0 * modulus * gauss_in_pieces([stick_radius, contact_radius], slipping)
+                + of_sliding,
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
-    use crate::simulation::drive::Oscillation;
 
     fn with<T>(indenter: &Indenter, of: impl Fn(Unworn) -> T) -> T {
         let still = Oscillation::new(1.0, 0.0, 1.0, 0.0).expect("a motion");
         of(Unworn {
+            geometry: Geometry::Round,
             indenter,
             material: &Material::new(2.3077e11, 0.3, 0.1).expect("a material"),
             drive: &Drive::new(Control::Force(still), None),

@@ -177,22 +177,26 @@ impl Increment {
             let led_to = led_to(model.grid.squares(), load, outside - 1, &after.normal);
             load[outside - 1] = load[outside - 1].min(led_to);
         }
+        let row = &model.foundation;
         let at_edge = match after.normal.nodes {
             0 => 0.0,
-            nodes => slip[nodes - 1].abs(),
+            nodes => row.beyond_rigid(slip, nodes - 1),
         };
-        let between = |contact: &Contact| contact.load.between_nodes(model.grid.radius());
         let between_springs = match self.within.is_ragged {
             true => 0.0,
-            false => between(before) + between(after),
+            false => row.between_springs(&before.load) + row.between_springs(&after.load),
         };
         let nodal = &self.rubbing.nodal;
-        let in_cells = model.foundation.work(nodal, slip, after.normal);
+        let in_cells = row.work(nodal, slip, after.normal);
         self.friction_work = friction * between_springs * at_edge + in_cells;
     }
 
     /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.
     pub fn rub_explicitly(&mut self, model: &Model, contact: &Contact) {
+        if model.setup.geometry.is_line() {
+            // Its work is no integral of the product.
+            return self.rub(model, [contact, contact]);
+        }
         let modulus = model.setup.material.tangential_modulus();
         // Springs that stick do no work, those out of contact bear nothing.
         let end = contact.normal.nodes;

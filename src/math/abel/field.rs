@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dome::Dome;
 use super::kink::{self, Kink};
-use super::{AbelMethod, AbelPlan};
+use super::{AbelMethod, AbelPlan, line};
 use crate::math::grid::RadialGrid;
 
 /// Values at the nodes of a grid, and the kinks between them.
@@ -38,14 +38,22 @@ impl Field {
     pub fn displacement(&self, plan: &AbelPlan, grid: &RadialGrid, w: &mut [f64]) {
         let (dome, mut rest) = (self.dome_for(plan), Vec::new());
         plan.displacement(self.without(dome, grid, &mut rest), w);
+        let is_line = plan.geometry().is_line();
+        let add_kinks = |kinks: &[Kink], w: &mut [f64]| match is_line {
+            true => line::add_to_displacement(kinks, grid.squares(), w),
+            false => kink::add_to_displacement(kinks, grid, w),
+        };
         if has_kinks(plan) {
-            kink::add_to_displacement(&self.kinks, grid, w);
+            add_kinks(&self.kinks, w);
         }
         if let Some(dome) = dome {
             let hat = dome.scaled(-1.0).hat(grid.squares());
-            kink::add_to_displacement(&hat, grid, w);
+            add_kinks(&hat, w);
             for (w, &t) in w.iter_mut().zip(grid.squares()) {
-                *w += dome.displacement(t);
+                *w += match is_line {
+                    true => line::of_dome(&dome, t),
+                    false => dome.displacement(t),
+                };
             }
         }
     }

@@ -13,6 +13,8 @@
 //!
 //! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
 //!
+//! A contact of the plane has two other kernels: see [`line`].
+//!
 //! [`kink`] adds what a kink between two nodes does, [`dome`] what a load does that ends like a root, and [`worn`] transforms the worn part of a profile that has a
 //! permanent stick zone. A [`field`] is nodal values with their kinks and their dome, and has all its images.
 //!
@@ -53,6 +55,7 @@ use std::fmt::Debug;
 use nalgebra::DMatrix;
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
+use super::geometry::Geometry;
 use super::grid::{MAX_CELLS, RadialGrid};
 use super::skyline::Skyline;
 use fast::{Inwards, Outwards, Worn};
@@ -65,6 +68,7 @@ pub mod fast;
 pub mod field;
 mod kernel;
 pub mod kink;
+pub mod line;
 pub mod product;
 #[cfg(test)]
 mod testing;
@@ -162,6 +166,7 @@ const CROSSOVER: usize = 200;
 #[derive(Debug)]
 pub struct AbelPlan {
     method: AbelMethod,
+    geometry: Geometry,
     profile: Box<dyn Transform>,
     displacement: Box<dyn Transform>,
     stress: Box<dyn Transform>,
@@ -170,6 +175,22 @@ pub struct AbelPlan {
 }
 
 impl AbelPlan {
+    /// The plan of a contact of this `geometry`; that of a [`line`] is of the product method, in the dense form.
+    pub fn of(geometry: Geometry, method: AbelMethod, grid: &RadialGrid) -> Self {
+        if !geometry.is_line() {
+            return Self::new(method, grid);
+        }
+        let nodes = grid.nodes();
+        Self {
+            method: AbelMethod::Product,
+            geometry,
+            profile: Box::new(Skyline::pack(&line::profile(nodes))),
+            displacement: Box::new(Skyline::pack(&line::displacement(nodes))),
+            stress: Box::new(Skyline::pack(&product::stress(nodes))),
+            worn: None,
+        }
+    }
+
     /// Computes the weights of `method` on `grid`, in the quicker form: the [`fast`] one to the first tolerance that is
     /// within reach.
     pub fn new(method: AbelMethod, grid: &RadialGrid) -> Self {
@@ -189,6 +210,7 @@ impl AbelPlan {
         let (roots, arcs) = (roots?, arcs?);
         Some(Self {
             method: AbelMethod::Product,
+            geometry: Geometry::Round,
             profile: Box::new(Outwards::new(grid, grid.cells(), &roots)),
             displacement: Box::new(Outwards::new(grid, grid.cells(), &arcs)),
             stress: Box::new(Inwards::new(grid, &roots)),
@@ -215,11 +237,17 @@ impl AbelPlan {
         let has_form = method == AbelMethod::Product && grid.border().is_some();
         Self {
             method,
+            geometry: Geometry::Round,
             profile: pack(&profile(nodes)),
             displacement: pack(&displacement(nodes)),
             stress: pack(&stress(nodes)),
             worn: has_form.then(|| pack(&worn::profile(grid))),
         }
+    }
+
+    /// Of what contact it is.
+    pub fn geometry(&self) -> Geometry {
+        self.geometry
     }
 
     /// The method that this plan computes.

@@ -19,13 +19,15 @@ use super::values::{self, join};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
-use crate::math::abel::AbelMethod;
+use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
+use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing, Unworn};
 use crate::wear::{Powers, WearLaw};
 
 mod bodies;
+mod line;
 mod motion;
 mod running_in;
 mod scar;
@@ -83,9 +85,10 @@ impl Parts<'_> {
     fn setup(&self) -> Result<Setup, Refusal> {
         check::conflicts(self.written, self.origin)?;
         let indenter = self.indenter()?;
-        let drive = self.drive()?;
-        let material = self.material()?;
+        let geometry = self.geometry(&indenter)?;
+        let (drive, material) = self.in_plane(geometry, &indenter)?;
         let contact = Unworn {
+            geometry,
             indenter: &indenter,
             material: &material,
             drive: &drive,
@@ -100,12 +103,14 @@ impl Parts<'_> {
         let method = self.choice("numerics.method")?;
         let (spacing, scheme) = derive::choices(method);
         let grid = self.grid(method, &indenter, domain)?;
+        self.check_gauge(&drive, grid.radius())?;
         if let Some(scar) = &scar {
             self.check_scar(scar, &indenter, grid.radius())?;
         }
         Ok(Setup {
             scar,
             grid,
+            geometry,
             hardness: self.hardness(),
             material,
             indenter,
@@ -265,11 +270,12 @@ impl Parts<'_> {
         domain: Option<f64>,
     ) -> Result<RadialGrid, Refusal> {
         let points: usize = self.require("numerics.points")?;
-        let most = method.most_cells();
+        let (most, what) = match self.is_line() {
+            true => (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned()),
+            false => (method.most_cells(), format!("method = \"{method}\"")),
+        };
         if points > most {
-            let rule = format!(
-                "must be at most {most} with method = \"{method}\", which has no fast algorithm"
-            );
+            let rule = format!("must be at most {most} with {what}, which has no fast algorithm");
             return Err(self.refuse("numerics.points", rule));
         }
         if indenter.rim().is_some() && self.has("numerics.domain_radius") {

@@ -3,15 +3,16 @@
 //! Time is counted in *cycles*: periods of the tangential motion, or of the normal motion if there
 //! is no tangential one.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_2_PI, TAU};
 
 use crate::contact::material::Material;
+use crate::math::geometry::Geometry;
 use crate::math::invalid::{Invalid, positive};
 
 mod oscillation;
 mod turning;
 
-pub use oscillation::Oscillation;
+pub use oscillation::{Oscillation, SpringMotion};
 
 /// The most cycles, and where they are more than `FEW_CYCLES` the most turns of the normal motion, of a common
 /// period of both directions.
@@ -80,6 +81,17 @@ pub struct Drive {
     tangential: Option<Control>,
     /// Of the rig between actuator and contact, m/N; 0 for a stiff one.
     compliance: f64,
+    /// Of a line contact.
+    plane: Option<Plane>,
+}
+
+/// What forces and displacements are to a line contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Plane {
+    /// 1/(E*L): how far a force moves the springs, m/N.
+    compliance: f64,
+    /// How deep the point lies that displacements are told against, m.
+    gauge: f64,
 }
 
 impl Drive {
@@ -89,7 +101,48 @@ impl Drive {
             normal,
             tangential,
             compliance: 0.0,
+            plane: None,
         }
+    }
+
+    /// The same on a contact of this `geometry` and `material`. In the plane the displacement of one body is told against
+    /// a point of the other, `gauge` (m) deep: against infinity there is none.
+    #[must_use]
+    pub fn on(self, geometry: Geometry, material: &Material, gauge: f64) -> Self {
+        let plane = geometry.length().map(|length| Plane {
+            compliance: (material.normal_modulus() * length).recip(),
+            gauge,
+        });
+        Self { plane, ..self }
+    }
+
+    /// How deep the point lies that the displacements of a line contact are told against, m.
+    pub fn gauge_length(&self) -> Option<f64> {
+        self.plane.map(|plane| plane.gauge)
+    }
+
+    /// The motion of the springs in the normal direction, where it is prescribed.
+    pub fn depth_of_springs(&self) -> Option<SpringMotion<'_>> {
+        self.of_springs(&self.normal)
+    }
+
+    /// The motion of the springs in the tangential direction, where it is prescribed.
+    pub fn shift_of_springs(&self) -> Option<SpringMotion<'_>> {
+        self.of_springs(self.tangential.as_ref()?)
+    }
+
+    fn of_springs<'a>(&self, control: &'a Control) -> Option<SpringMotion<'a>> {
+        let (of, yields) = match (control, self.plane) {
+            (Control::Displacement(of), None) => (of, 1.0),
+            (Control::Force(of), Some(plane)) => (of, plane.compliance),
+            _ => return None,
+        };
+        Some(SpringMotion { of, yields })
+    }
+
+    /// Whether a rig lies between what is prescribed and the contact.
+    pub fn has_rig(&self) -> bool {
+        self.compliance > 0.0 && !matches!(self.tangential, Some(Control::Force(_)))
     }
 
     /// The same with a rig of the tangential `stiffness` (N/m) in series with the contact: a prescribed
@@ -161,7 +214,7 @@ impl Drive {
     }
 
     /// What an amplitude of each direction is in displacement, m per m or m per N: a force moves a contact of the
-    /// radius a by 1/(2E*a) and 1/(2G*a), and a rig of the compliance C leaves it 1/(1 + 2G*aC) of its actuator's
+    /// radius a by 1/(2E*a) and 1/(2G*a), the springs of a line by 1/(E*L) both, and a rig of the compliance C leaves it 1/(1 + 2G*aC) of its actuator's
     /// motion, as long as nothing slips; where the motion turns, nothing does.
     pub fn yields(&self, material: &Material, contact_radius: f64) -> [f64; 2] {
         let stiffness = |modulus: f64| 2.0 * modulus * contact_radius;
@@ -170,10 +223,20 @@ impl Drive {
             _ => (1.0 + stiffness(modulus) * compliance).recip(),
         };
         let (tangential, modulus) = (self.tangential.as_ref(), material.tangential_modulus());
-        let yields = [
-            yields(Some(&self.normal), material.normal_modulus(), 0.0),
-            yields(tangential, modulus, self.compliance),
-        ];
+        let yields = match self.plane {
+            None => [
+                yields(Some(&self.normal), material.normal_modulus(), 0.0),
+                yields(tangential, modulus, self.compliance),
+            ],
+            Some(plane) => {
+                let own = FRAC_2_PI * plane.compliance * (2.0 * plane.gauge / contact_radius).ln();
+                let of_tangential = match tangential {
+                    Some(Control::Displacement(_)) => plane.compliance / (own + self.compliance),
+                    _ => plane.compliance,
+                };
+                [plane.compliance, of_tangential]
+            }
+        };
         if yields.iter().all(|yields| yields.is_finite()) {
             return yields;
         }
@@ -185,7 +248,7 @@ impl Drive {
     /// power of the slip rate wears more in a step whose rate changes. 1 where the tangential motion is not
     /// prescribed as a displacement, or turns in between.
     pub fn unevenness(&self, exponent: f64, from: f64, until: f64) -> f64 {
-        let Some(Control::Displacement(shift)) = &self.tangential else {
+        let Some(shift) = self.shift_of_springs() else {
             return 1.0;
         };
         let rate = |i: u32| {

@@ -120,6 +120,63 @@ impl Oscillation {
     }
 }
 
+/// What the springs are moved by: an oscillation, in m per its unit.
+///
+/// A displacement moves the springs of a round contact as it is. Under a line contact it is a force that does, by the
+/// same distance whatever has worn: F/(E*L).
+#[derive(Debug, Clone, Copy)]
+pub struct SpringMotion<'a> {
+    pub(super) of: &'a Oscillation,
+    pub(super) yields: f64,
+}
+
+impl SpringMotion<'_> {
+    /// How it swings.
+    pub fn waveform(&self) -> &Waveform {
+        &self.of.waveform
+    }
+
+    /// Half the way of the springs, m.
+    pub fn amplitude(&self) -> f64 {
+        self.yields * self.of.amplitude
+    }
+
+    /// The value around which they swing, m.
+    pub fn mean(&self) -> f64 {
+        self.yields * self.of.mean
+    }
+
+    /// The highest value, m.
+    pub fn highest(&self) -> f64 {
+        self.yields * self.of.highest()
+    }
+
+    /// The lowest value, m.
+    pub fn lowest(&self) -> f64 {
+        self.yields * self.of.lowest()
+    }
+
+    /// The value after `turns`, m.
+    pub fn after_turns(&self, turns: f64) -> f64 {
+        self.yields * self.of.after_turns(turns)
+    }
+
+    /// The greatest speed, m/s.
+    pub fn greatest_speed(&self) -> f64 {
+        self.yields * self.of.greatest_speed()
+    }
+
+    /// The rate of the waveform after `turns`, of which a sine has 1 at most.
+    pub(super) fn rate(&self, turns: f64) -> f64 {
+        self.of.rate(turns)
+    }
+
+    /// Whether it moves upwards at the beginning, or did so before it came to rest there.
+    pub fn rises_at_start(&self) -> bool {
+        self.of.rises_at_start()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

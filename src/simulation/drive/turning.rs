@@ -111,17 +111,17 @@ impl Drive {
             .then(|| first_crossing(above, ratio, from, until))?
     }
 
-    /// g at the border of the permanent stick zone, m, where both displacements are prescribed: a
+    /// g at the border of the permanent stick zone, m, where the motion of the springs is prescribed: a
     /// spring that shakes down never slips again. ½{min(d + κu_x) + min(d − κu_x)}; 0 or less means
     /// that everything slips in every cycle.
     ///
     /// E. Melan's theorem for springs with friction: J. R. Barber, A. Klarbring, M. Ciavarella (2008),
     /// Int. J. Solids Struct. 45, 4577–4596.
     pub fn shakedown_depth(&self, stick_ratio: f64) -> Option<f64> {
-        let normal = self.normal.displacement()?;
-        let tangential = self.tangential.as_ref()?.displacement()?;
+        let normal = self.depth_of_springs()?;
+        let tangential = self.shift_of_springs()?;
         // What a rig leaves to the contact depends on its force, which wear changes.
-        if self.compliance > 0.0 {
+        if self.has_rig() {
             return None;
         }
         if !stick_ratio.is_finite() {

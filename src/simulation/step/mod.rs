@@ -26,6 +26,7 @@ use super::setup::Setup;
 use super::state::State;
 use super::traction::Pressure;
 use super::wear::Increment;
+use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::math::vector::{vectorized, write_each};
 
@@ -167,7 +168,15 @@ fn deepest(wear: &[f64]) -> Option<f64> {
 /// that can touch.
 fn refuse(model: &Model, depth: f64, wear: &[f64], radii: &[f64]) -> Result<(), Cause> {
     let setup = &model.setup;
-    let depth = setup.depth_scale(depth.max(least_depth(setup)));
+    let depth = match setup.geometry {
+        Geometry::Round => setup.depth_scale(depth.max(least_depth(setup))),
+        // A strip that slides as a whole wears on whatever its springs carry, until the flanks of the indenter
+        // touch; where there are none, as far as it is a half-plane.
+        Geometry::Line { .. } => match setup.indenter.rim() {
+            None => model.unworn[model.nodes() - 1].max(depth),
+            Some(rim) => rim,
+        },
+    };
     let deepest = deepest(wear);
     let worn = deepest.map_or(f64::INFINITY, |deepest| deepest / depth);
     if deepest.is_none() || worn == f64::INFINITY && depth > 0.0 {

@@ -18,7 +18,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::contact::{self, Contact};
-use super::super::drive::{Oscillation, Targets};
+use super::super::drive::{SpringMotion, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::setup::Setup;
@@ -134,12 +134,12 @@ fn period(
 }
 
 /// The tangential motion, where a cycle needs no steps.
-fn plain_swing(setup: &Setup) -> Option<&Oscillation> {
-    let swing = setup.drive.tangential()?.displacement()?;
+fn plain_swing(setup: &Setup) -> Option<SpringMotion<'_>> {
+    let swing = setup.drive.shift_of_springs()?;
     let is_plain = setup.drive.normal().oscillation().amplitude() == 0.0
         && setup.wear.is_some_and(|law| law.follows_energy())
         && setup.scheme == Scheme::Trapezoid
-        && setup.drive.rig_compliance() == 0.0
+        && !setup.drive.has_rig()
         && swing.waveform().has_two_strokes();
     is_plain.then_some(swing)
 }
@@ -150,14 +150,14 @@ fn plain_cycle(
     memory: &mut State,
     spare: &mut State,
     scratch: &mut Scratch,
-    swing: &Oscillation,
+    swing: SpringMotion<'_>,
 ) -> Result<SteadyCycle, Cause> {
     memory.stats.evaluated_cycles += 1;
     let start = model.setup.drive.targets(0.0);
     // First the normal contact, whatever the springs do; then the springs from the last turn to where the cycle ends.
     solve(model, memory, spare, scratch, start)?;
     std::mem::swap(&mut memory.contact, &mut spare.contact);
-    turn_back(&model.setup, &mut memory.contact, swing);
+    turn_back(model, &mut memory.contact, swing);
     solve(model, memory, spare, scratch, start)?;
     take_over(memory, spare, 0.0);
 
@@ -203,7 +203,11 @@ fn plain_cycle(
 /// Brings indenter and springs back to where a steady-state cycle turned last before its end: the springs that slip in
 /// it stood at their limits there, the others move with the indenter. Solved from there, the end of the cycle knows
 /// what slips in it; solved from itself, nothing would move and all would stick.
-fn turn_back(setup: &Setup, contact: &mut Contact, swing: &Oscillation) {
+fn turn_back(model: &Model, contact: &mut Contact, swing: SpringMotion<'_>) {
+    let setup = &model.setup;
+    let is_line = setup.geometry.is_line();
+    // The indenter of a line contact stands where its springs and the rigid slip have it.
+    let rigid = is_line.then(|| contact.shift - contact.elastic_shift(model));
     let (reach, amplitude) = (setup.material.reach(), swing.amplitude());
     let rises = if swing.rises_at_start() { 1.0 } else { -1.0 };
     let since = amplitude + rises * (swing.after_turns(0.0) - swing.mean());
@@ -224,5 +228,8 @@ fn turn_back(setup: &Setup, contact: &mut Contact, swing: &Oscillation) {
             true => SpringState::Stick,
             false => SpringState::Open,
         };
+    }
+    if let Some(rigid) = rigid {
+        contact.shift = rigid + contact.elastic_shift(model);
     }
 }

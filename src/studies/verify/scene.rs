@@ -3,6 +3,7 @@
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::math::abel::AbelMethod;
+use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Integrator, Scheme, Setup, Spacing, Stability};
@@ -19,6 +20,7 @@ const STEPS: u32 = 40;
 /// `indenter` pressed to `depth` on the nodes of `grid`, by the paper's scheme; nothing moves sideways or wears.
 pub fn pressed(method: AbelMethod, grid: RadialGrid, indenter: Indenter, depth: f64) -> Setup {
     Setup {
+        geometry: Geometry::Round,
         grid,
         material: Material::new(1.0, POISSON, FRICTION).expect("a material"),
         indenter,

@@ -12,6 +12,7 @@ use std::time::Duration;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
+use mdr_tui::math::geometry::Geometry;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
 use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
@@ -143,6 +144,7 @@ impl From<Scene> for Setup {
             material: Material::new(scene.modulus, scene.poisson, scene.friction)
                 .expect("a material"),
             indenter: scene.indenter,
+            geometry: Geometry::Round,
             drive: Drive::new(scene.normal, scene.tangential),
             wear: scene.law,
             method: scene.method,

@@ -1,0 +1,214 @@
+//! The transforms of a line contact in plane strain: Eqs. (1) and (2) with another kernel, Eq. (3) as it is.
+//!
+//! # Formula
+//!
+//! A flat strip punch of half-width s and unit load has p = 1/(π√(s² − x²)) and, by Flamant, presses the surface outside
+//! of it to the slope −(2/πE*)/√(x² − s²). A pressure is made of such punches, P(s) the load when the half-width was
+//! s. With g = P/E* and the slip e of the springs,
+//!
+//! ```text
+//! g(x) = ∫₀ˣ r f′(r)/√(x² − r²) dr                                          (1L)
+//! w(x) = e(0) + (2/π) x ∫₀ˣ [e(y) − e(0)]/(y √(x² − y²)) dy                 (2L)
+//! p(x) = −(1/π) ∫ₓ^∞ q′(s)/√(s² − x²) ds                                    (3)
+//! ```
+//!
+//! The first two are Eqs. (1) and (2) with the factor r/x more in the integrand. A constant f has no image: how far the
+//! bodies approach each other makes no difference to a half-plane. A constant e, the rigid slip, maps to itself. Both are
+//! ours.
+//!
+//! The data are linear in t = r² in each cell, as in [`product`](super::product): f = f_k + σ_k (t − t_k),
+//!
+//! ```text
+//! g_j = Σ_{k<j} 2σ_k H                                     H = ∫ r² dr/√(x² − r²)
+//! w_j = e_0 + (2/π) Σ_{k<j} { (e_k − e_0 − σ_k t_k) K + σ_k x_j S }
+//!                                                          K = ∫ x dy/(y√(x² − y²)) = Δ(−acosh(x/y)),  S = ∫ y dy/√(x² − y²)
+//! w of a kink J (t − t_m)₊ of e: (2/π) J [x √(x² − t_m) − t_m acosh(x/x_m)]
+//! ```
+//!
+//! - **Order, cost, contact edge**: those of [`product`](super::product), in the dense form only: up to
+//!   [`MOST_DENSE_CELLS`](super::MOST_DENSE_CELLS).
+//! - **At x = 0**: g = 0, w = e(0).
+//! - **Known failure**: a wedge is curved in r² at the tip, as a cone is.
+
+use std::f64::consts::FRAC_2_PI;
+
+use nalgebra::DMatrix;
+
+use super::kernel::{asin_step, leg, root_step, square_step};
+use super::kink::Kink;
+
+/// Eq. (1L): weights of the 1D profile.
+pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
+    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
+    for (j, &x) in nodes.iter().enumerate() {
+        for k in 0..j {
+            let (a, b) = (nodes[k], nodes[k + 1]);
+            let arc = asin_step(a, b, x);
+            let square = square_step(a, b, x, arc) + a * a * arc;
+            let weight = 2.0 * square / ((b - a) * (b + a));
+            weights[(j, k)] -= weight;
+            weights[(j, k + 1)] += weight;
+        }
+    }
+    weights
+}
+
+/// Eq. (2L): weights of the surface slip, or of the surface displacement up to a constant.
+pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
+    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
+    for (j, &x) in nodes.iter().enumerate() {
+        let mut centre = 1.0;
+        for k in 0..j {
+            let (a, b) = (nodes[k], nodes[k + 1]);
+            let arc = acosh_step(a, b, x);
+            let right = (x * root_step(a, b, x) - a * a * arc) / ((b - a) * (b + a));
+            weights[(j, k)] += FRAC_2_PI * (arc - right);
+            weights[(j, k + 1)] += FRAC_2_PI * right;
+            centre -= FRAC_2_PI * arc;
+        }
+        weights[(j, 0)] += centre;
+    }
+    weights
+}
+
+/// ∫ₐᵇ x dy/(y √(x² − y²)) = acosh(x/a) − acosh(x/b), for 0 < a ≤ b ≤ x; in the cell at the centre 0, since what is
+/// integrated there vanishes like y².
+fn acosh_step(a: f64, b: f64, x: f64) -> f64 {
+    if a == 0.0 {
+        return 0.0;
+    }
+    let sine = x * (b - a) * (b + a) / (a * b * (leg(a, x) + leg(b, x)));
+    sine.asinh()
+}
+
+/// Eq. (2L): adds what kinks of e do to the surface slip `w` on nodes with the given `squares`.
+pub fn add_to_displacement(kinks: &[Kink], squares: &[f64], w: &mut [f64]) {
+    for kink in kinks {
+        let first = squares.partition_point(|&t| t <= kink.at);
+        for (value, &t) in w[first..].iter_mut().zip(&squares[first..]) {
+            let root = (t - kink.at).sqrt();
+            let arc = match kink.at > 0.0 {
+                true => (root / kink.at.sqrt()).asinh(),
+                false => 0.0,
+            };
+            *value += FRAC_2_PI * kink.jump * (t.sqrt() * root - kink.at * arc);
+        }
+    }
+}
+
+/// ∫ dx/x of the kinks from x = 0 to `radius`.
+pub fn log_integral(kinks: &[Kink], radius: f64) -> f64 {
+    let integral = |kink: &Kink| {
+        let end = (radius * radius).max(kink.at);
+        let log = match kink.at > 0.0 {
+            true => 0.5 * kink.at * (end / kink.at).ln(),
+            false => 0.0,
+        };
+        kink.jump * (0.5 * (end - kink.at) - log)
+    };
+    kinks.iter().map(integral).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_4, PI};
+
+    use super::super::kink::polyline;
+    use super::super::testing::apply;
+    use super::*;
+    use crate::math::grid::RadialGrid;
+
+    fn grids() -> [RadialGrid; 3] {
+        [
+            RadialGrid::uniform(100, 1.5),
+            RadialGrid::graded(100, 0.767, 1.5),
+            RadialGrid::graded(37, 0.31, 1.3),
+        ]
+        .map(|grid| grid.expect("a grid"))
+    }
+
+    fn worst(found: &[f64], exact: impl Iterator<Item = f64>) -> f64 {
+        let errors = found.iter().zip(exact).map(|(f, e)| (f - e).abs());
+        errors.fold(0.0, f64::max)
+    }
+
+    /// f = r²/2 has g = πx²/4, e = 0.3 + y² has w = 0.3 + (2/π)x².
+    #[test]
+    fn a_cylinder_is_exact() {
+        for grid in grids() {
+            let t = grid.squares();
+            let f: Vec<f64> = t.iter().map(|t| 7.0 + 0.5 * t).collect();
+            let g = apply(&profile(grid.nodes()), &f);
+            let e: Vec<f64> = t.iter().map(|t| 0.3 + t).collect();
+            let w = apply(&displacement(grid.nodes()), &e);
+            let in_g = worst(&g, t.iter().map(|t| FRAC_PI_4 * t));
+            let in_w = worst(&w, t.iter().map(|t| 0.3 + FRAC_2_PI * t));
+            assert!(in_g < 1e-13 && in_w < 1e-13, "{in_g:e} {in_w:e}");
+        }
+    }
+
+    /// g = ½ n B((n+1)/2, ½) xⁿ of rⁿ: 3π/4 of r⁴, 15π/16 of r⁶; (2L) takes y⁴ to (4/3π)x⁴.
+    #[test]
+    fn powers_converge_with_second_order() {
+        let error = |cells: usize| {
+            let grid = RadialGrid::uniform(cells, 1.0).expect("a grid");
+            let power = |n: i32| grid.nodes().iter().map(move |x| x.powi(n));
+            let image = |n| apply(&profile(grid.nodes()), &power(n).collect::<Vec<_>>());
+            let slip = apply(&displacement(grid.nodes()), &power(4).collect::<Vec<_>>());
+            let exact = |n, factor: f64| power(n).map(move |p| factor * p);
+            worst(&image(4), exact(4, 0.75 * PI))
+                .max(worst(&image(6), exact(6, 0.9375 * PI)))
+                .max(worst(&slip, exact(4, 4.0 / (3.0 * PI))))
+        };
+        let (coarse, fine) = (error(50), error(200));
+        assert!(
+            fine < 1e-4 && (coarse / fine).log(4.0) > 1.8,
+            "{coarse} {fine}"
+        );
+    }
+
+    /// Cattaneo's slip outside of c, and its hat in one coarse cell.
+    #[test]
+    fn a_stick_border_between_nodes_is_exact() {
+        for grid in grids() {
+            let (t, c) = (grid.squares(), 0.5371_f64);
+            let e: Vec<f64> = t.iter().map(|t| (t - c * c).max(0.0)).collect();
+            let k = grid.nodes().partition_point(|&x| x < c);
+            let mut kinks = Vec::new();
+            polyline([t[k - 1], t[k]], [0.0, e[k]], &[(c * c, 0.0)], &mut kinks);
+            let mut w = apply(&displacement(grid.nodes()), &e);
+            add_to_displacement(&kinks, t, &mut w);
+            let exact = grid.nodes().iter().map(|&x| {
+                let x = x.max(c);
+                FRAC_2_PI * (x * leg(c, x) - c * c * (x / c).acosh())
+            });
+            let error = worst(&w, exact);
+            assert!(error < 1e-13, "{error:e}");
+            assert!(w[..k].iter().all(|&slip| slip == 0.0));
+            let end = grid.radius();
+            let whole = 0.5 * leg(c, end).powi(2) - c * c * (end / c).ln();
+            let chords: f64 = (k - 1..grid.cells())
+                .map(|k| {
+                    let (a, b) = (t[k], t[k + 1]);
+                    let slope = (e[k + 1] - e[k]) / (b - a);
+                    0.5 * (e[k + 1] - e[k] + (e[k] - slope * a) * (b / a).ln())
+                })
+                .sum();
+            let missing = whole - chords;
+            let hat = log_integral(&kinks, end);
+            assert!((hat - missing).abs() < 1e-13, "{hat:e} {missing:e}");
+        }
+    }
+
+    #[test]
+    fn it_is_causal_and_a_constant_has_no_image() {
+        for grid in grids() {
+            let (g, w) = (profile(grid.nodes()), displacement(grid.nodes()));
+            assert_eq!(g, g.lower_triangle());
+            assert_eq!(w, w.lower_triangle());
+            let ones = vec![0.7; grid.len()];
+            assert!(worst(&apply(&g, &ones), ones.iter().map(|_| 0.0)) < 1e-13);
+            assert!(worst(&apply(&w, &ones), ones.iter().copied()) < 1e-13);
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! What a contact is from above: a disc under a shape of revolution, or a strip under a long cylinder.
+//!
+//! Both have the same springs and the same Eq. (3). What differs is here and in [`line`](super::abel::line): two
+//! kernels, and how loads, works and depths add up.
+//!
+//! # Formula
+//!
+//! | | round | line of the length L, plane strain |
+//! |---|---|---|
+//! | force of the springs | 2∫ q dx | L q(0) |
+//! | work of the springs on the slip e | 2∫ q e dx | L [(2/π) ∫ q (e − e(0)) dx/x + q(0) e(0)] |
+//! | volume of a depth δ | 2π∫ δ r dr | 2L ∫ δ dx |
+//! | contact area | πa² | 2aL |
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use super::abel::worn;
+use super::grid::RadialGrid;
+use super::quadrature::{line_weights, volume_of_revolution, weighted};
+
+/// The plan of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Geometry {
+    /// A disc: everything is a shape of revolution, r the distance from the axis.
+    #[default]
+    Round,
+    /// A strip in plane strain: r is the distance from the centre line.
+    Line {
+        /// L, m.
+        length: f64,
+    },
+}
+
+impl Geometry {
+    /// The length of a line contact, m.
+    pub fn length(self) -> Option<f64> {
+        match self {
+            Self::Round => None,
+            Self::Line { length } => Some(length),
+        }
+    }
+
+    /// Whether it is a line contact.
+    pub fn is_line(self) -> bool {
+        self.length().is_some()
+    }
+
+    /// By what the work of a spring at `x` (m) counts, beside dx.
+    pub fn measure(self, x: f64) -> f64 {
+        match self {
+            Self::Round => 1.0,
+            Self::Line { length } => length * FRAC_1_PI / x,
+        }
+    }
+
+    /// The weights of the volume (m³) of a worn depth (m) at the nodes, m².
+    pub fn volume_weights(self, grid: &RadialGrid) -> Vec<f64> {
+        match self {
+            Self::Round => worn::volume_weights(grid),
+            Self::Line { length } => {
+                let weights = line_weights(grid.nodes()).into_iter();
+                weights.map(|weight| 2.0 * length * weight).collect()
+            }
+        }
+    }
+
+    /// ∫ y dA over the contact of nodal values `ys` at `rs` (m) that are linear in r².
+    pub fn area_integral(self, rs: &[f64], ys: &[f64]) -> f64 {
+        match self {
+            Self::Round => volume_of_revolution(rs, ys),
+            Self::Line { length } => 2.0 * length * weighted(&line_weights(rs), ys),
+        }
+    }
+
+    /// The area of a contact of the radius or half-width `radius` (m), m².
+    pub fn area(self, radius: f64) -> f64 {
+        match self {
+            Self::Round => PI * radius * radius,
+            Self::Line { length } => 2.0 * length * radius,
+        }
+    }
+
+    /// What a, c and r are called.
+    pub fn radius_name(self) -> &'static str {
+        match self {
+            Self::Round => "radius",
+            Self::Line { .. } => "half-width",
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! From the keys of a scenario to a line contact: its length, what it is driven by, and what it does not know.
+
+use super::*;
+use crate::simulation::drive::{Control, Drive};
+
+/// The length of a line contact, m, where none is given: then every force and volume is per metre.
+const PER_METRE: f64 = 1.0;
+
+/// The depth of the point that displacements are told against where none is given, in unworn half-widths.
+const USUAL_GAUGE: f64 = 10.0;
+
+impl Parts<'_> {
+    /// Whether the contact is a line.
+    pub(super) fn is_line(&self) -> bool {
+        self.get::<String>("indenter.geometry").as_deref() == Some("line")
+    }
+
+    /// Round, or a line of some length.
+    ///
+    /// # Errors
+    ///
+    /// A key of the other geometry, a method that has no kernel of a line, or a measured section whose contact would be
+    /// more than one strip.
+    pub(super) fn geometry(&self, indenter: &Indenter) -> Result<Geometry, Refusal> {
+        if !self.is_line() {
+            let of_lines = ["indenter.length", "motion.tangential.gauge_length"];
+            return match of_lines.iter().find(|key| self.has(key)) {
+                Some(key) => {
+                    Err(self.refuse(key, "is a key of [indenter] geometry = \"line\" only"))
+                }
+                None => Ok(Geometry::Round),
+            };
+        }
+        let method: AbelMethod = self.choice("numerics.method")?;
+        if method != AbelMethod::Product {
+            let rule = "is of round contacts; geometry = \"line\" needs method = \"product\"";
+            return Err(self.refuse("numerics.method", rule));
+        }
+        if let Indenter::Table(measured) = indenter {
+            let refused = |invalid| self.refused("indenter")(invalid);
+            measured.check_strip().map_err(refused)?;
+        }
+        let length = self.get("indenter.length").unwrap_or(PER_METRE);
+        Ok(Geometry::Line { length })
+    }
+
+    /// The motion and the material, of a line contact in plane strain.
+    ///
+    /// # Errors
+    ///
+    /// A displacement of a line contact that is told against nothing: in the plane it is infinite.
+    pub(super) fn in_plane(
+        &self,
+        geometry: Geometry,
+        indenter: &Indenter,
+    ) -> Result<(Drive, Material), Refusal> {
+        let (drive, material) = (self.drive()?, self.material()?);
+        if !geometry.is_line() {
+            return Ok((drive, material));
+        }
+        if drive.normal().displacement().is_some() {
+            let rule = "a line contact has no depth of indentation, which is infinite in the plane; \
+                        give motion.normal.control = \"force\", with mean and amplitude in N";
+            return Err(self.refuse("motion.normal.control", rule));
+        }
+        let gauge: Option<f64> = self.get("motion.tangential.gauge_length");
+        if gauge.is_none() && matches!(drive.tangential(), Some(Control::Displacement(_))) {
+            let meaning = "m: a displacement in the plane is told against a point of the half-space that lies so deep; \
+                           or give motion.tangential.control = \"force\"";
+            return Err(self.missing("motion.tangential.gauge_length", meaning));
+        }
+        let material = material.in_plane_strain();
+        let unworn = Unworn {
+            geometry,
+            indenter,
+            material: &material,
+            drive: &drive,
+        };
+        let usual = || USUAL_GAUGE * unworn.radius(unworn.deepest());
+        let gauge = gauge.unwrap_or_else(usual);
+        Ok((drive.on(geometry, &material, gauge), material))
+    }
+
+    /// Refuses a gauge length inside the contact, whose domain ends at `domain` (m).
+    pub(super) fn check_gauge(&self, drive: &Drive, domain: f64) -> Result<(), Refusal> {
+        match drive.gauge_length().filter(|&gauge| gauge <= domain) {
+            Some(_) => {
+                let least = length(domain);
+                let rule = format!("must be greater than the contact can become wide, {least} m");
+                Err(self.refuse("motion.tangential.gauge_length", rule))
+            }
+            None => Ok(()),
+        }
+    }
+}

@@ -119,6 +119,16 @@ impl Recipe {
         if chart.title.is_empty() {
             chart.title = self.title.to_owned();
         }
+        if run.geometry.is_line() {
+            let named = |name: &str| run.geometry.named(name);
+            chart.title = named(&chart.title);
+            for axis in [&mut chart.x, &mut chart.y] {
+                axis.label = named(&axis.label).into();
+            }
+            for curve in &mut chart.curves {
+                curve.name = named(&curve.name);
+            }
+        }
         if run.live.is_none() {
             // There, curves of other sources lie over those of the run.
             chart.curves.sort_by_key(|curve| match curve.role {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::contact::indenter::Indenter;
+use crate::math::geometry::Geometry;
 use crate::reading::{Moment, Zone};
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
@@ -56,6 +57,8 @@ pub struct Run {
     pub theory: Option<Arc<Theory>>,
     /// The unworn shape.
     pub indenter: Option<Indenter>,
+    /// Round, or a line.
+    pub geometry: Geometry,
     /// What belongs to a screen, of a run at one moment; `None` on paper.
     pub live: Option<Live>,
 }
@@ -77,7 +80,7 @@ impl Run {
     /// The size of the volume that is worn at the planned end, m³: as deep everywhere as where it is deepest.
     pub fn expected_volume(&self) -> f64 {
         let radius = |live: &Live| live.moment.contact_radius;
-        let area = std::f64::consts::PI * self.live.as_ref().map_or(0.0, radius).powi(2);
+        let area = self.geometry.area(self.live.as_ref().map_or(0.0, radius));
         area * self.expected_wear()
     }
 
@@ -88,6 +91,7 @@ impl Run {
         Self {
             theory: Some(Arc::new(Theory::of(setup))),
             indenter: Some(setup.indenter.clone()),
+            geometry: setup.geometry,
             ..self
         }
     }

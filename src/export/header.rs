@@ -43,6 +43,9 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     line("arithmetic", arithmetic());
     line("scenario", scenario.title());
     line("cycle", &number(session.simulation().cycle()));
+    if let Some(remark) = setup.geometry.remark() {
+        line("geometry", &remark);
+    }
     line("method", setup.method.name());
     line("law", law);
     if let Some(law) = &setup.wear {

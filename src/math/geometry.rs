@@ -80,11 +80,22 @@ impl Geometry {
         }
     }
 
-    /// What a, c and r are called.
-    pub fn radius_name(self) -> &'static str {
+    /// A name of a, c or the like, which is a radius in a round contact.
+    pub fn named(self, name: &str) -> String {
         match self {
-            Self::Round => "radius",
-            Self::Line { .. } => "half-width",
+            Self::Round => name.to_owned(),
+            Self::Line { .. } => name
+                .replace("radii", "half-widths")
+                .replace("radius", "half-width"),
         }
+    }
+
+    /// What a reader of forces and volumes must know; nothing of a round contact.
+    pub fn remark(self) -> Option<String> {
+        let length = self.length()?;
+        Some(match length == 1.0 {
+            true => "line, plane strain: forces, volumes and energies are per metre".into(),
+            false => format!("line, plane strain, {length:e} m long"),
+        })
     }
 }

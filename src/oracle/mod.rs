@@ -15,6 +15,7 @@
 //! | [`partial_slip`] | the same for any one-dimensional profile, by quadrature |
 //! | [`limiting_profile`] | what is left of a paraboloid after endless fretting |
 //! | [`dual_oscillation`] | permanent stick under normal and tangential oscillation |
+//! | [`line_contact`] | a cylinder on a flat: Hertz, partial slip, limit, gross slip |
 //! | [`half_space`] | stresses inside: Hertz in closed form, any traction by its point forces |
 //! | [`abel_pairs`], [`pair_catalogue`] | analytic pairs of the transforms (1), (2), (3) |
 //! | [`special`], [`quadrature`] | gamma, erf, Dawson, Bessel, bisection; the adaptive integral |
@@ -29,6 +30,7 @@ pub mod flat_punch;
 pub mod fretting_loop;
 pub mod half_space;
 pub mod limiting_profile;
+pub mod line_contact;
 pub mod pair_catalogue;
 pub mod partial_slip;
 pub mod power_law;

@@ -82,7 +82,7 @@ pub struct CycleFigures {
     pub opening: Option<f64>,
     /// Q*/(μP).
     pub force_ratio: Option<f64>,
-    /// 1 − Q*/(2G*aU), at least 0.
+    /// 1 − Q*/(2G*aU), at least 0; of a line 1 − Q*/(KU), K the stiffness of the contact that sticks.
     pub slip_ratio: Option<f64>,
     /// D = δ₀/U.
     pub sliding_ratio: Option<f64>,
@@ -229,7 +229,7 @@ impl Measured {
         let energy_ratio = ratio(energy, 4.0 * force * shift);
         // The slip ratio is about the contact alone.
         let of_contact = shift - setup.drive.rig_compliance() * force;
-        let elastic = 2.0 * material.tangential_modulus() * self.contact_radius * of_contact;
+        let elastic = setup.drive.stiffness(material, self.contact_radius) * of_contact;
         let regime = if self.opened {
             Regime::Open
         } else if self.stick_radius <= 0.0 && energy > 0.0 {

@@ -15,6 +15,9 @@ const STRONG: f64 = 0.1;
 /// within a step.
 const STEPS_FOR_POWERS: u32 = 50;
 
+/// Strokes beyond this part of the half-width of a line contact are not small.
+const LONG_STROKE: f64 = 0.1;
+
 /// By how much of the depth g may fall and still counts as level: noise of a scar.
 const LEVEL: f64 = 0.02;
 
@@ -115,6 +118,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
     }
     lines.extend(slip_instability(setup, 1.5 * pressure));
     lines.extend(gross_slip_under_force(setup, unworn));
+    lines.extend(long_stroke(setup, unworn, radius));
     let exponent = setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
     if exponent != 1.0 && setup.steps_per_cycle < STEPS_FOR_POWERS {
         lines.push(format!(
@@ -177,10 +181,28 @@ fn gross_slip_under_force(setup: &Setup, unworn: Unworn<'_>) -> Option<String> {
     })
 }
 
+/// A line that slides as a whole further than a part of its half-width (m) wears the other body where it is not in contact
+/// all the time: the theory knows only the sum of both, at one place.
+fn long_stroke(setup: &Setup, unworn: Unworn<'_>, half_width: f64) -> Option<String> {
+    let swing = setup.drive.tangential()?.displacement()?;
+    let elastic = setup
+        .geometry
+        .length()
+        .map(|_| unworn.line_shift(unworn.deepest(), 0.0))?;
+    let stroke = (swing.amplitude() - elastic).max(0.0) / half_width;
+    (stroke > LONG_STROKE).then(|| {
+        format!(
+            "outside the theory: the contact slides by {stroke:.2} of its half-width to each side, where strokes must be \
+             small; more of the flat body wears than the contact covers, and less deep"
+        )
+    })
+}
+
 /// The same contact, held at the deepest point of its motion, on the same nodes.
 fn at_deepest(setup: &Setup) -> Result<Setup, Invalid> {
     let normal = setup.drive.normal();
     let held = Oscillation::new(normal.oscillation().highest(), 0.0, 1.0, 0.0)?;
+    let gauge = setup.drive.gauge_length().unwrap_or_default();
     Ok(Setup {
         drive: Drive::new(
             match normal {
@@ -188,7 +210,8 @@ fn at_deepest(setup: &Setup) -> Result<Setup, Invalid> {
                 Control::Force(_) => Control::Force(held),
             },
             None,
-        ),
+        )
+        .on(setup.geometry, &setup.material, gauge),
         wear: None,
         running_in: None,
         hardness: None,

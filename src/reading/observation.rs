@@ -13,8 +13,8 @@ use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::dome::Dome;
 use crate::math::abel::worn;
+use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
-use crate::math::quadrature::volume_of_revolution;
 use crate::simulation::{Simulation, stability, traction};
 
 bitflags! {
@@ -120,6 +120,8 @@ impl Moment {
 pub struct Observation {
     /// The scalars.
     pub moment: Moment,
+    /// Round, or a line.
+    pub geometry: Geometry,
     /// The transform method.
     pub method: AbelMethod,
     /// The wear law's name; none without wear.
@@ -172,7 +174,7 @@ impl Observation {
         let tangential = (&self.tangential_load[..], of_tangential);
         let [nodes, normal, tangential] = scar_end::divided(&self.radii, [normal, tangential]);
         let radius = self.moment.contact_radius;
-        SpringLoad::new(&nodes, &normal, &tangential, radius, poisson)
+        SpringLoad::new(&nodes, &normal, &tangential, radius, poisson).of(self.geometry)
     }
 }
 
@@ -228,11 +230,18 @@ impl Simulation {
         }
         let nodes = self.setup().grid.nodes();
         let last = contact.nodes - 1;
-        let inside = volume_of_revolution(&nodes[..=last], &pressure[..=last]);
-        let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
+        let geometry = self.setup().geometry;
+        let inside = geometry.area_integral(&nodes[..=last], &pressure[..=last]);
+        let ring = match geometry {
+            Geometry::Round => {
+                let ring = (contact.radius - nodes[last]) * (contact.radius + nodes[last]);
+                std::f64::consts::PI * ring
+            }
+            Geometry::Line { .. } => geometry.area(contact.radius - nodes[last]),
+        };
         let load = &self.state().contact.load;
         let even = load.dome.map_or(0.0, |dome| dome.stress());
-        let edge = std::f64::consts::PI * ring * (even + 2.0 / 3.0 * (pressure[last] - even));
+        let edge = ring * (even + 2.0 / 3.0 * (pressure[last] - even));
         Some(1.0 - (inside + edge) / force)
     }
 
@@ -264,6 +273,7 @@ impl Simulation {
         };
         Observation {
             moment: self.moment(),
+            geometry: self.setup().geometry,
             method: self.setup().method,
             law: self.setup().wear.map(|law| law.name()),
             grid: self.setup().grid.clone(),
@@ -300,9 +310,15 @@ impl Simulation {
             depression: when(Curves::DEPRESSION, &|| {
                 let mut out = vec![0.0; nodes];
                 contact.depression(model, &mut out);
-                let (depth, inside) = (contact.depth, contact.normal.nodes);
-                for (out, f) in out.iter_mut().zip(worn()).take(inside) {
-                    *out = depth - f;
+                let (depth, inside, worn) = (contact.depth, contact.normal.nodes, worn());
+                // The surface of a line contact is told against its centre.
+                let centre = if self.setup().geometry.is_line() {
+                    worn[0]
+                } else {
+                    0.0
+                };
+                for (out, f) in out.iter_mut().zip(worn).take(inside) {
+                    *out = depth - (f - centre);
                 }
                 out
             }),

@@ -26,13 +26,27 @@
 //! ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB, ∫ζB² = ¼(ζ²B² + L − ζB),
 //! ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, on coarse grids too.
 //!
+//! # A line contact
+//!
+//! In plane strain the strip punch of half-width s and unit load has G = 1/√(w² − s²), w = x + iz, and
+//!
+//! ```text
+//! normal      πσ_xx = Im G + z Re G′     πσ_zz = Im G − z Re G′     πσ_xz = −z Im G′
+//! tangential  πσ_xx = −2 Re G + z Im G′  πσ_zz = −z Im G′           πσ_xz = Im G + z Re G′
+//! ```
+//!
+//! by superposition of Flamant's point loads, and σ_yy = ν(σ_xx + σ_zz). The strips of a cell add up to
+//! ∫ 2s G ds = −2√(w² − s²) and its derivative by w.
+//!
 //! Cost: one complex root and one arc tangent per point and kink of the load. Springs where q is
 //! linear in x² within [`FLAT`] do not count as kinks: a Hertz contact has one kink, a worn contact
 //! a few dozen.
 
 use std::f64::consts::PI;
 
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
+
+use crate::math::geometry::Geometry;
 
 /// How far below the surface a point counts as on it, in contact radii: the formulas are limits there.
 const SURFACE: f64 = 1e-9;
@@ -165,6 +179,7 @@ pub struct SpringLoad {
     end: [f64; 2],
     radius: f64,
     poisson: f64,
+    geometry: Geometry,
 }
 
 impl SpringLoad {
@@ -195,7 +210,14 @@ impl SpringLoad {
             end,
             radius: contact_radius,
             poisson,
+            geometry: Geometry::Round,
         }
+    }
+
+    /// The same load of a contact of this `geometry`.
+    #[must_use]
+    pub fn of(self, geometry: Geometry) -> Self {
+        Self { geometry, ..self }
     }
 
     /// ν of the half-space.
@@ -227,6 +249,58 @@ impl SpringLoad {
             return [Stress::default(); 2];
         }
         let z = z.max(SURFACE * self.radius);
+        let [even, odd] = match self.geometry {
+            Geometry::Round => self.of_punches(r, z),
+            Geometry::Line { .. } => self.of_strips(r, z),
+        };
+        // Under p the shear stress is odd in x, under τ all others are.
+        let right = even.plus(odd, 1.0);
+        let left = Stress {
+            xz: odd.xz - even.xz,
+            ..even.plus(odd, -1.0)
+        };
+        [right, left]
+    }
+
+    /// The stresses at (r, z) of q_z and of q_x on a half-plane.
+    fn of_strips(&self, r: f64, z: f64) -> [Stress; 2] {
+        let w = Complex::new(r, z);
+        // √(w² − s²) that is w far away: both factors lie in the upper half-plane.
+        let root = |s: f64| (w - s).sqrt() * (w + s).sqrt();
+        let mut strips = [[Complex::default(); 2]; 2];
+        let mut add = |[value, slope]: [Complex<f64>; 2], weights: [f64; 2]| {
+            for (sums, weight) in strips.iter_mut().zip(weights) {
+                sums[0] += value * weight;
+                sums[1] += slope * weight;
+            }
+        };
+        for kink in &self.kinks {
+            let root = root(kink.x);
+            add(
+                [root * -2.0, w / root * -2.0],
+                [kink.normal, kink.tangential],
+            );
+        }
+        if self.end[0] > 0.0 {
+            let root = root(self.radius);
+            add([root.inv(), -w / (root * root * root)], self.end);
+        }
+        let [[normal, normal_slope], [shear, shear_slope]] = strips;
+        let stress = |xx: f64, zz: f64, xz: f64| Stress {
+            xx: xx / PI,
+            yy: self.poisson * (xx + zz) / PI,
+            zz: zz / PI,
+            xz: xz / PI,
+        };
+        let (even, odd) = (z * normal_slope, z * shear_slope);
+        [
+            stress(normal.im + even.re, normal.im - even.re, -even.im),
+            stress(odd.im - 2.0 * shear.re, -odd.im, shear.im + odd.re),
+        ]
+    }
+
+    /// The stresses at (r, z) of q_z and of q_x on a half-space, in the plane of motion.
+    fn of_punches(&self, r: f64, z: f64) -> [Stress; 2] {
         let (mut normal, mut tangential) = (Products::default(), Products::default());
         for kink in &self.kinks {
             let at = Products::of_paraboloid(r, z, kink.x);
@@ -240,13 +314,7 @@ impl SpringLoad {
         }
         let even = normal.pressed(r, z, self.poisson);
         let odd = tangential.pushed(r, z, self.poisson);
-        // Under p the shear stress is odd in x, under τ all others are.
-        let right = even.plus(odd, 1.0);
-        let left = Stress {
-            xz: odd.xz - even.xz,
-            ..even.plus(odd, -1.0)
-        };
-        [right, left]
+        [even, odd]
     }
 }
 

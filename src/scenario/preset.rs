@@ -44,6 +44,8 @@ pub const ALL: &[Preset] = presets![
     "cattaneo-kalker",
     "julia2022-gross-slip",
     "julia2022-partial-slip",
+    "cylinder-partial-slip",
+    "cylinder-gross-slip",
 ];
 
 /// The preset of this name.

@@ -366,6 +366,16 @@ impl Simulation {
         pressure
     }
 
+    /// The amplitude of u_x against the gauge length, m, from which the present profile of a line contact slips as a whole.
+    pub(crate) fn line_slip_border(&self) -> f64 {
+        let reach = self.setup().material.reach();
+        let mut spring = self.state.contact.load.clone();
+        spring.nodal.iter_mut().for_each(|load| *load *= reach);
+        spring.kinks.iter_mut().for_each(|kink| kink.jump *= reach);
+        let gauge = self.setup().drive.gauge_length().unwrap_or_default();
+        self.model.foundation.shift_against(gauge, &spring)
+    }
+
     /// Worn volume, m³: 2π∫(f − f₀) r dr, or 2L∫(f − f₀) dr of a line.
     pub fn wear_volume(&self) -> f64 {
         scar_volume(&self.model, &self.state.wear) - self.state.ledger.regridded_volume

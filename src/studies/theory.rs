@@ -5,6 +5,7 @@ use crate::contact::indenter::Indenter;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
 use crate::oracle::fretting_loop::Branch;
 use crate::oracle::limiting_profile::LimitingProfile;
+use crate::oracle::line_contact::Cylinder;
 use crate::oracle::power_law::PowerLaw;
 use crate::simulation::drive::{Control, Oscillation};
 use crate::simulation::waveform::Waveform;
@@ -16,6 +17,8 @@ pub struct Theory {
     /// The permanent stick radius by Melan's theorem, m; none if there is no such zone.
     pub stick_radius: Option<f64>,
     limit: Option<LimitingProfile>,
+    /// Of a line: a cylinder under the largest load, and whether it wears to a limit.
+    cylinder: Option<(Cylinder, bool)>,
     unworn: Option<(PowerLaw, f64)>,
     cattaneo: Option<CattaneoMindlin>,
     /// 1/κ = μE*/G*: u_x over depth from which the unworn indenter slips as a whole.
@@ -26,6 +29,9 @@ impl Theory {
     /// What applies to the parts of a simulation.
     pub fn of(setup: &Setup) -> Self {
         let e_star = setup.material.normal_modulus();
+        if let Some(length) = setup.geometry.length() {
+            return Self::of_line(setup, length);
+        }
         let mut theory = Self {
             slip_per_depth: setup.material.stick_ratio().recip(),
             unworn: power_law(&setup.indenter).map(|shape| (shape, e_star)),
@@ -70,8 +76,34 @@ impl Theory {
         theory
     }
 
+    /// What applies to a line of this `length` (m).
+    fn of_line(setup: &Setup, length: f64) -> Self {
+        let is_worn = setup.scar.is_some();
+        let melan = Unworn::of(setup).melan().filter(|_| !is_worn);
+        let stick_radius = melan.map(|(_, radius)| radius);
+        let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
+        let load = setup.drive.normal().oscillation().highest() / length;
+        let cylinder = |radius| Cylinder {
+            e_star: setup.material.normal_modulus(),
+            radius,
+            friction: setup.material.friction(),
+            load,
+        };
+        let cylinder = setup.indenter.ball_radius().map(cylinder);
+        Self {
+            stick_radius,
+            cylinder: cylinder.map(|cylinder| (cylinder, wears && stick_radius.is_some())),
+            slip_per_depth: setup.material.stick_ratio().recip(),
+            ..Self::default()
+        }
+    }
+
     /// f∞(r), m: what wear leads to.
     pub fn limiting_profile(&self, radii: &[f64]) -> Option<Vec<f64>> {
+        if let (Some((cylinder, true)), Some(stick)) = (&self.cylinder, self.stick_radius) {
+            let unworn = |x: f64| 0.5 * x * x / cylinder.radius;
+            return Some(over(radii, |x| unworn(x) + cylinder.limit_depth(stick, x)));
+        }
         let limit = self.limit.as_ref()?;
         Some(over(radii, |r| limit.profile(r)))
     }
@@ -95,7 +127,8 @@ impl Theory {
         };
         let reached = by_law().into_iter().chain(settled).reduce(f64::min)?;
         // A displacement holds no more than the depth that it presses to.
-        let most = setup.largest_depth().unwrap_or(f64::INFINITY);
+        let most = setup.largest_depth().filter(|_| !setup.geometry.is_line());
+        let most = most.unwrap_or(f64::INFINITY);
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
@@ -111,6 +144,11 @@ impl Theory {
 
     /// p(r), Pa, of the unworn indenter at a depth (m).
     pub fn unworn_pressure(&self, depth: f64, radii: &[f64]) -> Option<Vec<f64>> {
+        if let Some((cylinder, _)) = &self.cylinder {
+            let load = cylinder.e_star * depth.max(0.0);
+            let pressed = Cylinder { load, ..*cylinder };
+            return Some(over(radii, |x| pressed.pressure(pressed.half_width(), x)));
+        }
         let (shape, e_star) = self.unworn.as_ref()?;
         let radius = shape.contact_radius(depth.max(0.0));
         Some(over(radii, |r| shape.pressure(*e_star, radius, r)))

@@ -52,6 +52,7 @@ impl Recorded {
             states: vec![Table::of_columns(header, state::columns(seen))],
             history: Some(self.trend.history()),
             loops: last.into_iter().collect(),
+            geometry: seen.geometry,
             ..Run::default()
         }
     }

@@ -45,6 +45,7 @@ mod key_fuzz;
 mod keyboard;
 #[cfg(target_os = "linux")]
 mod limits;
+mod line;
 mod measured_shapes;
 #[cfg(unix)]
 mod mouse;

@@ -19,6 +19,7 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use mdr_tui::contact::indenter::Indenter;
+use mdr_tui::math::geometry::Geometry;
 use mdr_tui::scenario::Scenario;
 
 use crate::random::Random;
@@ -26,6 +27,9 @@ use crate::random_kinds::{self, KINDS, Known};
 
 /// From this seed on runs are long, and forces held and lift-off more frequent.
 pub const LONG: u64 = 1_000_000;
+
+/// From this seed on contacts are lines, under forces or against a gauge.
+pub const LINES: u64 = 3_000_000;
 
 /// The scenario of a seed.
 ///
@@ -42,9 +46,9 @@ pub fn scenario(seed: u64) -> Scenario {
 /// The scenario of a seed as TOML.
 pub fn text(seed: u64) -> String {
     let (text, known) = first(seed);
-    match seed < KINDS {
-        true => text,
-        false => random_kinds::extend(&text, &known, &mut Random::new(!seed)),
+    match (KINDS..LINES).contains(&seed) {
+        false => text,
+        true => random_kinds::extend(&text, &known, &mut Random::new(!seed)),
     }
 }
 
@@ -56,12 +60,19 @@ fn first(seed: u64) -> (String, Known) {
     let modulus = draw.log_between(1e9, 4e11);
     let friction = draw.log_between(0.05, 1.0);
     // G*/E* and κ = G*/(μE*): a shift of d/κ makes the whole unworn contact slip.
-    let stiffness_ratio = 2.0 * (1.0 - poisson) / (2.0 - poisson);
+    let is_line = seed >= LINES;
+    let stiffness_ratio = match is_line {
+        true => 1.0,
+        false => 2.0 * (1.0 - poisson) / (2.0 - poisson),
+    };
     let stick_ratio = stiffness_ratio / friction;
-    let pressed = shape.pressed(modulus);
+    let pressed = match is_line {
+        true => shape.pressed_line(modulus),
+        false => shape.pressed(modulus),
+    };
 
-    let is_long = seed >= LONG && (seed < KINDS || seed.is_multiple_of(10));
-    let by_force = draw.chance(if is_long { 0.6 } else { 0.3 });
+    let is_long = seed >= LONG && !is_line && (seed < KINDS || seed.is_multiple_of(10));
+    let by_force = draw.chance(if is_long { 0.6 } else { 0.3 }) || is_line;
     let tangential_by_force = by_force && draw.chance(0.4);
     let lifts = !tangential_by_force && draw.chance(if is_long { 0.25 } else { 0.1 });
     let swing = match (lifts, draw.chance(0.35)) {
@@ -89,7 +100,8 @@ fn first(seed: u64) -> (String, Known) {
         let share = draw.between(0.3, 0.85);
         let force = share * friction * least;
         let compliance = 1.0 / (2.0 * stiffness_ratio * modulus * pressed.radius);
-        (force, force * compliance)
+        let yields = if is_line { modulus.recip() } else { compliance };
+        (force, force * yields)
     } else {
         let shift = gross_slip * draw.log_between(0.15, 2.0);
         (shift, shift)
@@ -112,11 +124,20 @@ fn first(seed: u64) -> (String, Known) {
     let coefficient = worn * pressed.radius / (4.0 * friction * modulus * rubbed * cycles);
 
     let frequency = draw.log_between(1.0, 1e3);
+    // Against a gauge, a line that slips as a whole has moved by more than its springs.
+    let gauge =
+        (is_line && !tangential_by_force).then(|| pressed.radius * draw.log_between(5.0, 500.0));
+    let elastic = gauge.map_or(1.0, |gauge| {
+        (2.0 * gauge / pressed.radius).ln() * 2.0 / PI + 0.3
+    });
     let mut toml = format!(
         "title = \"Random scenario {seed}\"\n[indenter]\n{}[material]\neffective_modulus = {modulus:e}\n\
          poisson = {poisson}\n[friction]\ncoefficient = {friction}\n",
         shape.toml()
     );
+    if is_line {
+        toml = toml.replacen("[indenter]", "[indenter]\ngeometry = \"line\"", 1);
+    }
     let control = |force: bool| if force { "force" } else { "displacement" };
     let mut motion = |name: &str, force: bool, mean: f64, amplitude: f64, frequency: f64, phase| {
         toml += &format!(
@@ -138,10 +159,13 @@ fn first(seed: u64) -> (String, Known) {
         "tangential",
         tangential_by_force,
         0.0,
-        amplitude,
+        amplitude * elastic,
         frequency,
         phases[1],
     );
+    if let Some(gauge) = gauge {
+        toml += &format!("gauge_length = {gauge:e}\n");
+    }
     toml += &format!("[wear]\ncoefficient = {coefficient:e}\n");
     if draw.chance(0.25) {
         toml += &format!(
@@ -161,7 +185,7 @@ fn first(seed: u64) -> (String, Known) {
             0 => ("motion.normal.mean", mean * draw.between(0.7, 1.1)),
             1 => (
                 "motion.tangential.amplitude",
-                amplitude * draw.between(0.5, 1.1),
+                amplitude * elastic * draw.between(0.5, 1.1),
             ),
             2 => ("wear.coefficient", coefficient * draw.log_between(0.3, 3.0)),
             _ => ("friction.coefficient", friction * draw.between(0.95, 1.3)),
@@ -254,6 +278,21 @@ impl Shape {
 
     fn toml(&self) -> &str {
         &self.keys
+    }
+
+    /// d = g(a) and F = E*d of a line of one metre.
+    fn pressed_line(&self, modulus: f64) -> Pressed {
+        let radius = self.radius;
+        let depth = match self.indenter.rim() {
+            Some(_) => 1e-3 * radius,
+            None => self.indenter.image(Geometry::Line { length: 1.0 }, radius),
+        };
+        let force = modulus * depth;
+        Pressed {
+            depth,
+            radius,
+            force,
+        }
     }
 
     /// d = g(a) and F = 2E*∫(d − g) dx; a punch is pressed by a thousandth of its radius.

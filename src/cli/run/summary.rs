@@ -13,7 +13,9 @@ pub(super) fn remarks(session: &Session) -> Vec<String> {
     let never = never.map(|why| format!("no cycle jumps: {why}"));
     let indenter = session.scenario().setup().indenter.remark();
     let indenter = indenter.map(|told| format!("indenter: {told}"));
-    let known = never.into_iter().chain(indenter);
+    let geometry = session.scenario().setup().geometry.remark();
+    let geometry = geometry.map(|told| format!("geometry: {told}"));
+    let known = never.into_iter().chain(indenter).chain(geometry);
     known.chain(session.warnings()).collect()
 }
 
@@ -77,6 +79,7 @@ impl Job<'_> {
         let title = self.session.scenario().title();
         writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
         for (name, text) in lines {
+            let name = setup.geometry.named(name);
             writeln!(out, "  {name:<22}  {text}")?;
         }
         Ok(())

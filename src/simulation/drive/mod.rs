@@ -36,6 +36,14 @@ pub enum Control<T = Oscillation> {
     Force(T),
 }
 
+impl Plane {
+    /// That of a strip of the half-width a (m) that sticks, N/m.
+    fn stiffness(self, half_width: f64) -> f64 {
+        let logarithm = (2.0 * self.gauge / half_width).ln();
+        (FRAC_2_PI * self.compliance * logarithm).recip()
+    }
+}
+
 /// A prescribed value at one moment.
 pub type Target = Control<f64>;
 
@@ -229,7 +237,7 @@ impl Drive {
                 yields(tangential, modulus, self.compliance),
             ],
             Some(plane) => {
-                let own = FRAC_2_PI * plane.compliance * (2.0 * plane.gauge / contact_radius).ln();
+                let own = plane.stiffness(contact_radius).recip();
                 let of_tangential = match tangential {
                     Some(Control::Displacement(_)) => plane.compliance / (own + self.compliance),
                     _ => plane.compliance,
@@ -242,6 +250,15 @@ impl Drive {
         }
         // Out of contact nothing turns that matters.
         [1.0; 2]
+    }
+
+    /// The tangential stiffness, N/m, of a contact of the radius or half-width a (m) that sticks: 2G*a, or in the plane,
+    /// against the gauge, that of a punch, (π/2)E*L/ln(2ℓ/a).
+    pub fn stiffness(&self, material: &Material, contact_radius: f64) -> f64 {
+        match self.plane {
+            None => 2.0 * material.tangential_modulus() * contact_radius,
+            Some(plane) => plane.stiffness(contact_radius),
+        }
     }
 
     /// The mean of |u̇_x|ⁿ between two cycles over the n-th power of the mean rate: by how much a law with the n-th

@@ -139,7 +139,7 @@ impl Outcome {
         let (setup, moment) = (simulation.setup(), simulation.moment());
         let material = &setup.material;
         let sliding = material.friction() * moment.normal_force;
-        let stiffness = 2.0 * material.tangential_modulus() * moment.contact_radius;
+        let stiffness = setup.drive.stiffness(material, moment.contact_radius);
         let shift = setup.drive.tangential().and_then(Control::displacement);
         let sticking = shift.map_or(f64::INFINITY, |shift| stiffness * shift.amplitude());
         Self {

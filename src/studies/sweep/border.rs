@@ -7,6 +7,8 @@
 //!   gross slip begins where it reaches 0. At a depth d that is held this is U = d/κ, κ = G*/(μE*), for
 //!   any shape. With a normal force prescribed, d is the depth at the smallest force on the unworn
 //!   shape. A rig of compliance C takes a part of the motion: under a steady load N, U = d/κ + μNC.
+//! - Of a line the forces are what moves the springs: Melan's theorem holds for them, and gives Q = μP for a load that
+//!   is held. A displacement has its border against the gauge length, see [`Unworn`].
 //! - **Lift-off** begins where the depth, or the normal force, passes through 0.
 //!
 //! Both hold for the unworn shape. Wear moves the border of gross slip where a force is prescribed.
@@ -35,6 +37,14 @@ pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     }
     let shift = setup.drive.tangential()?.displacement()?;
     let unworn = Unworn::of(setup);
+    if setup.geometry.is_line() {
+        // No closed form for a displacement under a varying load.
+        if normal.oscillation().amplitude() != 0.0 {
+            return None;
+        }
+        let depth = unworn.depth(normal.oscillation().lowest().max(0.0));
+        return Some(unworn.line_shift(depth, 0.0) - shift.amplitude());
+    }
     let rig = setup.drive.rig_compliance();
     let steady = normal.oscillation().amplitude() == 0.0;
     let lowest = normal.oscillation().lowest();

@@ -36,7 +36,8 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
-        let [name, value] = [name, &value].map(|text| canvas.printable(text));
+        let name = shown.frame.observation.geometry.named(name);
+        let [name, value] = [&name, &value].map(|text| canvas.printable(text));
         // Rather than the value, the name is cut: its last words, and the symbol, tell most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
         let mut name = name.as_str();

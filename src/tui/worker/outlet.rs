@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use super::*;
 use crate::charts::{Live, Run};
+use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
 use crate::reading::{CycleFigures, Observation};
@@ -149,8 +150,12 @@ impl Worker {
                 expected_wear: facts.expected_wear,
                 is_within_a_cycle: trend.is_within_a_cycle(),
                 regime: figures.map(|figures| figures.regime.title()),
-                slip_border: (!load.is_empty())
-                    .then(|| largest(load) / (material.normal_modulus() * material.stick_ratio())),
+                slip_border: (!load.is_empty()).then(|| match setup.geometry {
+                    Geometry::Round => {
+                        largest(load) / (material.normal_modulus() * material.stick_ratio())
+                    }
+                    Geometry::Line { .. } => self.run.simulation().line_slip_border(),
+                }),
                 log: trend.loops.kept.clone(),
             }),
             ..self.run.charted(seen)

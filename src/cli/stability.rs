@@ -7,6 +7,8 @@ use anyhow::{Result, bail};
 use super::args::{Guard, Stability};
 use super::{given, progress, results, stop, succeeded};
 use crate::export::header::number;
+use crate::math::abel::AbelMethod;
+use crate::math::geometry::Geometry;
 use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Line, Setting, Study};
@@ -17,12 +19,13 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
     let name = printable(scenario.origin());
     let title = scenario.title().to_owned();
+    let settings = settings(options, scenario.setup().geometry);
     let Some(study) = Study::new(scenario, options.cycles)? else {
         let rule = "nothing wears: the scenario needs [wear], and contact at its start";
         bail!(Refusal::new(name, rule));
     };
     let go_on = stop::signal().map(stop::unless)?;
-    let lines = lines(&study, options, &go_on)?;
+    let lines = lines(&study, options, &settings, &go_on)?;
     let interrupted = !go_on();
     let (cycles, steps) = (number(options.cycles), options.steps);
     let about = "K = k E* d/a at the start";
@@ -43,14 +46,18 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
 }
 
 /// The lines of the study, as far as `go_on` lets it come.
-fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result<Vec<Line>> {
-    let settings = settings(options);
+fn lines(
+    study: &Study,
+    options: &Stability,
+    settings: &[Setting],
+    go_on: &dyn Fn() -> bool,
+) -> Result<Vec<Line>> {
     let mut wear_numbers = options.wear_numbers.clone();
     wear_numbers.sort_by(f64::total_cmp);
     let length = settings.len() * wear_numbers.len();
     let bar = progress::bar(length, progress::COUNTS, options.output.quiet);
     let mut lines = Vec::new();
-    for setting in settings.into_iter().take_while(|_| go_on()) {
+    for setting in settings.iter().copied().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));
         bar.tick();
         lines.push(study.line(setting, &wear_numbers, go_on, || bar.inc(1))?);
@@ -60,14 +67,15 @@ fn lines(study: &Study, options: &Stability, go_on: &dyn Fn() -> bool) -> Result
 }
 
 /// Method by method, guard by guard, grid by grid.
-fn settings(options: &Stability) -> Vec<Setting> {
+fn settings(options: &Stability, geometry: Geometry) -> Vec<Setting> {
     let guards: &[bool] = match options.guard {
         Guard::Off => &[false],
         Guard::On => &[true],
         Guard::Both => &[false, true],
     };
     let mut settings = Vec::new();
-    for &method in &options.methods {
+    let methods = AbelMethod::of(geometry);
+    for &method in options.methods.iter().filter(|of| methods.contains(of)) {
         for &guard in guards {
             settings.extend(options.points.iter().map(|&points| Setting {
                 method,

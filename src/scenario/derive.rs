@@ -54,6 +54,9 @@ impl Unworn<'_> {
     /// of the permanent stick zone; with c falls what bounds it. Other shapes are not far from that.
     fn line_domain(&self, start: f64, friction_is_constant: bool, worn: f64) -> Option<f64> {
         let edge = self.radius(start);
+        if self.indenter.rim().is_some() {
+            return Some(edge).filter(|&edge| edge > 0.0);
+        }
         let melan = self.melan().filter(|_| friction_is_constant);
         let in_edges = match (self.drive.tangential(), melan) {
             (None, _) => UNWORN_LINE,

@@ -113,8 +113,13 @@ pub fn settings(
     let wants_jumps = wants_jumps(scenario);
     let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
     let mut settings = Vec::new();
+    let known = AbelMethod::of(setup.geometry);
     let of_method = |&method| Scheme::ALL.map(|scheme| (method, scheme));
-    for (method, scheme) in methods.iter().flat_map(of_method) {
+    for (method, scheme) in methods
+        .iter()
+        .filter(|of| known.contains(of))
+        .flat_map(of_method)
+    {
         let is_best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
         let mut tolerances = if wants_jumps { vec![] } else { vec![None] };
         if repeats && (is_best || wants_jumps) {

@@ -162,7 +162,7 @@ pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
 /// What a run can be compared with: every other method, and itself on half the cells.
 fn choices(session: &Session) -> Vec<(&'static str, String)> {
     let setup = session.simulation().setup();
-    let mut others = AbelMethod::ALL.to_vec();
+    let mut others = AbelMethod::of(setup.geometry).to_vec();
     others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
     others.sort_by_key(|method| *method != AbelMethod::B);

@@ -53,9 +53,11 @@ impl Kept {
             self.scenario == after.scenario
                 && setup.method == other.method
                 && setup.indenter == other.indenter
+                && setup.geometry == other.geometry
                 && setup.grid == other.grid
         });
-        let operators = match setup.method.prefers_fast(nodes) {
+        let is_fast = setup.method.prefers_fast(nodes) && !setup.geometry.is_line();
+        let operators = match is_fast {
             _ if shares_operators => 0,
             true => FAST_ARRAYS * nodes,
             false => 4 * nodes.pow(2),

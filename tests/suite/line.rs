@@ -239,13 +239,13 @@ fn gross_slip_begins_and_wears_as_it_should() {
         assert!(below.permanent_stick_radius > Some(0.0));
         assert_eq!(beyond.permanent_stick_radius, Some(0.0));
         let mut sets = sets(1.5);
-        sets.extend(["wear.coefficient=0.2", "numerics.integrator=direct"].map(str::to_owned));
+        sets.extend(["wear.coefficient=0.6", "numerics.integrator=direct"].map(str::to_owned));
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
         let worn = run(&sets, 12.0).moment();
         assert!(worn.contact_radius > 1.5, "{}", worn.contact_radius);
         let volume = 2.0 * CYLINDER.sliding_volume(worn.contact_radius);
         is_near(worn.wear_volume, volume, 2e-2);
-        is_near(worn.wear_volume, 0.2 * worn.dissipated_energy, 1e-2);
+        is_near(worn.wear_volume, 0.6 * worn.dissipated_energy, 1e-2);
     }
 }
 

@@ -131,7 +131,7 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
         if scenario.value("numerics.grid").is_some() {
             continue;
         }
-        for method in AbelMethod::ALL {
+        for &method in AbelMethod::of(scenario.setup().geometry) {
             let changed = scenario.with("numerics.method", method.name());
             let changed = changed.expect("a method");
             let setup = changed.setup();
@@ -329,6 +329,12 @@ proptest! {
         snapshot_at in proptest::collection::vec(positive(), 0..4),
         at_cycle in positive(),
     ) {
+        // A contact of any size does not lie within a gauge length.
+        if preset::ALL[preset].text.contains("gauge_length") {
+            return Ok(());
+        }
+        let setup = load(preset::ALL[preset].name, &[]).setup().clone();
+        let methods = AbelMethod::of(setup.geometry);
         // A bare text: escapes of TOML would be read as such.
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let number = |value: f64| format!("{value:?}");
@@ -350,11 +356,11 @@ proptest! {
             ("friction.coefficient", number(amplitude)),
             ("wear.coefficient", number(coefficient)),
             ("wear.law", ["archard", "power"][law].to_owned()),
-            ("numerics.method", AbelMethod::ALL[method].to_string()),
+            ("numerics.method", methods[method % methods.len()].to_string()),
             ("numerics.points", points.to_string()),
             ("numerics.steps_per_cycle", steps.to_string()),
         ];
-        let indenter = load(preset::ALL[preset].name, &[]).setup().indenter.clone();
+        let indenter = setup.indenter;
         // A punch ends its own domain, and a tip of its own size must lie within any other.
         let free = indenter.rim().is_none() && indenter.tip_radius() == 0.0;
         let domain = domain.filter(|_| free);
@@ -373,7 +379,7 @@ proptest! {
         prop_assert_eq!(&read, &scenario);
         prop_assert_eq!(read.title(), scenario.title());
         prop_assert_eq!(read.to_toml(), text);
-        let other = AbelMethod::ALL[other].name();
+        let other = methods[other % methods.len()].name();
         prop_assert_eq!(read.with("numerics.method", other), scenario.with("numerics.method", other));
         prop_assert!(!scenario.title().contains(char::is_control));
     }

@@ -104,6 +104,14 @@ impl AbelMethod {
     /// The methods of the paper and of its reference 9.
     pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
 
+    /// The methods of a contact of this `geometry`: those that were published are of round ones.
+    pub fn of(geometry: Geometry) -> &'static [Self] {
+        match geometry {
+            Geometry::Round => &Self::ALL,
+            Geometry::Line { .. } => &[Self::Product],
+        }
+    }
+
     /// The name in scenarios, on the screen and in files.
     pub fn name(self) -> &'static str {
         self.into()

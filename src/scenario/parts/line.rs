@@ -25,15 +25,13 @@ impl Parts<'_> {
         if !self.is_line() {
             let of_lines = ["indenter.length", "motion.tangential.gauge_length"];
             return match of_lines.iter().find(|key| self.has(key)) {
-                Some(key) => {
-                    Err(self.refuse(key, "is a key of [indenter] geometry = \"line\" only"))
-                }
+                Some(key) => Err(self.refuse(key, "needs geometry = \"line\" in [indenter]")),
                 None => Ok(Geometry::Round),
             };
         }
         let method: AbelMethod = self.choice("numerics.method")?;
         if method != AbelMethod::Product {
-            let rule = "is of round contacts; geometry = \"line\" needs method = \"product\"";
+            let rule = "must be \"product\" with geometry = \"line\": the other methods are of round contacts";
             return Err(self.refuse("numerics.method", rule));
         }
         if let Indenter::Table(measured) = indenter {
@@ -65,7 +63,7 @@ impl Parts<'_> {
         }
         let gauge: Option<f64> = self.get("motion.tangential.gauge_length");
         if gauge.is_none() && matches!(drive.tangential(), Some(Control::Displacement(_))) {
-            let meaning = "m: a displacement in the plane is told against a point of the half-space that lies so deep; \
+            let meaning = "depth of the point that the displacement of a line contact is told against, m; \
                            or give motion.tangential.control = \"force\"";
             return Err(self.missing("motion.tangential.gauge_length", meaning));
         }

@@ -9,6 +9,7 @@ use crate::math::abel::AbelMethod;
 use crate::simulation::Breakdown;
 
 pub mod errors;
+mod line;
 mod normal;
 pub mod problem;
 pub mod report;
@@ -47,7 +48,7 @@ pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
     let wanted = |problem: &&Problem| problems.contains(problem);
     let mut tasks = Vec::new();
     for &problem in Problem::ALL.iter().filter(wanted) {
-        for method in AbelMethod::ALL {
+        for &method in problem.methods() {
             let points = points.iter().copied();
             let points = points.filter(|&points| long || !problem.is_long(points));
             tasks.extend(points.map(|points| Task {

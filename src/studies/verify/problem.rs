@@ -7,8 +7,9 @@ use serde::Deserialize;
 use strum::{Display, IntoStaticStr, VariantArray};
 
 use super::errors::Errors;
-use super::{normal, sliding};
+use super::{line, normal, sliding};
 use crate::math::abel::AbelMethod;
+use crate::math::geometry::Geometry;
 use crate::simulation::Breakdown;
 
 /// A problem with a closed form.
@@ -32,6 +33,10 @@ pub enum Problem {
     Cattaneo,
     /// What endless fretting leaves of a paraboloid.
     Limit,
+    /// Partial slip of a cylinder on a flat.
+    Cylinder,
+    /// What endless fretting leaves of it.
+    CylinderLimit,
 }
 
 /// The border of the permanent stick zone: the quantity that is one number, and not one a node.
@@ -77,13 +82,23 @@ impl Problem {
             Self::FlatPunch => normal::flat_punch,
             Self::Cattaneo => sliding::cattaneo,
             Self::Limit => sliding::limit,
+            Self::Cylinder => line::cattaneo,
+            Self::CylinderLimit => line::limit,
         };
         solve(method, points)
     }
 
+    /// The methods that solve it: those of the paper are of round contacts.
+    pub fn methods(self) -> &'static [AbelMethod] {
+        match self {
+            Self::Cylinder | Self::CylinderLimit => AbelMethod::of(Geometry::Line { length: 1.0 }),
+            _ => AbelMethod::of(Geometry::Round),
+        }
+    }
+
     /// Whether runs with `points` cells need `--all`: each run to the limiting profile takes seconds.
     pub fn is_long(self, points: usize) -> bool {
-        self == Self::Limit && points > 200
+        matches!(self, Self::Limit | Self::CylinderLimit) && points > 200
     }
 }
 

@@ -23,8 +23,14 @@ impl Worker {
         if let Some(comparison) = &self.comparison {
             return self.compare(places, comparison.from);
         }
-        let now = self.run.simulation().setup().method;
-        let method = shifted(&AbelMethod::ALL, now, places);
+        let setup = self.run.simulation().setup();
+        let methods = AbelMethod::of(setup.geometry);
+        if methods.len() < 2 {
+            return self
+                .screen
+                .notice("a line contact has the method product only");
+        }
+        let method = shifted(methods, setup.method, places);
         self.change("numerics.method", method.name());
     }
 

@@ -7,7 +7,7 @@
 //! the study after that many seconds; `--all` prints a line per scenario. `--estimate` judges
 //! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy; `--checks` the checks of
 //! runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are long runs, those from 2000000 on
-//! have thresholds, courses, blocks, scars and other kinds in them.
+//! have thresholds, courses, blocks, scars and other kinds in them, and those from 3000000 on are line contacts.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 

@@ -86,7 +86,8 @@ impl Geometry {
             Self::Round => name.to_owned(),
             Self::Line { .. } => name
                 .replace("radii", "half-widths")
-                .replace("radius", "half-width"),
+                .replace("radius", "half-width")
+                .replace("3D profile", "section"),
         }
     }
 

@@ -103,8 +103,13 @@ fn warnings(setup: &Setup) -> Vec<String> {
     let slope = slope(setup, radius);
     if slope > STEEP {
         lines.push(format!(
-            "outside the theory: the indenter's slope at the contact's edge, a/R of a sphere, is \
-             {slope:.2}; a half-space with small slopes needs less than {STEEP}"
+            "outside the theory: the indenter's slope at the contact's edge, a/R of a {}, is \
+             {slope:.2}; a half-space with small slopes needs less than {STEEP}",
+            if setup.geometry.is_line() {
+                "cylinder"
+            } else {
+                "sphere"
+            }
         ));
     }
     let pressure = unworn.mean_pressure(depth) / setup.material.normal_modulus();

@@ -47,6 +47,7 @@ impl Job<'_> {
         lines.push(("worn volume", format!("{volume:.4e} m3")));
         lines.push(("dissipated energy", format!("{work:.4e} J")));
         let setup = simulation.setup();
+        lines.extend(setup.geometry.remark().map(|told| ("geometry", told)));
         lines.extend(setup.wear.map(|law| {
             let k = law.coefficient();
             let per_load = k * setup.material.friction() * 1e9;

@@ -81,13 +81,14 @@ impl Parts<'_> {
 
     /// Refuses a gauge length inside the contact, whose domain ends at `domain` (m).
     pub(super) fn check_gauge(&self, drive: &Drive, domain: f64) -> Result<(), Refusal> {
+        let is_given = self.has("motion.tangential.gauge_length");
         match drive.gauge_length().filter(|&gauge| gauge <= domain) {
-            Some(_) => {
+            Some(_) if is_given => {
                 let least = length(domain);
                 let rule = format!("must be greater than the contact can become wide, {least} m");
                 Err(self.refuse("motion.tangential.gauge_length", rule))
             }
-            None => Ok(()),
+            _ => Ok(()),
         }
     }
 }

@@ -76,6 +76,7 @@ fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
         ("stick radius now", value(moment.stick_radius, "m")),
         ("permanent stick radius c", value(c, "m")),
         ("depth d", always(moment.depth, "m")),
+        ("length of the line", value(setup.geometry.length(), "m")),
         ("F_z", always(moment.normal_force, "N")),
         ("u_x", value(moves.then_some(moment.shift), "m")),
         ("F_x", value(moves.then_some(moment.tangential_force), "N")),

@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 use super::model::Model;
 use super::state::State;
 use crate::math::abel::AbelMethod;
-use crate::math::abel::kink;
+use crate::math::abel::{kink, line};
+use crate::math::geometry::Geometry;
 
 /// g, and where the scar in it ends.
 #[derive(Debug, Clone)]
@@ -59,6 +60,13 @@ impl Profile {
         // Eq. (1) of what the line in t to the next node has too much.
         let kinks = kink::hat([t[last], next], wear(last), end);
         for (g, &t) in self.g.iter_mut().zip(t).skip(last + 1) {
+            if model.setup.geometry.is_line() {
+                *g += kinks
+                    .iter()
+                    .map(|kink| line::image_of_kink(kink, t))
+                    .sum::<f64>();
+                continue;
+            }
             let roots = kinks
                 .iter()
                 .map(|kink| kink.jump * (t - kink.at).max(0.0).sqrt());
@@ -92,12 +100,19 @@ fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64
     Some((last, end.min(next)))
 }
 
-/// 2π∫ r dr of the worn depth (m) of a scar, m³.
+/// The volume of the worn depth (m) of a scar, m³.
 pub(super) fn scar_volume(model: &Model, wear: &[f64]) -> f64 {
     let t = model.grid.squares();
     let tail = end_of_scar(model, |j| wear[j]).map_or(0.0, |(last, end)| {
         let next = t.get(last + 1).copied().unwrap_or(end);
-        0.5 * PI * wear[last] * (next - end)
+        match model.setup.geometry {
+            Geometry::Round => 0.5 * PI * wear[last] * (next - end),
+            Geometry::Line { .. } if next <= end => 0.0,
+            Geometry::Line { length } => {
+                let hat = kink::hat([t[last], next], wear[last], end);
+                -2.0 * length * kink::line_integral(&hat, model.grid.radius())
+            }
+        }
     });
     model.volume(wear) - tail
 }

@@ -31,10 +31,11 @@
 //! - **At x = 0**: g = 0, w = e(0).
 //! - **Known failure**: a wedge is curved in r² at the tip, as a cone is.
 
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, LN_2};
 
 use nalgebra::DMatrix;
 
+use super::dome::Dome;
 use super::kernel::{asin_step, leg, root_step, square_step};
 use super::kink::Kink;
 
@@ -95,6 +96,51 @@ pub fn add_to_displacement(kinks: &[Kink], squares: &[f64], w: &mut [f64]) {
             *value += FRAC_2_PI * kink.jump * (t.sqrt() * root - kink.at * arc);
         }
     }
+}
+
+/// Eq. (1L): what a kink of f makes of g at the place x² = `square`: J [x² acos(x_m/x) + x_m √(x² − t_m)].
+pub fn image_of_kink(kink: &Kink, square: f64) -> f64 {
+    let root = (square - kink.at).max(0.0).sqrt();
+    let at = kink.at.sqrt();
+    kink.jump * (square * root.atan2(at) + at * root)
+}
+
+/// Eq. (2L): the surface displacement of a dome h √(a² − y²) at x² = `square`,
+/// h a − (h/π) [(a + x) ln(1 + x/a) + (a − x) ln|1 − x/a|].
+pub fn of_dome(dome: &Dome, square: f64) -> f64 {
+    let (edge, x) = (dome.edge.sqrt(), square.sqrt());
+    let part = |x: f64| match x > -edge {
+        true => (edge + x) * (x / edge).ln_1p(),
+        false if x == -edge => 0.0,
+        false => (edge + x) * (-1.0 - x / edge).ln(),
+    };
+    dome.height * (edge - FRAC_1_PI * (part(x) + part(-x)))
+}
+
+/// ∫ dx/x of a dome from 0 to its edge without that of its polyline in t, which ends there; ∫ (√(a² − x²) − a) dx/x =
+/// a (ln 2 − 1).
+pub fn beyond_polyline(dome: &Dome, squares: &[f64]) -> f64 {
+    let tip = dome.at(0.0);
+    let cell = |from: f64, to: f64| {
+        let [a, b] = [dome.at(from) - tip, dome.at(to) - tip];
+        let slope = (b - a) / (to - from);
+        let log = if from > 0.0 {
+            (a - slope * from) * (to / from).ln()
+        } else {
+            0.0
+        };
+        0.5 * (log + b - a)
+    };
+    let inside = squares[..=dome.last]
+        .windows(2)
+        .map(|pair| cell(pair[0], pair[1]));
+    let last = squares[dome.last];
+    let end = if dome.edge > last {
+        cell(last, dome.edge)
+    } else {
+        0.0
+    };
+    tip * (LN_2 - 1.0) - inside.sum::<f64>() - end
 }
 
 /// ∫ dx/x of the kinks from x = 0 to `radius`.
@@ -201,6 +247,50 @@ mod tests {
             let hat = log_integral(&kinks, end);
             assert!((hat - missing).abs() < 1e-13, "{hat:e} {missing:e}");
         }
+    }
+
+    /// By quadrature: (2L) with y = x sin φ, and the integral over dx/x.
+    #[test]
+    fn a_dome_and_a_kink_have_their_images() {
+        let dome = Dome {
+            height: 0.7,
+            edge: 0.81,
+            last: 45,
+            beyond: 0.0,
+        };
+        let parts = 40_000;
+        let turns = |i: i32| 0.5 * PI * (f64::from(i) + 0.5) / f64::from(parts);
+        let mean = |of: &dyn Fn(f64) -> f64| {
+            let sum: f64 = (0..parts).map(|i| of(turns(i).sin())).sum();
+            0.5 * PI * sum / f64::from(parts)
+        };
+        let kink = Kink {
+            at: 0.25,
+            jump: 3.0,
+        };
+        for x in [0.3_f64, 0.7, 0.95, 1.3] {
+            let slip = |s: f64| (dome.at(x * x * s * s) - dome.at(0.0)) / s;
+            let exact = dome.at(0.0) + FRAC_2_PI * mean(&slip);
+            let found = of_dome(&dome, x * x);
+            assert!((found - exact).abs() < 1e-5, "{x}: {found} {exact}");
+            let slope = |s: f64| {
+                if x * s > 0.5 {
+                    x * s * 2.0 * x * s * 3.0
+                } else {
+                    0.0
+                }
+            };
+            let (found, exact) = (image_of_kink(&kink, x * x), mean(&slope));
+            assert!((found - exact).abs() < 1e-3, "{x}: {found} {exact}");
+        }
+        let grid = RadialGrid::uniform(75, 1.5).expect("a grid");
+        let beyond = beyond_polyline(&dome, grid.squares());
+        let fine = RadialGrid::uniform(7500, 1.5).expect("a grid");
+        let finer = beyond_polyline(&Dome { last: 4499, ..dome }, fine.squares());
+        assert!(
+            beyond > 0.0 && finer < 2e-3 * beyond,
+            "{beyond:e} {finer:e}"
+        );
     }
 
     #[test]

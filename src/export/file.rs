@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -126,27 +126,18 @@ pub fn write_with<T, E: From<WriteError>>(
     let failed = WriteError::io(path);
     let prefix = temporary_of(path);
     let mut builder = tempfile::Builder::new();
-    // Results are ordinary files, not secrets: what the umask leaves of 0666.
-    let permissions = fs::Permissions::from_mode(0o666);
-    builder
-        .prefix(&prefix)
-        .suffix(TEMPORARY)
-        .permissions(permissions);
-    let made = builder.tempfile_in(directory_of(path));
-    let mut file = made.map_err(|error| failed(without_path(error)))?;
+    builder.prefix(&prefix).suffix(TEMPORARY);
+    // Results are ordinary files, not secrets: what the umask leaves of 0666. Opened here, an error does not name the
+    // temporary file, which means nothing to a user.
+    let mut options = fs::File::options();
+    options.read(true).write(true).create_new(true).mode(0o666);
+    let made = builder.make_in(directory_of(path), |path| options.open(path));
+    let mut file = made.map_err(failed)?;
     let filled = fill(file.as_file_mut())?;
     file.as_file().sync_all().map_err(failed)?;
     let persisted = file.persist(path);
     persisted.map_err(|error| failed(error.error))?;
     Ok(filled)
-}
-
-/// An error of the system without the name of a temporary file, which means nothing to a user.
-fn without_path(error: io::Error) -> io::Error {
-    let inner = error.get_ref().and_then(|inner| inner.source());
-    let cause = inner.and_then(|cause| cause.downcast_ref::<io::Error>());
-    let code = cause.and_then(io::Error::raw_os_error);
-    code.map_or(error, io::Error::from_raw_os_error)
 }
 
 /// The directory of a file.

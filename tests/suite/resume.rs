@@ -44,7 +44,7 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
         dir.wait_for(&mut child, &format!("{out}/state-2.csv"));
         signal(&child, sign);
         let said = end(child);
-        assert_eq!(said.code, 1, "{}", said.err);
+        assert_eq!(said.code, 75, "{}", said.err);
         let checkpoint = format!("{out}/run.checkpoint");
         // The files of an interrupted run are those of the moment.
         let history = dir.table(&format!("{out}/history.csv"));
@@ -133,7 +133,8 @@ fn an_older_checkpoint_does_not_undo_what_its_run_has_done_since() {
     while cycle("x/run.checkpoint") <= reached {
         assert!(matches!(child.try_wait(), Ok(None)), "an early end");
     }
-    kill(child);
+    signal(&child, "TERM");
+    end(child);
     let before = dir.inventory();
     dir.refuse_line("run --resume older", "the run has come further there");
     assert!(dir.inventory() == before);

@@ -73,6 +73,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&why_stop)));
     guard.is_done();
+    let is_bug = outcome.is_err();
     let outcome = outcome.unwrap_or_else(|_| Ok(Some(job.go_back())));
     if matches!(outcome, Ok(Some(_))) {
         locked(&job.safe).save(&job.session, &job.job);
@@ -109,7 +110,8 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
         Ok(Some(why)) => {
             complain(&format!("{why}; {}", job.how_to_resume()));
-            let can_resume = locked(&job.safe).checkpoints.kept().is_some();
+            // After a bug, the same command would end in the same place.
+            let can_resume = !is_bug && locked(&job.safe).checkpoints.kept().is_some();
             Ok(ExitCode::from(if can_resume { UNFINISHED } else { FAILED }))
         }
         Err(error) => Err(error.context(format!("{} (saved in {directory})", job.name))),

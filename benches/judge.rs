@@ -21,6 +21,7 @@ mod random_kinds;
 mod random_scenarios;
 
 use judge::{Case, Found, QUANTITIES, UNDERSTATED, judge, judge_estimate, quantile, tally_checks};
+use mdr_tui::reading::Quantity;
 use mdr_tui::studies::refinement::Verdict;
 use nix::time::{ClockId, clock_gettime};
 
@@ -110,11 +111,11 @@ fn estimates(seeds: std::ops::Range<u64>, limit: f64, shows_all: bool) {
         }
     }
     println!("{} runs estimated", found.len());
-    for (name, pick) in QUANTITIES {
-        println!("{name}");
+    for &of in QUANTITIES {
+        println!("{}", of.name());
         let ratios = found
             .iter()
-            .map(|(estimate, truth)| (pick(estimate), pick(truth)));
+            .map(|(estimate, truth)| (estimate[of], truth[of]));
         // What round-off makes is no error of cells and steps.
         let ratios = ratios.filter(|(_, truth)| *truth > 1e-9);
         histogram(
@@ -130,12 +131,13 @@ fn show(case: &Case, accuracy: f64) {
         Err(why) => println!("  {:4}  failed: {why}", case.seed),
         Ok(found) => {
             let truth = match &found.truth {
-                Ok(truth) => QUANTITIES
-                    .map(|(name, pick)| {
-                        let (error, estimate) = (pick(truth), pick(&found.estimate));
-                        format!("{name} {error:.1e} (est {estimate:.1e})")
-                    })
-                    .join("  "),
+                Ok(truth) => {
+                    let one = |of: &Quantity| {
+                        let (error, estimate) = (truth[*of], found.estimate[*of]);
+                        format!("{} {error:.1e} (est {estimate:.1e})", of.name())
+                    };
+                    QUANTITIES.iter().map(one).collect::<Vec<_>>().join("  ")
+                }
                 Err(why) => why.clone(),
             };
             println!(
@@ -186,15 +188,16 @@ fn summarize(cases: &[Case], accuracy: f64) {
         of(&|one| is_right(one) && !one.passes),
         of(&is_right),
     );
-    for (name, pick) in QUANTITIES {
+    for &number in QUANTITIES {
         let met = found.iter().filter(|one| one.verdict == Verdict::Met);
         let pairs: Vec<_> = met
-            .filter_map(|one| Some((pick(&one.estimate), pick(one.truth.as_ref().ok()?))))
+            .filter_map(|one| Some((one.estimate[number], one.truth.as_ref().ok()?[number])))
             .collect();
         let count =
             |is: &dyn Fn(f64, f64) -> bool| pairs.iter().filter(|one| is(one.0, one.1)).count();
         println!(
-            "          {name}: {} of {} beyond the accuracy, {} understated {UNDERSTATED} times",
+            "          {}: {} of {} beyond the accuracy, {} understated {UNDERSTATED} times",
+            number.name(),
             count(&|_, truth| truth > accuracy),
             pairs.len(),
             count(&|estimate, truth| truth > (UNDERSTATED * estimate).max(1e-9)),

@@ -50,11 +50,10 @@ pub(super) fn estimated(
     session: &Session,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Vec<(String, String)>, String> {
-    if session.simulation().moment().wear_volume <= 0.0 {
-        return Err("nothing has worn, so there is no worn depth to estimate the error of".into());
-    }
+    let moment = session.simulation().moment();
+    let has_worn = moment.wear_volume > moment.initial_volume;
     match refinement::estimate(session, go_on) {
-        Ok(error) => Ok(refinement::statements_of(&error)),
+        Ok(error) => Ok(refinement::statements_of(&error, has_worn)),
         Err(SessionError::Interrupted) => Err("interrupted: no error was estimated".into()),
         Err(error) => Err(format!("cannot estimate the error: a coarser run {error}")),
     }

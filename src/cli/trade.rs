@@ -52,7 +52,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         let Some(Reached { seconds, error, .. }) = reached else {
             bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
         };
-        let (error, found) = (error.worst(), table(&[], trials));
+        let (error, found) = (error.promised(), table(&[], trials));
         results::print(options.output.json.then_some(&found), || {
             format!(
                 "# no fixed setting tried; estimated error {error:.1e} at worst (depth, V, E_d, F_x), in \

@@ -82,8 +82,9 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     for (key, value) in session.statements() {
         line(key, value);
     }
-    let is_measured = |(key, _): &(String, String)| key == UNMEASURED.0;
-    if setup.wear.is_some() && !session.statements().iter().any(is_measured) {
+    let is_measured = |(key, _): &(String, String)| key.starts_with(UNMEASURED.0);
+    let moves = setup.drive.tangential().is_some();
+    if moves && !session.statements().iter().any(is_measured) {
         line(UNMEASURED.0, UNMEASURED.1);
     }
     for change in session.changes() {

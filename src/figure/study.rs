@@ -29,11 +29,12 @@ const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 const REGIME: &str = "regime";
 
 /// Quantities whose estimated error studies can record, and the column that holds it, relative to the quantity.
-const ERRORS: [(&str, &str); 4] = [
-    ("scar_depth_m", "estimated_error"),
+const ERRORS: [(&str, &str); 5] = [
+    ("scar_depth_m", "estimated_error_deepest"),
     ("wear_volume_m3", "estimated_error_volume"),
     ("dissipated_energy_J", "estimated_error_energy"),
-    ("F_x_amplitude_N", "estimated_error_force"),
+    ("energy_per_cycle_J", "estimated_error_loop"),
+    ("contact_radius_m", "estimated_error_contact_radius"),
 ];
 
 /// The sheet of a study that is called `name`: a chart for each of `columns`, or for the first ones.

@@ -259,10 +259,6 @@ impl CycleFigures {
     /// The figures of a finely stepped period on the parts of `setup`.
     pub fn of(period: &FinePeriod, setup: &Setup) -> Self {
         let points = &period.points;
-        let extent = |of: fn(&PeriodPoint) -> f64| {
-            let highest = points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-            0.5 * (highest - points.iter().map(of).fold(f64::INFINITY, f64::min))
-        };
         let length = period.cycles;
         let mean = |of: fn(&PeriodPoint) -> f64| {
             let steps = points.windows(2);
@@ -283,8 +279,8 @@ impl CycleFigures {
         }
         let measured = Measured {
             energy: period.energy_per_cycle(),
-            shift: extent(|point| point.sensed),
-            force: extent(|point| point.tangential_force),
+            shift: period.amplitude(|point| point.sensed),
+            force: period.amplitude(|point| point.tangential_force),
             normal_force: mean(|point| point.normal_force),
             contact_radius: mean(|point| point.contact_radius),
             stick_radius: period.permanent_stick_radius(),

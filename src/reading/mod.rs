@@ -6,6 +6,7 @@ pub mod fatigue;
 mod limits;
 mod log;
 pub mod observation;
+mod quantity;
 mod scar_end;
 pub mod subsurface;
 
@@ -13,3 +14,4 @@ pub use checks::{Check, Subject, verdict};
 pub use cycle_figures::{CycleFigures, Regime};
 pub use log::{Log, Passed};
 pub use observation::{Curves, Moment, Observation, Zone};
+pub use quantity::Quantity;

@@ -8,7 +8,7 @@ use super::{nearest, printable, schema};
 use crate::math::scan::largest;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
-use crate::reading::{CycleFigures, Moment};
+use crate::reading::{CycleFigures, Moment, Quantity};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
@@ -126,10 +126,10 @@ impl<'a> Reading<'a> {
         self.crossland.get_or_init(find).as_ref().map(of)
     }
 
-    /// A number that the headers of the run's files state.
-    fn stated(&self, key: &str) -> Value {
+    /// The estimated error that the headers of the run's files state.
+    fn stated(&self, quantity: Quantity) -> Value {
         let mut stated = self.session.statements().iter();
-        let found = stated.find(|(known, _)| known == key);
+        let found = stated.find(|(known, _)| known == quantity.column());
         let number = found.and_then(|(_, value)| value.parse::<f64>().ok());
         number.into()
     }
@@ -176,11 +176,17 @@ pub fn named(name: &str) -> Result<&'static Scalar, String> {
 /// Makes the list of all scalars, and of the names of those in every history.
 macro_rules! scalars {
     (history { $($column:literal, $of:literal, |$row:ident| $value:expr;)* }
-     further { $($name:literal, $meaning:literal, |$r:ident| $read:expr;)* }) => {
+     further { $($name:literal, $meaning:literal, |$r:ident| $read:expr;)* }
+     stated { $($quantity:ident),* }) => {
         /// All scalars; those of `history.csv` stand first, in the order of its columns.
         pub const SCALARS: &[Scalar] = &[
             $(Scalar { name: $column, meaning: $of, read: |$row| Value::from($value) },)*
             $(Scalar { name: $name, meaning: $meaning, read: |$r| Value::from($read) },)*
+            $(Scalar {
+                name: Quantity::$quantity.column(),
+                meaning: Quantity::$quantity.meaning(),
+                read: |r| r.stated(Quantity::$quantity),
+            },)*
         ];
 
         /// The columns of `history.csv`, in order.
@@ -231,14 +237,6 @@ scalars! {
         "u_x_amplitude_m", "half the range of u_x in a cycle",
             |r| r.figure(|figures| Some(figures.displacement_amplitude));
         "mean_F_z_N", "mean normal force of a cycle", |r| r.figure(|figures| Some(figures.normal_force));
-        "estimated_error", "estimated error of the worn depth, rms over the scar, relative to its largest value",
-            |r| r.stated("estimated_error");
-        "estimated_error_volume", "estimated error of the worn volume, relative to it",
-            |r| r.stated("estimated_error_volume");
-        "estimated_error_energy", "estimated error of the friction work, relative to it",
-            |r| r.stated("estimated_error_energy");
-        "estimated_error_force", "estimated error of F_x, relative to its amplitude",
-            |r| r.stated("estimated_error_force");
         "swt_Pa", "largest Smith-Watson-Topper stress", |r| r.swt(|peak| peak.value);
         "swt_x_m", "place of the largest SWT along the motion", |r| r.swt(|peak| peak.x);
         "swt_z_m", "depth of the largest SWT", |r| r.swt(|peak| peak.z);
@@ -249,6 +247,9 @@ scalars! {
         "crossland_z_m", "depth of the largest Crossland stress", |r| r.crossland(|peak| peak.z);
         "crossland_ratio", "Crossland over the shear fatigue limit",
             |r| r.limits().and_then(|both| Some(r.crossland(|peak| peak.value)? / both.shear));
+    }
+    stated {
+        WornDepth, Deepest, Volume, Energy, Force, Loop, Pressure, ContactRadius, StickRadius
     }
 }
 

@@ -71,6 +71,24 @@ impl FinePeriod {
         area(&self.points).abs() / self.cycles
     }
 
+    /// Half the range of what `of` picks, such as F_x, N.
+    pub fn amplitude(&self, of: fn(&PeriodPoint) -> f64) -> f64 {
+        let values = || self.points.iter().map(of);
+        let highest = values().fold(f64::NEG_INFINITY, f64::max);
+        0.5 * (highest - values().fold(f64::INFINITY, f64::min))
+    }
+
+    /// F_x, N, at a `cycle` of the period, on a straight line between its moments.
+    pub fn force_at(&self, cycle: f64) -> f64 {
+        let last = self.points.len() - 1;
+        let next = self.points.partition_point(|point| point.cycle < cycle);
+        let next = next.clamp(1, last);
+        let [before, after] = [self.points[next - 1], self.points[next]];
+        let length = (after.cycle - before.cycle).max(f64::MIN_POSITIVE);
+        let share = ((cycle - before.cycle) / length).clamp(0.0, 1.0);
+        before.tangential_force + share * (after.tangential_force - before.tangential_force)
+    }
+
     /// The smallest stick radius, m.
     pub fn permanent_stick_radius(&self) -> f64 {
         let radii = self.points.iter().map(|point| point.stick_radius);

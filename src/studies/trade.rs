@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
-use crate::reading::{Moment, Subject};
+use crate::reading::{Moment, Quantity, Subject};
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Refusal, Scenario};
@@ -175,7 +175,7 @@ impl From<Reached> for Reference {
             ..
         } = reached.rung;
         Self {
-            error: reached.error.worst(),
+            error: reached.error.promised(),
             seconds: reached.seconds,
             session,
             outcome,
@@ -244,8 +244,8 @@ impl Trial {
             Ok((session, seconds)) => {
                 let errors = Outcome::of(&session).against(&reference.outcome);
                 let complaints = complaints(&session, &reference.session);
-                if complaints.is_empty() && errors.worst().is_finite() {
-                    point = Some([seconds, errors.worst() + reference.error]);
+                if complaints.is_empty() && errors.promised().is_finite() {
+                    point = Some([seconds, errors.promised() + reference.error]);
                 }
                 let simulation = session.simulation();
                 let (moment, exact) =
@@ -253,12 +253,18 @@ impl Trial {
                 let radius = |of: &Moment| of.permanent_stick_radius.unwrap_or(f64::NAN);
                 // In contact radii; it does not count towards the worst.
                 let stick = (radius(&moment) - radius(&exact)).abs() / exact.contact_radius;
-                let [depth, volume, work, force, _] = errors.numbers();
                 row.push(seconds.into());
                 row.push(simulation.steps().into());
                 row.push(simulation.stats().transforms.into());
                 let finite = |error: f64| Some(error).filter(|error| error.is_finite());
-                row.extend([depth, volume, work, force, stick].map(|error| finite(error).into()));
+                let told = [
+                    Quantity::WornDepth,
+                    Quantity::Volume,
+                    Quantity::Energy,
+                    Quantity::Force,
+                ];
+                let told = told.into_iter().map(|of| errors[of]);
+                row.extend(told.chain([stick]).map(|error| finite(error).into()));
                 row.push(match complaints.is_empty() {
                     true => "ok".into(),
                     false => complaints.join(", ").into(),

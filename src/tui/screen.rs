@@ -170,7 +170,7 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let present = frame.present.map(|present| format!("present {present:.2}"));
     let verdict = verdict(&frame.checks);
     let errors = frame.errors.as_ref().ok();
-    let error = errors.map(|(_, errors)| errors.promised());
+    let error = errors.map(|(_, errors)| errors.of_wear());
     let error = error.filter(|error| error.is_finite()).map(wear_error);
     let mut warnings = frame.facts.warnings.iter();
     let is_outside = warnings.any(|warning| warning.starts_with("outside"));

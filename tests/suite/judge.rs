@@ -5,7 +5,7 @@
 
 #![allow(dead_code, reason = "the bench and the tests need a part of it each")]
 
-use mdr_tui::reading::Check;
+use mdr_tui::reading::{Check, Quantity};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::studies::refinement::{self, Budget, Difference, Level, Outcome, Verdict};
@@ -19,17 +19,8 @@ const FINER: f64 = 3.0;
 /// Ratio of the tolerances of their jumps over cycles.
 const FINER_JUMPS: f64 = 30.0;
 
-/// One number of a difference.
-pub type Pick = fn(&Difference) -> f64;
-
 /// The numbers that a run states with their errors.
-pub const QUANTITIES: [(&str, Pick); 5] = [
-    ("worn depth", |one| one.worn_depth),
-    ("volume", |one| one.volume),
-    ("E_d", |one| one.work),
-    ("F_x", |one| one.force),
-    ("p", |one| one.pressure),
-];
+pub const QUANTITIES: &[Quantity] = Quantity::ALL;
 
 /// An error is understated where the estimate is less than it by more than this factor.
 pub const UNDERSTATED: f64 = 3.0;
@@ -170,7 +161,7 @@ pub fn tally_checks(seeds: impl Iterator<Item = u64>) -> [[usize; 2]; 2] {
         }
         if truth.promised() <= 1e-2 {
             right[usize::from(passes)] += 1;
-        } else if truth.volume.max(truth.work) > 1e-2 {
+        } else if truth[Quantity::Volume].max(truth[Quantity::Energy]) > 1e-2 {
             wrong[usize::from(passes)] += 1;
         }
     }

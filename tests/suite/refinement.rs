@@ -65,7 +65,6 @@ fn an_accuracy_is_kept_on_random_scenarios() {
         for seed in seeds {
             let case = judge(seed, accuracy, f64::INFINITY, &clock);
             let found = case.reached.expect("a result");
-            let truth = found.truth.clone().expect("a fine run").promised();
             assert!(!found.is_missed(accuracy), "{seed}: {found:?}");
             if let Some(reliability) = found.reliability() {
                 assert!(reliability > 1.0 / 3.0, "{seed}: {found:?}");
@@ -73,7 +72,7 @@ fn an_accuracy_is_kept_on_random_scenarios() {
             match found.verdict {
                 Verdict::Met => met += 1,
                 // A run without wear has no error of it.
-                verdict => assert_eq!((verdict, truth), (Verdict::Unworn, 0.0), "{seed}"),
+                verdict => assert_eq!(verdict, Verdict::Unworn, "{seed}"),
             }
         }
         assert!(met >= 1, "{met}");
@@ -98,9 +97,9 @@ fn coarser_twins_tell_the_errors_of_a_run() {
     let seeds = (700..723).chain(724..790);
     let cases: Vec<_> = seeds.filter_map(|seed| judge_estimate(seed).ok()).collect();
     assert!(cases.len() >= 80, "{} runs came to their end", cases.len());
-    for (name, pick) in QUANTITIES {
+    for &of in QUANTITIES {
         let pairs = cases.iter();
-        let ratios = pairs.map(|(estimate, truth)| (pick(estimate), pick(truth)));
+        let ratios = pairs.map(|(estimate, truth)| (estimate[of], truth[of]));
         // What round-off makes is no error of cells and steps.
         let ratios: Vec<f64> = ratios
             .filter(|(_, truth)| *truth > 1e-9)
@@ -110,9 +109,13 @@ fn coarser_twins_tell_the_errors_of_a_run() {
         let understated = ratios.iter().filter(|ratio| **ratio < 1.0 / UNDERSTATED);
         let understated = understated.count();
         let is_seldom = understated <= 1 + all / 20;
-        assert!(is_seldom, "{name}: {understated} of {all} by more than 3");
+        assert!(
+            is_seldom,
+            "{}: {understated} of {all} by more than 3",
+            of.name()
+        );
         let typical = quantile(&ratios, 0.5);
-        assert!((0.8..3.0).contains(&typical), "{name}: {typical}");
+        assert!((0.8..3.0).contains(&typical), "{}: {typical}", of.name());
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 
 use mdr_tui::math::abel::AbelMethod;
+use mdr_tui::reading::Quantity;
 use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::refinement::{Level, Outcome};
 use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
@@ -89,9 +90,9 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
         },
     };
     let errors = end(&setting).against(&end(&reference));
-    assert!(errors.worn_depth <= 8e-3, "{errors:?}");
+    assert!(errors[Quantity::WornDepth] <= 8e-3, "{errors:?}");
     // The references differ by some of it.
-    assert!(errors.worst() <= 1e-2, "{errors:?}");
+    assert!(errors.promised() <= 1e-2, "{errors:?}");
 
     // What no fixed setting meets, a search may.
     let Said { code, out, err } = small("--accuracy 2e-4");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::reading::verdict;
+use crate::reading::{Quantity, verdict};
 use crate::scenario::escape;
 use crate::scenario::scalars::Value;
 
@@ -63,8 +63,9 @@ impl Job<'_> {
             lines.push((error, "not run (--estimate-error measures it)".into()));
         }
         for (key, value) in stated {
-            let words = refinement::words_of(key);
-            lines.extend(words.map(|words| (error, format!("{value}   {words}"))));
+            let mut quantities = Quantity::ALL.iter();
+            let of = quantities.find(|quantity| quantity.column() == key);
+            lines.extend(of.map(|of| (error, format!("{value}   of {}", of.name()))));
         }
         if let Some(verdict) = verdict(&self.session.checks()) {
             lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));

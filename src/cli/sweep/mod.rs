@@ -196,6 +196,12 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
             "{inaccurate} of {there} points did not reach numerics.accuracy; their status says what they reached"
         ));
     }
+    let unchecked = output.ledger.count(Success::Unchecked);
+    if unchecked > 0 && !options.quiet {
+        complain(&format!(
+            "{unchecked} of {there} points fail a check; their status says which, and by how much"
+        ));
+    }
     if failed > 0 {
         complain(&format!(
             "{failed} of {there} points failed; their status says why, and --resume --failed runs \

@@ -184,11 +184,25 @@ impl Search<'_> {
         };
         let allowed = tolerance * setup.depth_scale(first.elastic_depth);
         let is_quiet = covered >= period && error(state, first, &jump, allowed, tolerance) <= QUIET;
-        is_quiet.then(|| {
-            self.model.plan.image(&jump.wear, &mut jump.image);
-            memory.stats.transforms += 1;
-            jump
-        })
+        if !is_quiet {
+            return None;
+        }
+        self.model.plan.image(&jump.wear, &mut jump.image);
+        memory.stats.transforms += 1;
+        // The contact at the goal is that of a cycle on its profile.
+        let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
+        let steady = steady_cycle::cycle(
+            self.model,
+            memory,
+            spare,
+            scratch,
+            [&jump.wear, &jump.image],
+        );
+        if steady.is_err() {
+            go_back(memory, self.springs);
+        }
+        jump.steady = steady.ok()?;
+        Some(jump)
     }
 
     /// A jump of at most `most` cycles whose error is allowed, or one so short that direct steps are better.

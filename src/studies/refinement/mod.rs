@@ -14,5 +14,5 @@ pub use estimate::{by_twin, estimate, twin};
 pub use ladder::{Budget, Reached, SearchError, Verdict, climb, run_to_accuracy};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
-pub use resolve::{Resolved, resolve, resolve_soon, statements_of, words_of};
+pub use resolve::{Resolved, resolve, resolve_soon, statements_of};
 pub use rung::{Rung, run};

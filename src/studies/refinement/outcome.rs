@@ -1,22 +1,36 @@
-//! The quantities by which two runs of a scenario are compared: the scar, its volume, and forces
-//! and pressures at the end.
+//! The quantities by which two runs of a scenario are compared: those of [`Quantity`].
+
+use std::ops::Index;
+
+use strum::EnumCount;
 
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
 use crate::math::scan::{largest, rms};
+use crate::reading::Quantity;
 use crate::scenario::session::Session;
-use crate::simulation::drive::Control;
+use crate::simulation::Simulation;
 
-/// Radii at which scars are compared.
+/// Radii at which scars and pressures are compared.
 const RADII: usize = 401;
 
-/// p is compared up to this part of the contact radius, and this far from the stick border: at both, p
-/// or its slope is singular, and what a node shows depends on where it lies.
-const INSIDE: f64 = 0.95;
+/// Moments of the last cycle at which forces are compared; the [fine period](Simulation::fine_period) has a point at each.
+const MOMENTS: usize = 20;
+
+/// p is compared this far from the axis, the stick border and the contact's edge, in contact radii: there p or its slope
+/// is singular, and what a node shows depends on where it lies.
+const BORDER: f64 = 0.05;
+
+/// E_d and the loop's area are told relative to at least this part of 4μF_zU: what rubs no more than that is a line to
+/// any rig.
+const LEAST_AREA: f64 = 1e-3;
 
 /// V and E_d err by at least this part of what the worn depth does.
 const OF_SCAR: f64 = 0.3;
+
+/// The deepest wear errs by at least this part of what the worn depth does, rms: it is one node's.
+const OF_DEEPEST: f64 = 1.0;
 
 /// The order that an error is estimated by. Orders of 1.5 to 2 are usual, so that estimates are twice the true error in
 /// the median. An order that is read from two differences is no better, since neighbouring levels scatter.
@@ -36,76 +50,111 @@ pub struct Outcome {
     pub(super) profile: Vec<f64>,
     /// What has worn of it since, m.
     pub(super) wear: Vec<f64>,
-    /// V that has worn since the run began, m³.
+    /// V that the run itself has worn, m³.
     pub volume: f64,
     /// E_d, J.
-    pub work: f64,
+    work: f64,
+    /// Cycles.
+    cycles: f64,
     /// How far V is from k E_d, relative to it: two computations of one number.
     pub imbalance: f64,
-    /// F_x at the end, N.
-    pub force: f64,
-    /// What F_x is compared in, N: μF_z, or what the whole contact would carry without slip if that is less.
-    force_scale: f64,
+    last: LastCycle,
     pressure: Vec<f64>,
     /// a, m.
     radius: f64,
-    /// c, m.
-    stick_radius: f64,
+    /// The stick radii of the moment and permanent, m; 0 without tangential motion.
+    stick_radii: [f64; 2],
     /// d or the present depth, m: what the tolerance of jumps is measured in.
     pub depth: f64,
 }
 
-/// How far a run is from another one.
+/// The last fretting loop, as far as it is compared; empty without tangential motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct LastCycle {
+    /// F_x at [`MOMENTS`] even parts of the last cycle, N.
+    forces: Vec<f64>,
+    /// μF_z at its largest, N.
+    friction: f64,
+    /// The area of the loop, per cycle, J.
+    area: f64,
+    /// 4μF_zU, J.
+    sliding: f64,
+}
+
+impl LastCycle {
+    fn of(simulation: &Simulation) -> Self {
+        let Some(period) = simulation.fine_period() else {
+            return Self::default();
+        };
+        let friction = simulation.setup().material.friction();
+        let strongest = period.points.iter().map(|at| at.normal_force);
+        let friction = friction * strongest.fold(0.0, f64::max);
+        let first = ((simulation.cycle() - 1.0) * MOMENTS as f64).ceil();
+        let moment = |part: usize| (first + part as f64) / MOMENTS as f64;
+        Self {
+            forces: (0..MOMENTS)
+                .map(|part| period.force_at(moment(part)))
+                .collect(),
+            friction,
+            area: period.energy_per_cycle(),
+            sliding: 4.0 * friction * period.amplitude(|at| at.shift),
+        }
+    }
+
+    /// The largest difference of forces from another cycle, N.
+    fn force_difference(&self, other: &Self) -> f64 {
+        let pairs = self.forces.iter().zip(&other.forces);
+        // NaN stays.
+        pairs
+            .map(|(a, b)| (a - b).abs())
+            .max_by(f64::total_cmp)
+            .unwrap_or(0.0)
+    }
+}
+
+/// How far a run is from another one: the error of each [`Quantity`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Difference {
-    /// Of the worn depth, rms over the scar, relative to its largest value.
-    pub worn_depth: f64,
-    /// Of V, relative.
-    pub volume: f64,
-    /// Of E_d, relative.
-    pub work: f64,
-    /// Of F_x, relative to μF_z, or to what the whole contact would carry without slip if that is less.
-    pub force: f64,
-    /// Of p away from the axis and from borders, the largest, relative to its largest value there.
-    pub pressure: f64,
+pub struct Difference([f64; Quantity::COUNT]);
+
+impl Index<Quantity> for Difference {
+    type Output = f64;
+
+    fn index(&self, quantity: Quantity) -> &f64 {
+        &self.0[quantity as usize]
+    }
 }
 
 impl Difference {
-    /// The larger of the two that an accuracy promises: worn depth and volume.
+    /// The largest of those that an accuracy promises; NaN if one of them is.
     pub fn promised(&self) -> f64 {
-        self.worn_depth.max(self.volume)
+        self.worst(Quantity::is_promised)
     }
 
-    /// All of them: of depth, volume, work, force and pressure.
-    pub fn numbers(&self) -> [f64; 5] {
-        [
-            self.worn_depth,
-            self.volume,
-            self.work,
-            self.force,
-            self.pressure,
-        ]
+    /// The largest of those about wear.
+    pub fn of_wear(&self) -> f64 {
+        self.worst(Quantity::is_of_wear)
     }
 
-    /// The worst of depth, volume, work and force; NaN if one of them is.
-    pub fn worst(&self) -> f64 {
-        let [errors @ .., _] = self.numbers();
+    fn worst(&self, counts: impl Fn(Quantity) -> bool) -> f64 {
+        let counted = Quantity::ALL.iter().filter(|&&of| counts(of));
         // In this order NaN is the largest.
-        let worst = errors
-            .into_iter()
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        worst.unwrap_or(f64::NAN)
+        let worst = counted.map(|&of| self[of]).max_by(f64::total_cmp);
+        worst.unwrap_or_default()
     }
 
     /// As an estimate. V and E_d are integrals of one scar: where two runs differ in its depth, that theirs agree is
     /// chance.
     pub(super) fn as_estimate(&self) -> Self {
-        let least = OF_SCAR * self.worn_depth;
-        Self {
-            volume: self.volume.max(least),
-            work: self.work.max(least),
-            ..*self
+        let mut estimate = *self;
+        for (of, least) in [
+            (Quantity::Volume, OF_SCAR),
+            (Quantity::Energy, OF_SCAR),
+            (Quantity::Deepest, OF_DEEPEST),
+        ] {
+            let error = &mut estimate.0[of as usize];
+            *error = error.max(least * self[Quantity::WornDepth]);
         }
+        estimate
     }
 
     /// The error of the finer one of two levels that differ by this, the one `ratio` times finer: D/(ρᵖ − 1).
@@ -122,13 +171,7 @@ impl Difference {
 
     /// Combines two differences, number by number.
     pub(super) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            worn_depth: combine(self.worn_depth, other.worn_depth),
-            volume: combine(self.volume, other.volume),
-            work: combine(self.work, other.work),
-            force: combine(self.force, other.force),
-            pressure: combine(self.pressure, other.pressure),
-        }
+        Self(std::array::from_fn(|k| combine(self.0[k], other.0[k])))
     }
 }
 
@@ -137,28 +180,24 @@ impl Outcome {
     pub fn of(session: &Session) -> Self {
         let simulation = session.simulation();
         let (setup, moment) = (simulation.setup(), simulation.moment());
-        let material = &setup.material;
-        let sliding = material.friction() * moment.normal_force;
-        let stiffness = setup.drive.stiffness(material, moment.contact_radius);
-        let shift = setup.drive.tangential().and_then(Control::displacement);
-        let sticking = shift.map_or(f64::INFINITY, |shift| stiffness * shift.amplitude());
+        let stick_radii = [moment.stick_radius, moment.permanent_stick_radius];
         Self {
             grid: setup.grid.clone(),
             profile: simulation.worn_depth().to_vec(),
             wear: simulation.worn_since_start(),
             volume: moment.wear_volume - moment.initial_volume,
             work: moment.dissipated_energy,
+            cycles: moment.cycle,
             imbalance: moment.energy_residual.unwrap_or(0.0).abs(),
-            force: moment.tangential_force,
-            force_scale: sliding.min(sticking).max(moment.tangential_force.abs()),
+            last: LastCycle::of(simulation),
             pressure: simulation.pressure(),
             radius: moment.contact_radius,
-            stick_radius: moment.stick_radius.unwrap_or(0.0),
+            stick_radii: stick_radii.map(Option::unwrap_or_default),
             depth: setup.depth_scale(moment.depth),
         }
     }
 
-    /// The largest worn depth, m.
+    /// The largest new worn depth, m.
     pub fn scar_depth(&self) -> f64 {
         largest(&self.wear)
     }
@@ -188,30 +227,44 @@ impl Outcome {
 
     /// How far this run is from a finer one, in the finer one's measures.
     pub fn against(&self, fine: &Self) -> Difference {
-        let relative = |difference: f64, scale: f64| match difference.abs() {
-            0.0 => 0.0,
-            size => size / scale.abs(),
-        };
-        let inside = INSIDE * self.radius.min(fine.radius);
-        let stick = fine.stick_radius;
-        // At the moment of lift-off one of the two may carry no force at all.
-        let force_scale = fine.force_scale.max(self.force_scale);
-        let away = (1.0 - INSIDE) * fine.radius;
-        Difference {
-            worn_depth: relative(self.worn_difference(fine), fine.scar_depth()),
-            volume: relative(self.volume - fine.volume, fine.volume),
-            work: relative(self.work - fine.work, fine.work),
-            force: relative(self.force - fine.force, force_scale),
-            pressure: relative_largest(
-                (1..RADII)
-                    .map(|i| inside * i as f64 / (RADII - 1) as f64)
-                    .filter(|r| (r - stick).abs() > away && *r > away)
-                    .map(|r| {
-                        let here = self.grid.interpolate(&self.pressure, r);
-                        (here, fine.grid.interpolate(&fine.pressure, r))
-                    }),
+        let least = LEAST_AREA * fine.last.sliding;
+        let stick = self.stick_radii.iter().zip(&fine.stick_radii);
+        let stick = stick
+            .map(|(one, other)| (one - other).abs())
+            .fold(0.0, f64::max);
+        Difference(std::array::from_fn(|k| match Quantity::ALL[k] {
+            Quantity::WornDepth => relative(self.worn_difference(fine), fine.scar_depth()),
+            Quantity::Deepest => relative(self.scar_depth() - fine.scar_depth(), fine.scar_depth()),
+            Quantity::Volume => relative(self.volume - fine.volume, fine.volume),
+            Quantity::Energy => relative(self.work - fine.work, fine.work.max(least * fine.cycles)),
+            Quantity::Force => relative(
+                self.last.force_difference(&fine.last),
+                // At the moment of lift-off one of the two may carry no force at all.
+                fine.last.friction.max(self.last.friction),
             ),
+            Quantity::Loop => relative(self.last.area - fine.last.area, fine.last.area.max(least)),
+            Quantity::Pressure => self.pressure_difference(fine),
+            Quantity::ContactRadius => relative(self.radius - fine.radius, fine.radius),
+            Quantity::StickRadius => relative(stick, fine.radius),
+        }))
+    }
+
+    /// The largest difference of p away from borders, relative to the largest p there.
+    fn pressure_difference(&self, fine: &Self) -> f64 {
+        let away = BORDER * fine.radius;
+        let end = self.radius.min(fine.radius) - away;
+        let borders = self.stick_radii.iter().chain(&fine.stick_radii);
+        let is_away = |r: f64| borders.clone().all(|border| (r - border).abs() > away);
+        let (mut difference, mut most) = (0.0_f64, 0.0_f64);
+        for r in (1..RADII).map(|i| end * i as f64 / (RADII - 1) as f64) {
+            if r > away && is_away(r) {
+                let here = self.grid.interpolate(&self.pressure, r);
+                let there = fine.grid.interpolate(&fine.pressure, r);
+                difference = difference.max((here - there).abs());
+                most = most.max(there);
+            }
         }
+        relative(difference, most)
     }
 
     /// The rms difference of the worn depth over both scars, m.
@@ -231,13 +284,11 @@ impl Outcome {
     }
 }
 
-/// The largest difference of pairs, relative to the largest of the second ones; 0 without any.
-fn relative_largest(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let pairs = pairs.map(|(here, there)| ((here - there).abs(), there.abs()));
-    let (differences, sizes): (Vec<f64>, Vec<f64>) = pairs.unzip();
-    match largest(&sizes) {
+/// A difference relative to a size; 0 of none.
+fn relative(difference: f64, size: f64) -> f64 {
+    match difference.abs() {
         0.0 => 0.0,
-        scale => largest(&differences) / scale,
+        difference => difference / size.abs(),
     }
 }
 
@@ -246,16 +297,16 @@ mod tests {
     use super::*;
 
     fn all(value: f64) -> Difference {
-        Difference::default().with(&Difference::default(), |_, _| value)
+        Difference([value; Quantity::COUNT])
     }
 
     #[test]
     fn differences_tell_errors_of_the_usual_order_and_no_coincidence() {
         // e(h) = hᵖ: a ratio of 2 makes a difference of 2ᵖ − 1 for an error of 1 of the finer level.
         let difference = all(2f64.powf(ORDER) - 1.0);
-        assert!((difference.error_of_finer(2.0).worst() - 1.0).abs() < 1e-12);
-        assert_eq!(difference.error_above(&all(3.0), 2.0).worst(), 1.0);
+        assert!((difference.error_of_finer(2.0).promised() - 1.0).abs() < 1e-12);
+        assert_eq!(difference.error_above(&all(3.0), 2.0).promised(), 1.0);
         // Two levels that agree have a quarter of the error of the one below, not none.
-        assert_eq!(all(0.0).error_above(&all(1.0), 2.0).worst(), 0.25);
+        assert_eq!(all(0.0).error_above(&all(1.0), 2.0).promised(), 0.25);
     }
 }

@@ -3,6 +3,7 @@
 use super::ladder::{Budget, Reached, SearchError, Verdict, run_to_accuracy};
 use super::level::Level;
 use super::outcome::Difference;
+use crate::reading::Quantity;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, USUAL_ACCURACY};
 use crate::simulation::Integrator;
@@ -75,9 +76,8 @@ fn search(
     let cycles = cycles.or(scenario.run().cycles).unwrap_or(WITHOUT_END);
     let reached = run_to_accuracy(scenario, cycles, accuracy, budget, go_on)?;
     let mut statements = vec![("accuracy".to_owned(), format!("{accuracy:e}"))];
-    if reached.verdict != Verdict::Unworn {
-        statements.extend(statements_of(&reached.error));
-    }
+    let has_worn = reached.verdict != Verdict::Unworn;
+    statements.extend(statements_of(&reached.error, has_worn));
     let warning = unmet(&reached, accuracy, budget);
     let is_missed = !matches!(reached.verdict, Verdict::Met | Verdict::Unworn);
     statements.extend(warning.clone().map(|word| ("warning".to_owned(), word)));
@@ -145,32 +145,13 @@ fn is_watched(scenario: &Scenario) -> bool {
     is_open && scenario.run().cycles.is_none_or(|cycles| cycles < WATCHED)
 }
 
-/// What the headers of files and the summary of a run call the numbers of an estimated error.
-const STATED: [(&str, &str); 5] = [
-    (
-        "estimated_error",
-        "of the worn depth (rms, relative to the largest)",
-    ),
-    ("estimated_error_volume", "of the worn volume"),
-    ("estimated_error_energy", "of the dissipated energy"),
-    ("estimated_error_force", "of F_x"),
-    (
-        "estimated_error_pressure",
-        "of p (its largest, away from axis and borders)",
-    ),
-];
-
-/// Estimated errors as the headers of files state them.
-pub fn statements_of(error: &Difference) -> Vec<(String, String)> {
-    let keys = STATED.iter().map(|(key, _)| (*key).to_owned());
-    let numbers = error.numbers().map(|number| format!("{number:.1e}"));
-    keys.zip(numbers).collect()
-}
-
-/// Names the quantity whose estimated error a header states as `key`; `None` for other keys.
-pub fn words_of(key: &str) -> Option<&'static str> {
-    let found = STATED.iter().find(|(stated, _)| *stated == key);
-    found.map(|(_, words)| *words)
+/// Estimated errors as the headers of files state them; where nothing has worn, those of wear mean nothing.
+pub fn statements_of(error: &Difference, has_worn: bool) -> Vec<(String, String)> {
+    let stated = Quantity::ALL
+        .iter()
+        .filter(|of| has_worn || !of.is_of_wear());
+    let stated = stated.map(|&of| (of.column().to_owned(), format!("{:.1e}", error[of])));
+    stated.collect()
 }
 
 /// What is said of an accuracy that is not met.

@@ -18,6 +18,9 @@ pub(super) const INVALID: &str = "invalid: ";
 /// How the status of a point begins that has its result, but not to the accuracy asked for.
 const INACCURATE: &str = "accuracy ";
 
+/// How the status of a point begins that has its result, but fails a check of it.
+const UNCHECKED: &str = "check failed: ";
+
 /// What the status of a row says of its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Success {
@@ -25,6 +28,8 @@ pub enum Success {
     Full,
     /// It has its result, less accurate than asked for.
     Inaccurate,
+    /// It has its result, which fails a check.
+    Unchecked,
     /// It failed.
     Failed,
     /// It makes no valid scenario.
@@ -37,6 +42,7 @@ impl Success {
         match row.last().map(String::as_str) {
             Some(OK) => Self::Full,
             Some(status) if status.starts_with(INACCURATE) => Self::Inaccurate,
+            Some(status) if status.starts_with(UNCHECKED) => Self::Unchecked,
             Some(status) if status.starts_with(INVALID) => Self::Invalid,
             _ => Self::Failed,
         }
@@ -44,7 +50,7 @@ impl Success {
 
     /// Whether the row has a result.
     pub fn has_result(self) -> bool {
-        matches!(self, Self::Full | Self::Inaccurate)
+        matches!(self, Self::Full | Self::Inaccurate | Self::Unchecked)
     }
 }
 
@@ -82,17 +88,26 @@ pub(super) fn run_scenario(
         let reading = Reading::new(&session);
         let columns = study.columns.iter();
         let fields = columns.map(|column| cell(&column.read(&reading)));
-        (ended, fields.collect::<Vec<_>>())
+        (ended, fields.collect::<Vec<_>>(), failed_check(&session))
     }));
-    let Ok((ended, mut row)) = ended else {
+    let Ok((ended, mut row, failed_check)) = ended else {
         return Some(failed(study, "bug in mdr-tui"));
     };
     row.push(match ended {
+        Ok(()) if status == OK => failed_check.unwrap_or(status),
         Ok(()) => status,
         Err(SessionError::Interrupted) => return None,
         Err(error) => printable(&error.to_string()),
     });
     Some(row)
+}
+
+/// The status of a point that fails a check: the worst one with its size.
+fn failed_check(session: &Session) -> Option<String> {
+    let failing = session.checks().into_iter().filter(|check| !check.holds());
+    let worst = failing.max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()))?;
+    let (name, size) = (worst.subject.name(), worst.error.abs());
+    Some(format!("{UNCHECKED}{name} {size:.1e}"))
 }
 
 /// A session with the points and steps that meet the accuracy of the scenario if it asks for one, and the status

@@ -1,6 +1,7 @@
 //! The checks of the run, what each means, and the errors that the same run on half the cells tells.
 
 use super::*;
+use crate::reading::Quantity;
 use crate::studies::refinement::Level;
 use crate::tui::beside::NOTHING_YET;
 
@@ -37,13 +38,10 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
             lines.push(text(&format!(
                 "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));
-            let rows = [
-                (of.worn_depth, "the worn depth, rms, of its largest"),
-                (of.volume, "the worn volume"),
-                (of.force, "F_x"),
-                (of.pressure, "p away from borders, largest"),
-            ];
-            lines.extend(rows.map(|(value, of)| error(value, &format!("error of {of}"))));
+            let rows = Quantity::ALL.iter();
+            lines.extend(
+                rows.map(|&number| error(of[number], &format!("error of {}", number.name()))),
+            );
         }
     }
     let (title, height) = (

@@ -30,6 +30,7 @@ mod figure;
 mod fit;
 mod given;
 mod guide;
+mod inspect;
 mod job;
 mod new;
 mod presets;
@@ -95,6 +96,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Presets(options)) => presets::presets(&options)?,
         Some(Command::Verify(options)) => verify::verify(&options)?,
         Some(Command::Fit(options)) => fit::fit(&options)?,
+        Some(Command::Inspect(options)) => inspect::inspect(&options)?,
         Some(Command::Guide(options)) => guide::guide(&options)?,
         Some(Command::Figure(options)) => figure::figure(&options)?,
         Some(Command::Completions { shell }) => documents::completions(shell)?,

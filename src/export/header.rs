@@ -49,12 +49,12 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     line("method", setup.method.name());
     line("law", law);
     if let Some(law) = &setup.wear {
-        // 1/Pa = m³/J = m³/(N·m), with respect to the work of friction.
+        // 1/Pa = m³/J, per friction work.
         let k = law.coefficient();
         line("wear_coefficient_per_Pa", &number(k));
-        line("wear_coefficient_mm3_per_Nm", &number(k * 1e9));
+        line("wear_coefficient_mm3_per_J", &number(k * 1e9));
         line("wear_coefficient_um3_per_J", &number(k * 1e18));
-        // Archard's, with respect to load and sliding distance, at the friction of the moment.
+        // Archard's, per load and sliding distance, at the friction of the moment.
         let per_load = number(k * setup.material.friction() * 1e9);
         line("wear_coefficient_per_load_mm3_per_Nm", &per_load);
     }

@@ -56,6 +56,7 @@ topics! {
     python = "python.md": "runs and figures from Python";
     rigs = "rigs.md": "real rigs: waveforms, load blocks, compliance, measured profiles, fits";
     lines = "lines.md": "line contacts: a cylinder on a flat";
+    measuring = "measuring.md": "from a rig's files to k and its error: tables, loops, scars, fits";
     published = "published.md": "published cases: what papers say, what this program gives";
     cracks = "cracks.md": "wear or crack: fatigue parameters below the surface";
     stiff_wear = "stiff-wear.md": "large wear coefficients: why steps have a limit";

@@ -96,12 +96,26 @@ pub fn text(path: &Path, most: u64) -> Result<String, Unread> {
 ///
 /// [`Unread`].
 pub fn text_from(from: impl Read, most: u64) -> Result<String, Unread> {
+    String::from_utf8(bytes_from(from, most)?)
+        .map_err(|error| Unread::NotText(error.utf8_error().valid_up_to()))
+}
+
+/// Reads at most `most` bytes of a regular file that may be in any encoding.
+///
+/// # Errors
+///
+/// [`Unread`].
+pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
+    bytes_from(open(path)?, most)
+}
+
+fn bytes_from(from: impl Read, most: u64) -> Result<Vec<u8>, Unread> {
     let mut bytes = Vec::new();
     from.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most {
-        return Err(Unread::TooLarge(most));
+    match bytes.len() as u64 > most {
+        true => Err(Unread::TooLarge(most)),
+        false => Ok(bytes),
     }
-    String::from_utf8(bytes).map_err(|error| Unread::NotText(error.utf8_error().valid_up_to()))
 }
 
 #[cfg(test)]

@@ -292,7 +292,28 @@ pub fn unit_of(known: &Parameter, is_force: bool) -> &'static str {
 /// The rule that a unit of another dimension, or an unknown one, breaks.
 pub fn quantity(text: &str, known: &Parameter, is_force: bool) -> Option<Result<f64, String>> {
     match known.kind {
-        Kind::Number => in_unit(text, unit_of(known, is_force)),
+        Kind::Number => of_other_coefficient(text, known)
+            .map(Err)
+            .or_else(|| in_unit(text, unit_of(known, is_force))),
+        _ => None,
+    }
+}
+
+/// The rule for a coefficient of wear per load and distance where one per friction work is due, and the other way round:
+/// both have the same dimension, and differ by the coefficient of friction.
+fn of_other_coefficient(text: &str, known: &Parameter) -> Option<String> {
+    let (.., unit) = number(text.trim())?;
+    let is_volume = unit.contains(['3', '³']);
+    let unit = echo(unit.trim());
+    match known.unit {
+        "1/Pa" if is_volume && unit.contains('N') => Some(format!(
+            "{unit} is per load and sliding distance: give it as wear.coefficient_per_load; per friction work a \
+             coefficient is in mm^3/J"
+        )),
+        "m^3/(N*m)" if is_volume && unit.contains('J') => Some(format!(
+            "{unit} is per friction work: give it as wear.coefficient; per load and distance a coefficient is in \
+             mm^3/(N*m)"
+        )),
         _ => None,
     }
 }
@@ -385,6 +406,18 @@ mod tests {
             ("motion.normal.mean=20 N", "N is no length: set control"),
             ("indenter.radius=10 mn", "mn is not a unit"),
             ("wear.coefficient=1 mm", "1/Pa"),
+            (
+                "wear.coefficient=1e-6 mm3/Nm",
+                "give it as wear.coefficient_per_load",
+            ),
+            (
+                "wear.coefficient=1e-6 mm^3/N/m",
+                "give it as wear.coefficient_per_load",
+            ),
+            (
+                "wear.coefficient_per_load=1e-6 mm3/J",
+                "give it as wear.coefficient;",
+            ),
             ("friction.coefficient=0.1 m", "finite number"),
         ] {
             let error = Scenario::load("li2019-fig3", &[set.into()]).expect_err(set);

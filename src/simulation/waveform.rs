@@ -15,6 +15,12 @@ const MOST_CORNERS: usize = 100_000;
 /// By how much of its span a table may miss its beginning and still counts as closed.
 const CLOSED: f64 = 1e-6;
 
+/// The most periods that a table is tried for, the phases at which they are compared, and by how much of the amplitude
+/// they may differ.
+const MOST_REPEATS: u32 = 50;
+const REPEAT_PLACES: u32 = 211;
+const ALIKE: f64 = 0.02;
+
 /// A periodic motion between −1 and 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Waveform {
@@ -96,12 +102,33 @@ impl Waveform {
             .iter()
             .map(|value| (value - mean) / amplitude)
             .collect();
+        let waveform = Self::polyline(phases, shape);
+        if let Some(repeats) = waveform.repeats() {
+            let rule = format!(
+                "holds {repeats} periods, and the table is one: keep the rows of {:e} s",
+                period / f64::from(repeats)
+            );
+            return Err(Invalid::new("times", format!("{period:e} s"), rule));
+        }
         Ok(Tabled {
-            waveform: Self::polyline(phases, shape),
+            waveform,
             mean,
             amplitude,
             angular_frequency: TAU / period,
         })
+    }
+
+    /// How often it repeats within its period; `None` if it does not.
+    fn repeats(&self) -> Option<u32> {
+        let Self::Polyline(line) = self else {
+            return None;
+        };
+        let places = || (0..REPEAT_PLACES).map(|i| f64::from(i) / f64::from(REPEAT_PLACES));
+        let is_same = |phase: f64, later: f64| {
+            (line.at(phase) - line.at((phase + later).fract())).abs() < ALIKE
+        };
+        let mut counts = (2..=MOST_REPEATS).rev();
+        counts.find(|count| places().all(|phase| is_same(phase, 1.0 / f64::from(*count))))
     }
 
     fn polyline(phases: Vec<f64>, values: Vec<f64>) -> Self {
@@ -257,5 +284,30 @@ mod tests {
             Err("values")
         );
         assert_eq!(field(&[0.0, 1.0, 2.0], &[1.0, 1.0]), Err("values"));
+    }
+
+    #[test]
+    fn a_table_of_three_periods_is_not_one_cycle() {
+        let record = |turns: f64, wobble: f64| {
+            let at = |i: i32| f64::from(i) / 300.0;
+            let value = |t: f64| (TAU * turns * t).sin() + wobble * (TAU * t).cos();
+            let times: Vec<f64> = (0..=300).map(|i| 0.15 * at(i)).collect();
+            let values: Vec<f64> = (0..=300)
+                .map(|i| value(if i == 300 { 0.0 } else { at(i) }))
+                .collect();
+            Waveform::table(&times, &values).map_err(|why| why.rule)
+        };
+        assert!(record(1.0, 0.0).is_ok());
+        assert!(record(3.0, 0.3).is_ok());
+        assert!(
+            record(3.0, 0.0)
+                .expect_err("refused")
+                .contains("holds 3 periods")
+        );
+        assert!(
+            record(3.0, 0.0)
+                .expect_err("refused")
+                .contains("keep the rows of 5e-2 s")
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::measured::{Measured, Strokes, check_radii};
+use super::measured::{Kind, Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
 use crate::scenario::columns::Columns;
 use crate::scenario::{Refusal, printable};
@@ -110,13 +110,11 @@ impl Ghost {
             ghost.take(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
-            if has("r_m") {
-                ghost.take_measured(Measured::scar(columns)?);
-            }
-            if has("u_m") || has("u_x_m") {
-                ghost.take_measured(Measured::fretting_loop(columns)?);
-            } else if has("cycle") {
-                ghost.take_measured(Measured::history(columns)?);
+            match Kind::of(columns) {
+                Some(Kind::Scar | Kind::Map) => ghost.take_measured(Measured::scar(columns)?),
+                Some(Kind::Loop) => ghost.take_measured(Measured::fretting_loop(columns, None)?),
+                Some(Kind::History) => ghost.take_measured(Measured::history(columns, None)?),
+                None => {}
             }
         }
         match ghost.tables.is_empty() {
@@ -197,7 +195,10 @@ impl Ghost {
         self.tables.push(table);
     }
 
-    fn take_measured(&mut self, measured: Measured) {
+    fn take_measured(&mut self, mut measured: Measured) {
+        if measured.axes.over_r() {
+            measured.at.iter_mut().for_each(|r| *r = r.abs());
+        }
         self.add(measured.axes, measured.at, measured.values, measured.errors);
     }
 
@@ -248,9 +249,12 @@ mod tests {
     fn what_cannot_be_drawn_is_one_line() {
         for (text, part) in [
             ("a,b\n1,2\n", "has nothing to draw: needs r_m with wear_m"),
-            ("r_m,z_m\n0,0\n1,1\n2,2\n", "has no column f_m"),
-            ("r_m,wear_m\n0,0\n1,\n2,2\n", "line 3: wear_m is empty"),
-            ("r_m,wear_m\n0,0\n1,NaN\n2,2\n", "must be a finite number"),
+            ("r_m,q_m\n0,0\n1,1\n2,2\n", "has no column f_m"),
+            (
+                "r_m,wear_m\n0,0\n1,2x\n2,2\n",
+                "line 3: wear_m = 2x: must be a finite number",
+            ),
+            ("r_m,wear_m\n0,0\n1,\n2,NaN\n", "fewer than 3 rows"),
         ] {
             let error = ghost(text).expect_err("a refusal").to_string();
             assert!(

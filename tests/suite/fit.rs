@@ -5,7 +5,7 @@ use std::fmt::Write;
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
-use mdr_tui::studies::fit::{Fit, Fitted};
+use mdr_tui::studies::fit::{Fit, Fitted, Options};
 use mdr_tui::studies::measured::Measured;
 
 use crate::common::{load, ran};
@@ -75,11 +75,15 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
     let columns = |text: &str| Columns::parse(text, "data.csv").expect("columns");
     let data = vec![
         Measured::scar(&columns(&texts[0])).expect("a scar"),
-        Measured::fretting_loop(&columns(&texts[1])).expect("a loop"),
+        Measured::fretting_loop(&columns(&texts[1]), None).expect("a loop"),
     ];
     let free = TRUE.map(|(key, _)| key.to_owned());
     let start = scenario(3e-9, 0.1);
-    let fit = Fit::new(start, data, &free, None, robust).expect("a fit");
+    let options = Options {
+        robust,
+        ..Options::default()
+    };
+    let fit = Fit::new(start, data, &free, options).expect("a fit");
     fit.run(&|| ()).expect("a minimum")
 }
 
@@ -132,6 +136,218 @@ fn outliers_weigh_less_with_the_robust_loss() {
     assert!(robust < 0.05 && plain > 3.0 * robust, "{plain} {robust}");
 }
 
+/// A trace through the axis with noise of 1 %: its places, and its depths.
+fn trace(noise: &mut Noise) -> Vec<(f64, f64)> {
+    let [(_, scar), _] = exact();
+    let (last, largest) = scar
+        .iter()
+        .fold((0.0f64, 0.0f64), |(r, w), row| (r.max(row.0), w.max(row.1)));
+    let depth = |r: f64| {
+        let above = scar.iter().position(|row| row.0 >= r)?;
+        let [(r0, w0), (r1, w1)] = [scar[above.saturating_sub(1)], scar[above]];
+        let share = if r1 > r0 {
+            (r * r - r0 * r0) / (r1 * r1 - r0 * r0)
+        } else {
+            0.0
+        };
+        Some(w0 + share * (w1 - w0))
+    };
+    let places = (-80..=80).map(|i| 1.5 * last * f64::from(i) / 80.0);
+    places
+        .map(|x| {
+            (
+                x,
+                depth(x.abs()).unwrap_or(0.0) + 0.01 * largest * noise.normal(),
+            )
+        })
+        .collect()
+}
+
+fn table(head: &str, rows: impl IntoIterator<Item = (f64, f64)>) -> String {
+    rows.into_iter()
+        .fold(format!("{head}\n"), |text, (at, value)| {
+            text + &format!("{at:e},{value:e}\n")
+        })
+}
+
+/// Zeros, signs, directions and centres are chosen by instruments; k and μ do not depend on them.
+#[test]
+fn faults_of_instruments_do_not_move_the_keys() {
+    let mut noise = Noise(Random::new(23));
+    let trace = trace(&mut noise);
+    let ([_, (_, exact_loop)], plain) = (exact(), with_noise(&exact(), 0.01, &mut noise));
+    let cycle: Vec<(f64, f64)> = {
+        let rows = plain[1]
+            .lines()
+            .skip(1)
+            .map(|line| line.split_once(',').expect("two columns"));
+        rows.map(|(u, force)| (u.parse().expect("u"), force.parse().expect("F")))
+            .collect()
+    };
+    let lowest = |rows: &[(f64, f64)]| {
+        (0..rows.len())
+            .min_by(|&i, &j| rows[i].0.total_cmp(&rows[j].0))
+            .expect("rows")
+    };
+    // From its least displacement on, and closed there.
+    let mut closed = cycle.clone();
+    closed.rotate_left(lowest(&exact_loop));
+    let three: Vec<(f64, f64)> = closed
+        .iter()
+        .cycle()
+        .take(3 * closed.len() + 1)
+        .copied()
+        .collect();
+    let size = exact_loop.iter().map(|row| row.1).fold(0.0, f64::max);
+    let (width, deepest) = (
+        trace[160].0,
+        trace.iter().map(|row| row.1).fold(0.0, f64::max),
+    );
+    let one = || table("u_m,F_N", cycle.iter().copied());
+    let scar = || table("x_m,wear_m", trace.iter().copied());
+    let of_trace = |head, change: &dyn Fn(f64, f64) -> (f64, f64)| {
+        table(head, trace.iter().map(|&(x, w)| change(x, w)))
+    };
+    let cases = [
+        ("plain", scar(), one()),
+        ("three cycles", scar(), table("u_m,F_N", three)),
+        (
+            "backwards",
+            scar(),
+            table("u_m,F_N", cycle.iter().rev().copied()),
+        ),
+        (
+            "force turned",
+            scar(),
+            table("u_m,F_N", cycle.iter().map(|&(u, force)| (u, -force))),
+        ),
+        (
+            "zeros off",
+            scar(),
+            table(
+                "u_m,F_N",
+                cycle
+                    .iter()
+                    .map(|&(u, force)| (u + 4e-8, force + 0.3 * size)),
+            ),
+        ),
+        (
+            "baseline",
+            of_trace("x_m,wear_m", &|x, w| (x, w + 0.3 * deepest)),
+            one(),
+        ),
+        (
+            "tilt",
+            of_trace("x_m,wear_m", &|x, w| (x, w + 0.2 * deepest * x / width)),
+            one(),
+        ),
+        (
+            "off centre",
+            of_trace("x_m,wear_m", &|x, w| (x + 0.1 * width, w)),
+            one(),
+        ),
+        (
+            "from 0 on",
+            of_trace("x_m,wear_m", &|x, w| (x + width, w)),
+            one(),
+        ),
+        ("downwards", of_trace("x_m,wear_m", &|x, w| (x, -w)), one()),
+        (
+            "profile, lowest point 0",
+            of_trace("x_m,z_m", &|x, w| (x, x * x / 0.02 + w - 0.1 * deepest)),
+            one(),
+        ),
+        (
+            "profile upside down",
+            of_trace("x_m,z_m", &|x, w| (x, -x * x / 0.02 - w)),
+            one(),
+        ),
+    ];
+    for (name, scar, fretting_loop) in cases {
+        let fitted = fitted(&[scar, fretting_loop], false);
+        for (value, (_, expected)) in fitted.values.iter().zip(TRUE) {
+            let error = value.stderr.expect("an error");
+            let off = (value.value - expected).abs();
+            assert!(
+                off < 3.5 * error && error < 0.03 * expected,
+                "{name}: {} {:e} ± {error:e}",
+                value.key,
+                value.value
+            );
+        }
+        assert!(fitted.remarks.is_empty(), "{name}: {:?}", fitted.remarks);
+    }
+}
+
+/// From a factor of 100 away on either side.
+#[test]
+fn far_starts_lead_to_the_same_minimum() {
+    let texts = with_noise(&exact(), 0.01, &mut Noise(Random::new(29)));
+    let columns = Columns::parse(&texts[0], "scar.csv").expect("columns");
+    let [(key, expected), _] = TRUE;
+    let found = [1e-2, 1.0, 1e2].map(|factor| {
+        let start = scenario(factor * expected, 0.12);
+        let data = vec![Measured::scar(&columns).expect("a scar")];
+        let fit = Fit::new(start, data, &[key.to_owned()], Options::default()).expect("a fit");
+        fit.run(&|| ()).expect("a minimum").values[0].value
+    });
+    for value in found {
+        assert!(
+            (value / found[1] - 1.0).abs() < 2e-3 && (value / expected - 1.0).abs() < 0.05,
+            "{found:?}"
+        );
+    }
+}
+
+/// A model that misses something is told, whatever the errors are.
+#[test]
+fn residuals_that_are_no_noise_are_said() {
+    let [_, (_, rows)] = exact();
+    // A loop that hardens at both ends.
+    let bent = rows
+        .iter()
+        .map(|&(u, force)| (u, force + 2e15 * force.abs().max(1e-3) * u.powi(3) * 1e6));
+    let columns = Columns::parse(&table("u_m,F_N", bent), "loop.csv").expect("columns");
+    let data = vec![Measured::fretting_loop(&columns, None).expect("a loop")];
+    let free = ["friction.coefficient".to_owned()];
+    let fit = Fit::new(scenario(2e-9, 0.1), data, &free, Options::default()).expect("a fit");
+    let fitted = fit.run(&|| ()).expect("a minimum");
+    assert!(
+        fitted
+            .remarks
+            .iter()
+            .any(|remark| remark.contains("the residuals are no noise")),
+        "{:?}",
+        fitted.remarks
+    );
+}
+
+/// Another stroke is refused, or taken by name.
+#[test]
+fn a_loop_of_another_stroke_is_refused_or_taken() {
+    let [_, (_, rows)] = exact();
+    let wide = table("u_m,F_N", rows.iter().map(|&(u, force)| (1.4 * u, force)));
+    let columns = Columns::parse(&wide, "loop.csv").expect("columns");
+    let fit = |takes_stroke| {
+        let data = vec![Measured::fretting_loop(&columns, None).expect("a loop")];
+        let options = Options {
+            takes_stroke,
+            ..Options::default()
+        };
+        Fit::new(
+            scenario(2e-9, 0.1),
+            data,
+            &["friction.coefficient".to_owned()],
+            options,
+        )
+    };
+    has(
+        &fit(false).expect_err("refused").to_string(),
+        "--stroke from-data takes that of the file",
+    );
+    assert!(fit(true).is_ok());
+}
+
 #[test]
 fn what_data_do_not_determine_is_said() {
     let exact = exact();
@@ -143,12 +359,12 @@ fn what_data_do_not_determine_is_said() {
         .with("wear.stress_exponent", "1.5")
         .expect("a key");
     let free = ["wear.coefficient", "wear.stress_exponent"].map(str::to_owned);
-    let fit = Fit::new(with_power, scar(), &free, None, false).expect("a fit");
+    let fit = Fit::new(with_power, scar(), &free, Options::default()).expect("a fit");
     let fitted = fit.run(&|| ()).expect("a minimum");
     assert_eq!(fitted.values[1].stderr, None);
     let remark = "the data do not determine wear.stress_exponent".to_owned();
     assert!(fitted.remarks.contains(&remark), "{:?}", fitted.remarks);
-    let none = Fit::new(scenario(3e-9, 0.1), scar(), &[], None, false).expect_err("refused");
+    let none = Fit::new(scenario(3e-9, 0.1), scar(), &[], Options::default()).expect_err("refused");
     has(&none.to_string(), "needs a key to fit");
 }
 

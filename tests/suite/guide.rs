@@ -83,6 +83,7 @@ fn every_scenario_that_is_shown_loads() {
 fn examples_that_can_run_do() {
     for (name, text) in texts() {
         let dir = TestDir::new();
+        files_of_the_chapter_on_measuring(&dir, &text);
         for block in blocks(&text, "sh run") {
             for command in commands(block) {
                 let said = dir.say(&command);
@@ -90,6 +91,73 @@ fn examples_that_can_run_do() {
             }
         }
     }
+}
+
+/// The files of a rig that `guide measuring` reads, and its scenario.
+fn files_of_the_chapter_on_measuring(dir: &TestDir, text: &str) {
+    dir.write("record.txt", include_bytes!("../fixtures/rig/record.txt"));
+    dir.write("trace.csv", include_bytes!("../fixtures/rig/trace.csv"));
+    let scenario = blocks(text, "toml file rig.toml").concat();
+    dir.write("rig.toml", scenario.as_bytes());
+}
+
+/// The chapter's record and trace are read, and lead to the values that they were made with.
+#[test]
+fn the_chapter_on_measuring_finds_mu_and_k() {
+    let dir = TestDir::new();
+    let page = TOPICS.iter().find(|topic| topic.name == "measuring");
+    files_of_the_chapter_on_measuring(&dir, page.expect("a topic").text);
+    let record = dir.done("inspect record.txt --load 30N");
+    for part in [
+        "windows-1252, separated by semicolons, decimal commas",
+        "3 whole cycles",
+        "read as Displacement_m",
+    ] {
+        has(&record, part);
+    }
+    has(
+        &dir.done("inspect trace.csv"),
+        "2 of 201 rows have missing values",
+    );
+    let keys = "--free friction.coefficient,wear.coefficient --json --quiet";
+    let told = dir.done(&format!(
+        "fit rig.toml --loop record.txt@2 --scar trace.csv {keys}"
+    ));
+    let told: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    for (key, expected, share) in [
+        ("friction.coefficient", 0.55, 0.01),
+        ("wear.coefficient", 1e-14, 0.03),
+    ] {
+        let [value, error] =
+            ["value", "stderr"].map(|part| told[key][part].as_f64().expect("a number"));
+        assert!(
+            (value - expected).abs() < 2.5 * error && error < share * expected,
+            "{key}: {value:e} ± {error:e}"
+        );
+    }
+    let nuisance = |set: usize, k: usize| {
+        told["data"][set]["nuisances"][k]["value"]
+            .as_f64()
+            .expect("a number")
+    };
+    // Scars come first: a baseline of 6 nm, a centre 9 µm off, then forces off by 1.8 N and displacements by 0.31 µm.
+    for (value, expected, error) in [
+        (nuisance(0, 0), 6e-9, 3e-10),
+        (nuisance(0, 1), 9e-6, 5e-7),
+        (nuisance(1, 0), 1.8, 0.2),
+        (nuisance(1, 1), 0.31e-6, 2e-8),
+    ] {
+        assert!(
+            (value - expected).abs() < error,
+            "{value:e} for {expected:e}"
+        );
+    }
+    assert_eq!(
+        told["remarks"].as_array().expect("remarks").len(),
+        0,
+        "{}",
+        told["remarks"]
+    );
 }
 
 /// The Python function runs, with pandas or with what it needs of it, and the other lines are Python.

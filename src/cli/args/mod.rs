@@ -21,7 +21,7 @@ mod sweep;
 mod values;
 
 pub use figure::{Figure, PaperFigure, on_paper};
-pub use studies::{Fit, Guard, Output, Stability, Trade, Verify};
+pub use studies::{Beside, Fit, Guard, Inspect, Output, Stability, Stroke, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::cycles;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
@@ -74,6 +74,8 @@ pub enum Command {
     Figure(Figure),
     /// Find parameters from measured scars, loops and histories.
     Fit(Fit),
+    /// Tell what is understood of a measured table: columns, units, cycles, zeros; and draw it.
+    Inspect(Inspect),
     /// Print a completion script for a shell.
     #[command(
         after_help = "Example:\n  mdr-tui completions bash > ~/.local/share/bash-completion/completions/mdr-tui"

@@ -7,9 +7,11 @@ use clap::builder::{RangedI64ValueParser, TypedValueParser};
 use clap::{Arg, Args, ValueEnum};
 
 use super::Changes;
-use super::values::{cycles, named, points, within};
+use super::values::{budget, cycles, load, named, points, within};
 use crate::math::abel::AbelMethod;
 use crate::plot::Marker;
+use crate::scenario::columns::{self, Field};
+use crate::studies::measured::Pick;
 use crate::studies::verify::{LADDER, Problem};
 use crate::studies::{stability, trade};
 
@@ -139,15 +141,24 @@ pub struct Fit {
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// A worn profile; can be repeated.
+    /// A worn profile, or a map of it; can be repeated.
     #[arg(long, value_name = "FILE", required_unless_present_any = ["fretting_loop", "history"])]
     pub scar: Vec<PathBuf>,
     /// A fretting loop, of this cycle if it is given; can be repeated.
     #[arg(long = "loop", value_name = "FILE[@CYCLE]")]
     pub fretting_loop: Vec<PathBuf>,
-    /// Worn volume or depth over cycles; can be repeated.
+    /// Worn volume, depth, approach or mass over cycles, time, distance or energy; can be repeated.
     #[arg(long, value_name = "FILE")]
     pub history: Vec<PathBuf>,
+    /// How the columns of the files are to be read.
+    #[command(flatten)]
+    pub naming: Naming,
+    /// Compare these cycles of a record of several, counted from 1; default: all whole ones.
+    #[arg(long, value_name = "FIRST..LAST")]
+    pub pick: Option<Pick>,
+    /// Density of what has worn, kg/m^3, where a history has masses.
+    #[arg(long, value_name = "KG/M3")]
+    pub density: Option<f64>,
     /// The keys to fit, by their dotted paths.
     #[arg(long, value_name = "KEY1,KEY2,...", required = true)]
     pub free: Vec<String>,
@@ -158,6 +169,24 @@ pub struct Fit {
     /// Give outliers less weight.
     #[arg(long)]
     pub robust: bool,
+    /// Whether the zero of depths and forces is fitted; auto: where the data can show it.
+    #[arg(long, value_enum, default_value_t)]
+    pub level: Beside,
+    /// Whether the centre of a scar and the zero of displacements are fitted.
+    #[arg(long, value_enum, default_value_t)]
+    pub shift: Beside,
+    /// Whether the tilt of a trace through the axis is fitted.
+    #[arg(long, value_enum, default_value_t)]
+    pub tilt: Beside,
+    /// Where loops and scenario differ in their stroke: refuse, or take that of the loops.
+    #[arg(long, value_enum, default_value_t)]
+    pub stroke: Stroke,
+    /// Time limit of the search, e.g. 60s or 5min; then the best found so far is told.
+    #[arg(long, value_name = "TIME", value_parser = budget)]
+    pub budget: Option<f64>,
+    /// Fit every file by itself, and print a row per file.
+    #[arg(long, conflicts_with_all = ["out", "plot"])]
+    pub each: bool,
     /// Write the fitted scenario to this file.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -173,6 +202,71 @@ pub struct Fit {
     /// Show no progress.
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// Whether something is fitted beside the keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Beside {
+    /// Where the data can show it.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
+}
+
+/// Whose stroke a fit takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Stroke {
+    /// That of the scenario; loops of another one are refused.
+    #[default]
+    Scenario,
+    /// That of the loops.
+    FromData,
+}
+
+/// How the columns of a measured table are to be read where their names do not say it.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Naming {
+    /// What stands in which column, by number or name: r and wear or f of a scar, u and F of a loop, cycle and
+    /// wear_volume or depth of a history.
+    #[arg(long, value_name = "r=2,wear=3,...")]
+    pub fields: Vec<Field>,
+    /// Units of these columns, or without --fields of all columns.
+    #[arg(long, value_name = "um,nm,...")]
+    pub units: Vec<String>,
+}
+
+impl Naming {
+    /// The same for the reader of tables.
+    pub fn of_columns(&self) -> columns::Naming {
+        let (fields, units) = (self.fields.clone(), self.units.clone());
+        columns::Naming { fields, units }
+    }
+}
+
+/// Options of `inspect`.
+#[derive(Debug, Args)]
+#[command(after_help = include_str!("examples/inspect.txt").trim_end())]
+pub struct Inspect {
+    /// A table of an instrument: a scar, a map, a loop, a history.
+    pub file: PathBuf,
+    /// How its columns are to be read.
+    #[command(flatten)]
+    pub naming: Naming,
+    /// Look at these cycles of a loop's record, counted from 1.
+    #[arg(long, value_name = "FIRST..LAST")]
+    pub pick: Option<Pick>,
+    /// The normal force, for the coefficient of friction of each cycle, e.g. 30N.
+    #[arg(long, value_name = "FORCE", value_parser = load)]
+    pub load: Option<f64>,
+    /// What the plot is made of.
+    #[arg(long, value_enum, default_value_t = Marker::Braille)]
+    pub marker: Marker,
+    /// Print what was understood as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 fn methods() -> impl TypedValueParser<Value = AbelMethod> {

@@ -82,6 +82,15 @@ pub(super) fn budget(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "a budget is a time of 0 or more, e.g. 60s, 5min or 1h".into())
 }
 
+/// A force, as `30`, `30 N` or `30mN`.
+pub(super) fn load(text: &str) -> Result<f64, String> {
+    let with_unit = units::in_unit(text, "N").and_then(Result::ok);
+    let force = with_unit
+        .or_else(|| text.trim().parse().ok())
+        .filter(|force: &f64| *force > 0.0 && force.is_finite());
+    force.ok_or_else(|| "a load is a force greater than 0, e.g. 30N".into())
+}
+
 /// A number of cycles.
 pub fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -6,7 +6,7 @@ use crate::contact::measured::MeasuredProfile;
 /// The steepest slope at the contact's edge, a/R, that a table may have, and the shallowest: beyond them
 /// one of its columns is in another unit.
 const STEEPEST: f64 = 1.0;
-const SHALLOWEST: f64 = 1e-6;
+const SHALLOWEST: f64 = 1e-5;
 
 /// The fewest points of a table that are to lie within the domain.
 const FEWEST_IN_CONTACT: usize = 4;

@@ -38,6 +38,8 @@ pub(super) struct Errors {
     pub covariance: DMatrix<f64>,
     /// h of every point: the share of it that the keys follow.
     pub leverages: Vec<f64>,
+    /// Φ Jᵀ: how far a key moves for a change of z; 0 where the data do not determine one.
+    gain: DMatrix<f64>,
 }
 
 impl Errors {
@@ -65,6 +67,7 @@ impl Errors {
         let mut errors = Self {
             covariance: DMatrix::zeros(keys, keys),
             leverages: vec![0.0; z.len()],
+            gain: DMatrix::zeros(keys, z.len()),
         };
         let Some(inverse) = normal.cholesky().map(|factors| factors.inverse()) else {
             return errors;
@@ -72,6 +75,10 @@ impl Errors {
         for (row, leverage) in errors.leverages.iter_mut().enumerate() {
             let row = jacobian.row(row);
             *leverage = (row * &inverse * row.transpose())[(0, 0)];
+        }
+        let gain = &inverse * jacobian.transpose();
+        for (i, &of) in seen.iter().enumerate() {
+            errors.gain.set_row(of, &(gain.row(i) / norms[of]));
         }
         let mut covariance = inverse.clone();
         for points in estimated {
@@ -89,6 +96,19 @@ impl Errors {
             }
         }
         errors
+    }
+
+    /// How far the minimum moves where z changes by `dz`.
+    pub fn newton_step(&self, dz: &[f64]) -> Vec<f64> {
+        let dot = |row: usize| {
+            self.gain
+                .row(row)
+                .iter()
+                .zip(dz)
+                .map(|(gain, dz)| gain * dz)
+                .sum::<f64>()
+        };
+        (0..self.gain.nrows()).map(|row| -dot(row)).collect()
     }
 }
 
@@ -132,6 +152,11 @@ mod tests {
             close(*h, 0.2 + (x - 3.0).powi(2) / 10.0);
         }
         close(errors.leverages.iter().sum(), 2.0);
+        // z + 3 + 2x has its minimum 3 and 2 lower.
+        let dz: Vec<f64> = (1..=5).map(|x| 3.0 + 2.0 * f64::from(x)).collect();
+        let step = errors.newton_step(&dz);
+        close(step[0], -3.0);
+        close(step[1], -2.0);
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Parameters from measured data: least squares over any keys of a scenario.
 //!
 //! Every data set is compared with the same run: scars with its end, loops with the cycle that they were measured
-//! in or the last one, histories with their cycles. Keys that must be positive are fitted by their logarithms. If a
+//! in or the last one, histories with their course. Keys that must be positive are fitted by their logarithms. If a
 //! file gives no errors, all its values share one, estimated from the residuals, so that scars in
-//! nanometres and loops in newtons are weighted by their noise.
+//! nanometres and loops in newtons are weighted by their noise. The zeros, the centre and the tilt of each file are
+//! fitted beside the keys, see [`nuisance`].
 //!
 //! # Formula
 //!
@@ -14,40 +15,83 @@
 //!
 //! The errors of the keys, and those that the values of a file share, are computed in `errors`.
 //!
+//! # Search
+//!
+//! On a coarse level from the start values, and from a grid of starts a factor of 100 around them unless what that
+//! leaves is noise; then on the points and steps that the minimum needs, which the start values may not tell.
+//!
 //! The minimum is sought by `rmpfit`, MINPACK's Levenberg–Marquardt with bounds and derivatives by
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
 //! derivatives; `basin` minimises in general and gives no covariance.)
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow, ensure};
-use serde::Serialize;
+use anyhow::{Result, anyhow, ensure};
 
-use crate::math::scan::rms;
-use crate::scenario::session::SessionError;
+use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
+use crate::studies::refinement::{self, Budget, Level};
 use crate::traces::Axes;
-use errors::{Errors, freedom};
+use nuisance::Nuisances;
+use search::{Found, Search};
 use solver::Free;
 
+mod checked;
 mod errors;
 mod model;
+mod nuisance;
+mod profile;
+mod report;
+mod search;
 mod solver;
+mod structure;
 
-/// Fits, each with the errors that the one before has left.
-const ROUNDS: usize = 3;
+pub use nuisance::NAMES;
+pub use report::{Fitted, Nuisance, SetResult, Value};
+pub use structure::Structure;
 
-/// The least error of a data set, relative to its own size: exact data must not weigh without end.
-const LEAST_ERROR: f64 = 1e-4;
+/// Cells and steps of the search, where the scenario asks for an accuracy and not for them.
+const COARSE: (usize, u32) = (40, 16);
 
-/// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
-const VAGUE: f64 = 0.5;
-const ALIKE: f64 = 0.95;
+/// The tolerance of jumps on that level, in units of the depth.
+const COARSE_JUMPS: f64 = 3e-3;
 
-/// The standard deviation of normal noise in medians of its size.
-const OF_MEDIAN: f64 = 1.4826;
+/// The numerics are resolved again where a key has moved by more than this in a logarithm, or of its value.
+const MOVED: f64 = 0.2;
+
+/// How much finer the run is that tells the numerical error; neither a multiple nor a divisor of the steps.
+const FINER: f64 = 1.5;
+
+/// A run that is [`FINER`] shows this part of the error, if it falls with the first to second power of the steps.
+const SHOWN: f64 = 0.45;
+
+/// Whether a nuisance is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Switch {
+    /// Where the data can show it.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
+}
+
+/// How to fit.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// The cycles of each run; default: `run.cycles`, or the last cycle of the histories.
+    pub cycles: Option<f64>,
+    /// Whether outliers count less.
+    pub robust: bool,
+    /// Whether level, shift and tilt are fitted.
+    pub nuisances: [Switch; 3],
+    /// Whether the stroke of the scenario is that of the loops.
+    pub takes_stroke: bool,
+    /// After how many seconds the search ends with the best that it has.
+    pub budget: Option<f64>,
+}
 
 /// What is to be fitted to what.
 #[derive(Debug)]
@@ -58,53 +102,22 @@ pub struct Fit {
     free: Vec<Free>,
     /// The cycles of each run: loops that state no cycle are compared with the last one.
     pub cycles: f64,
-    robust: bool,
-}
-
-/// A key that was fitted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Value {
-    /// The dotted path.
-    #[serde(skip)]
-    pub key: String,
-    /// Its unit.
-    #[serde(skip)]
-    pub unit: &'static str,
-    /// The value at the minimum.
-    pub value: f64,
-    /// Its standard error; `None` if the data do not determine it.
-    pub stderr: Option<f64>,
-    /// Its correlations with the other keys; 0 with a key that is not determined.
-    pub correlations: BTreeMap<String, f64>,
-}
-
-/// What came of a fit.
-#[derive(Debug)]
-pub struct Fitted {
-    /// The keys in the order in which they were asked for.
-    pub values: Vec<Value>,
-    /// Measured less simulated values of each data set.
-    pub residuals: Vec<Vec<f64>>,
-    /// Where data do not determine a key, in a line each.
-    pub remarks: Vec<String>,
-    /// The scenario with the fitted values.
-    pub scenario: Scenario,
+    options: Options,
 }
 
 impl Fit {
-    /// Fits the keys `free` of `scenario` to `data`, in runs of `cycles` (default: `run.cycles`, or the
-    /// last cycle of the histories); `robust` against outliers.
+    /// Fits the keys `free` of `scenario` to `data`.
     ///
     /// # Errors
     /// Keys that are not numbers or have no value to start from, fewer points than keys, data that lie
-    /// outside of what is simulated.
+    /// outside of what is simulated, loops of another stroke.
     pub fn new(
         scenario: Scenario,
-        data: Vec<Measured>,
+        mut data: Vec<Measured>,
         free: &[String],
-        cycles: Option<f64>,
-        robust: bool,
+        options: Options,
     ) -> Result<Self> {
+        let scenario = checked::with_stroke(scenario, &data, free, options.takes_stroke)?;
         let free = free.iter().map(|key| Free::of(&scenario, key));
         let free: Vec<Free> = free.collect::<Result<_>>()?;
         let is_empty = free.is_empty() || data.is_empty();
@@ -117,16 +130,9 @@ impl Fit {
             let is_new = free[..i].iter().all(|other| other.key != *key);
             ensure!(is_new, Refusal::from(format!("{key} is given twice")));
         }
-        let histories = data.iter().filter(|set| set.axes.x == "cycle");
-        let cycles_of = histories.flat_map(|set| &set.at);
-        let last = cycles_of.copied().fold(0.0, f64::max);
-        let planned = cycles.or(scenario.run().cycles).unwrap_or(0.0);
-        let cycles = planned.max(last);
-        let most = format!("a run has at most {MOST_CYCLES:e} cycles");
-        let rule = format!("the data end at cycle {cycles:e}; {most}");
-        ensure!(cycles <= MOST_CYCLES, Refusal::from(rule));
+        let cycles = cycles(&scenario, &data, options.cycles)?;
         let domain = scenario.setup().grid.radius();
-        for set in &data {
+        for set in &mut data {
             let is_loop = set.axes == Axes::LOOP;
             let rule = "the length of the run is unknown, or less than a cycle; give --cycles";
             let is_long = cycles > 0.0 && (!is_loop || cycles >= 1.0);
@@ -141,6 +147,8 @@ impl Fit {
             }
             if set.axes.over_r() {
                 check_radii(&set.name, &set.at, domain)?;
+                checked::check_depths(set, &scenario)?;
+                checked::decide_profile(set, &scenario.setup().indenter);
             }
         }
         Ok(Self {
@@ -148,7 +156,7 @@ impl Fit {
             data,
             free,
             cycles,
-            robust,
+            options,
         })
     }
 
@@ -157,186 +165,214 @@ impl Fit {
     /// # Errors
     /// A scenario that cannot run with its start values, and a search that fails.
     pub fn run(&self, on_run: &dyn Fn()) -> Result<Fitted> {
-        let simulate = |theta: &[f64]| {
-            on_run();
-            model::simulate(&self.at(theta)?, &self.data, self.cycles)
+        let deadline = self
+            .options
+            .budget
+            .map(|budget| Instant::now() + Duration::from_secs_f64(budget));
+        let in_time = || deadline.is_none_or(|deadline| Instant::now() < deadline);
+        let start: Vec<f64> = self.free.iter().map(|free| free.start).collect();
+        let coarse = match self.scenario.accuracy() {
+            None => self.scenario.clone(),
+            Some(_) => self.coarse()?,
         };
-        let mut theta: Vec<f64> = self.free.iter().map(|free| free.start).collect();
-        simulate(&theta).map_err(|error| anyhow!("at the start values: {error}"))?;
-        let mut errors: Vec<f64> = self.data.iter().flat_map(first_errors).collect();
-        let is_given = self.data.iter().all(|set| set.errors.is_some());
-        let rounds = if is_given && !self.robust { 1 } else { ROUNDS };
-        // The points of the data sets whose error is estimated, among all points.
-        let estimated = self.places().filter(|(set, _)| set.errors.is_none());
-        let estimated: Vec<Range<usize>> = estimated.map(|(_, points)| points).collect();
-        let mut round = 1;
-        loop {
-            let deviations = |theta: &[f64]| Some(self.deviations(&simulate(theta).ok()?, &errors));
-            let mut residuals = |theta: &[f64]| {
-                let mut all = deviations(theta)?;
-                if self.robust {
-                    for z in &mut all {
-                        *z = (2.0 * (z.hypot(1.0) - 1.0)).sqrt().copysign(*z);
-                    }
-                }
-                Some(all)
-            };
-            theta = solver::solve(&self.free, &theta, errors.len(), &mut residuals)
-                .map_err(|why| anyhow!("no minimum was found: {why}"))?;
-            let derivatives = self.derivatives(&theta, &deviations);
-            let simulated = simulate(&theta);
-            let simulated = simulated.map_err(|error| anyhow!("no minimum was found: {error}"))?;
-            let z = self.deviations(&simulated, &errors);
-            let uncertainty = Errors::new(&z, &derivatives, &estimated, self.robust);
-            if round == rounds {
-                let scenario = self.at(&theta).context("no minimum was found")?;
-                return Ok(self.fitted(&theta, &uncertainty, simulated, scenario));
+        let search = |scenario, nuisances| Search::new(self, scenario, nuisances, on_run, &in_time);
+        let mut best: Option<(Search, Found)> = None;
+        let mut failure = anyhow!("no minimum was found");
+        for nuisances in self.hypotheses() {
+            // Another reading of a trace is tried where the plain one leaves more than noise.
+            if best
+                .as_ref()
+                .is_some_and(|(search, found): &(Search, Found)| search.is_noise(found))
+            {
+                break;
             }
-            self.update_errors(&simulated, &uncertainty.leverages, &mut errors);
-            round += 1;
+            let mut coarse = search(coarse.clone(), nuisances);
+            coarse.is_coarse = self.scenario.accuracy().is_some();
+            match coarse.locate(&start) {
+                Ok(found)
+                    if best
+                        .as_ref()
+                        .is_none_or(|(_, best)| found.objective < best.objective) =>
+                {
+                    best = Some((coarse, found));
+                }
+                Ok(_) => {}
+                Err(why) => failure = why,
+            }
         }
+        let Some((mut located, mut found)) = best else {
+            return Err(failure);
+        };
+        if located.drop_vague(&found) {
+            found = located.descend(&found.theta, 2)?;
+        }
+        let (mut at, mut warning) = (found.theta.clone(), None);
+        let mut fine = located.clone();
+        fine.is_coarse = false;
+        if self.scenario.accuracy().is_some() {
+            for _ in 0..2 {
+                let resolved = refinement::resolve(
+                    &self.at(&self.scenario, &at)?,
+                    Some(self.cycles),
+                    Budget::UNLIMITED,
+                    &in_time,
+                );
+                let resolved = match resolved {
+                    Err(SessionError::Interrupted) => break,
+                    resolved => resolved?,
+                };
+                warning = resolved.warning;
+                fine.scenario = resolved.scenario;
+                fine.forget();
+                found = fine.descend(&at, 2)?;
+                let moved = found.theta.iter().zip(&at).zip(&self.free);
+                let is_near = |((new, old), free): ((&f64, &f64), &Free)| {
+                    (new - old).abs() < MOVED * free.vague_at(*old)
+                };
+                let mut moved = moved;
+                let is_settled = moved.all(is_near);
+                at.clone_from(&found.theta);
+                if is_settled {
+                    break;
+                }
+            }
+        }
+        let scenario = self.at(&fine.scenario, &found.theta)?;
+        let mut fitted = Fitted::new(&fine, &found, fine.uncertainty(&found), scenario);
+        fitted.remarks.extend(warning);
+        self.add_numerical_errors(&fine, &found, &mut fitted);
+        located.nuisances.clone_from(&fine.nuisances);
+        located.errors.clone_from(&fine.errors);
+        profile::add_intervals(&located, &found, &mut fitted);
+        if !in_time() {
+            let budget = self.options.budget.unwrap_or_default();
+            fitted.remarks.push(format!(
+                "the search ended after {budget} s (--budget): this is the best so far"
+            ));
+        }
+        Ok(fitted)
     }
 
-    /// The scenario with these values of the keys.
-    fn at(&self, theta: &[f64]) -> Result<Scenario, SessionError> {
+    /// The scenario on the level of the search.
+    fn coarse(&self) -> Result<Scenario> {
+        let (points, steps) = COARSE;
+        let tolerance = Level::of(&self.scenario).tolerance.map(|_| COARSE_JUMPS);
+        Ok(Level::new(points, steps, tolerance).of_scenario(&self.scenario)?)
+    }
+
+    /// `scenario` with these values of the keys.
+    fn at(&self, scenario: &Scenario, theta: &[f64]) -> Result<Scenario, SessionError> {
         let keys = self.free.iter().zip(theta);
         let values = keys.map(|(free, theta)| (&free.key, format!("{:e}", free.value(*theta))));
-        Ok(self.scenario.with_all(&values.collect::<Vec<_>>())?)
+        Ok(scenario.with_all(&values.collect::<Vec<_>>())?)
     }
 
-    /// z of all points.
-    fn deviations(&self, simulated: &[Vec<f64>], errors: &[f64]) -> Vec<f64> {
-        let sets = self.data.iter().zip(simulated);
-        let left = sets.flat_map(|(set, simulated)| residuals(set, simulated));
-        left.zip(errors).map(|(left, error)| left / error).collect()
-    }
-
-    /// The points of each data set among all points.
-    fn places(&self) -> impl Iterator<Item = (&Measured, Range<usize>)> {
-        self.data.iter().scan(0, |end, set| {
-            let first = *end;
-            *end += set.values.len();
-            Some((set, first..*end))
-        })
-    }
-
-    /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be
-    /// computed; none for a key at the end of its range.
-    fn derivatives(
-        &self,
-        theta: &[f64],
-        deviations: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
-    ) -> Vec<Option<Vec<f64>>> {
-        let derivative = |i: usize| {
-            let step = self.free[i].step(theta[i]);
-            let at = |offset: f64| {
-                let mut theta = theta.to_vec();
-                theta[i] += offset;
-                deviations(&theta).map(|z| (theta[i], z))
-            };
-            if self.free[i].is_at_bound(theta[i]) {
-                return None;
-            }
-            let low = at(-step).or_else(|| at(0.0))?;
-            let high = at(step).or_else(|| at(0.0))?;
-            let width = high.0 - low.0;
-            let differences = high.1.iter().zip(&low.1);
-            (width > 0.0).then(|| differences.map(|(b, a)| (b - a) / width).collect())
+    /// What may be fitted beside the keys. A trace on one side of its zero may begin at the axis or run through it.
+    fn hypotheses(&self) -> Vec<Vec<Nuisances>> {
+        let wanted = |k: usize, by_default: bool| match self.options.nuisances[k] {
+            Switch::Auto => by_default,
+            switch => switch == Switch::On,
         };
-        (0..self.free.len()).map(derivative).collect()
-    }
-
-    /// The error that all values of a data set share, from what the fit leaves and from what each of its points
-    /// has spent on the keys.
-    fn update_errors(&self, simulated: &[Vec<f64>], leverages: &[f64], errors: &mut [f64]) {
-        for ((set, place), simulated) in self.places().zip(simulated) {
-            if set.errors.is_some() {
-                continue;
-            }
-            let points = set.values.len();
-            let spent: f64 = leverages[place.clone()].iter().sum();
-            let left = residuals(set, simulated);
-            let size = if self.robust {
-                let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
-                sizes.sort_by(f64::total_cmp);
-                OF_MEDIAN * sizes[points / 2]
-            } else {
-                rms(&left)
+        let mut all = vec![Vec::new()];
+        for set in &self.data {
+            let (is_scar, is_loop) = (set.axes.over_r(), set.axes == Axes::LOOP);
+            let is_whole = set.is_two_sided();
+            let one = |is_whole: bool| Nuisances {
+                active: [
+                    wanted(0, is_scar || is_loop),
+                    wanted(1, is_whole || is_loop) && !(is_scar && set.is_averaged),
+                    wanted(2, is_whole) && is_scar,
+                ],
+                start: [0.0, if is_whole { set.centre() } else { 0.0 }, 0.0],
             };
-            let size = size * (points as f64 / freedom(points, spent)).sqrt();
-            let least = (LEAST_ERROR * rms(&set.values)).max(f64::MIN_POSITIVE);
-            errors[place].fill(size.max(least));
+            let mut ways = vec![one(is_whole)];
+            if is_scar && is_whole {
+                // Noise may hide where the middle is.
+                let [level, _, tilt] = ways[0].start;
+                ways.push(Nuisances {
+                    start: [level, 0.0, tilt],
+                    ..ways[0]
+                });
+            }
+            if is_scar && !is_whole && !set.is_averaged && self.options.nuisances[1] == Switch::Auto
+            {
+                ways.push(one(true));
+            }
+            let extended = |before: &Vec<Nuisances>| {
+                let ways = ways
+                    .iter()
+                    .map(|way| before.iter().copied().chain([*way]).collect());
+                ways.collect::<Vec<Vec<Nuisances>>>()
+            };
+            // Repeats are traces of one kind: beyond a few files, all are as they seem.
+            all = match all.len() {
+                0..=2 => all.iter().flat_map(extended).collect(),
+                _ => all
+                    .iter()
+                    .map(|before| before.iter().copied().chain([ways[0]]).collect())
+                    .collect(),
+            };
         }
+        all
     }
 
-    fn fitted(
-        &self,
-        theta: &[f64],
-        uncertainty: &Errors,
-        simulated: Vec<Vec<f64>>,
-        scenario: Scenario,
-    ) -> Fitted {
-        let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
-        let covariance = &uncertainty.covariance;
-        let correlation = |i: usize, j: usize| {
-            let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-            match norm > 0.0 {
-                true => covariance[(i, j)] / norm,
-                false => 0.0,
-            }
+    /// How much the keys would move on a finer level.
+    fn add_numerical_errors(&self, fine: &Search, found: &Found, fitted: &mut Fitted) {
+        let finer = Level::of(&fine.scenario).scaled(FINER, FINER);
+        let Ok(scenario) = finer.of_scenario(&fine.scenario) else {
+            return;
         };
-        for (i, (free, &theta)) in self.free.iter().zip(theta).enumerate() {
-            let error = covariance[(i, i)].sqrt();
-            let at_bound = free.is_at_bound(theta);
-            let is_known = error.is_finite() && error > 0.0 && !at_bound;
-            let key = free.key.clone();
-            if at_bound {
-                remarks.push(format!("{key} reached the end of its range"));
-            } else if !is_known {
-                remarks.push(format!("the data do not determine {key}"));
-            } else if error > VAGUE * free.vague_at(theta) {
-                remarks.push(format!(
-                    "the data hardly determine {key}: its standard error is as large as itself"
+        let mut finer = fine.clone();
+        finer.scenario = scenario;
+        finer.forget();
+        let Some(moved) = finer.deviations_at(&found.theta, &found.nuisances) else {
+            return;
+        };
+        let dz: Vec<f64> = moved
+            .iter()
+            .zip(&found.z)
+            .map(|(new, old)| new - old)
+            .collect();
+        for ((value, free), (theta, step)) in fitted
+            .values
+            .iter_mut()
+            .zip(&self.free)
+            .zip(found.theta.iter().zip(fitted.errors.newton_step(&dz)))
+        {
+            value.numerical_error = value.stderr.map(|_| free.error(*theta, step.abs() / SHOWN));
+            // Whoever has chosen cells and steps has chosen their error.
+            let is_chosen = self.scenario.accuracy().is_none();
+            if let (Some(numerical), Some(stderr)) = (value.numerical_error, value.stderr)
+                && numerical > stderr
+                && !is_chosen
+            {
+                fitted.remarks.push(format!(
+                    "{}: the numerical error exceeds the statistical one; a smaller numerics.accuracy lowers it",
+                    value.key
                 ));
             }
-            let others = self.free.iter().enumerate().filter(|(j, _)| *j != i);
-            let others = others.map(|(j, other)| (other.key.clone(), correlation(i, j)));
-            for (other, correlation) in others.clone().take(i) {
-                if correlation.abs() > ALIKE {
-                    alike.push(format!(
-                        "the data hardly distinguish {other} from {key}: their correlation is {correlation:.4}"
-                    ));
-                }
-            }
-            values.push(Value {
-                unit: free.unit,
-                value: free.value(theta),
-                stderr: is_known.then(|| free.error(theta, error)),
-                correlations: others.collect(),
-                key,
-            });
-        }
-        remarks.extend(alike);
-        let sets = self.data.iter().zip(&simulated);
-        let left = sets.map(|(set, simulated)| residuals(set, simulated));
-        Fitted {
-            values,
-            residuals: left.collect(),
-            remarks,
-            scenario,
         }
     }
 }
 
-/// The errors of a data set: as given, or its size until a fit estimates them.
-fn first_errors(set: &Measured) -> Vec<f64> {
-    let size = rms(&set.values).max(f64::MIN_POSITIVE);
-    let given = set.errors.clone();
-    given.unwrap_or_else(|| vec![size; set.values.len()])
-}
-
-/// Measured less simulated.
-fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
-    let pairs = measured.values.iter().zip(simulated);
-    pairs.map(|(value, simulated)| value - simulated).collect()
+/// The cycles of each run.
+fn cycles(scenario: &Scenario, data: &[Measured], given: Option<f64>) -> Result<f64> {
+    let planned = given.or(scenario.run().cycles).unwrap_or(0.0);
+    let mut last = 0.0f64;
+    let over =
+        |set: &&Measured| set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != "energy_J";
+    if data.iter().any(|set| over(&set)) {
+        let session = Session::start(scenario.clone())?;
+        for set in data.iter().filter(over) {
+            let per_cycle = model::per_cycle(session.simulation(), set.axes.x);
+            let rule = "a sliding distance needs a prescribed displacement; give cycles instead";
+            ensure!(per_cycle.is_finite(), Refusal::new(&set.name, rule));
+            last = set.at.iter().map(|at| at / per_cycle).fold(last, f64::max);
+        }
+    }
+    let cycles = planned.max(last);
+    let most = format!("a run has at most {MOST_CYCLES:e} cycles");
+    let rule = format!("the data end at cycle {cycles:e}; {most}");
+    ensure!(cycles <= MOST_CYCLES, Refusal::from(rule));
+    Ok(cycles)
 }

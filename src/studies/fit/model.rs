@@ -1,64 +1,163 @@
 //! Evaluates the scenario at each point of the data.
 
-use crate::math::scan::largest;
+use crate::contact::indenter::Indenter;
+use crate::math::grid::RadialGrid;
+use crate::math::scan::{largest, value_at};
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
-use crate::studies::measured::{Measured, Strokes, rises};
+use crate::studies::measured::{Measured, Strokes};
 use crate::traces::Axes;
 
-/// The simulated value of every point, data set by data set, of a run of `cycles`.
+/// What a run says of one data set, wherever its points lie.
+#[derive(Debug, Clone)]
+pub(super) enum Response {
+    /// What has worn at the nodes, m, and the unworn shape where the profile was measured.
+    Scar(RadialGrid, Vec<f64>, Option<Indenter>),
+    /// One finely stepped cycle.
+    Loop(Strokes),
+    /// The value at each point of a history.
+    History(Vec<f64>),
+}
+
+impl Response {
+    /// The simulated values of a data set whose abscissae are off by `shift` and whose values by `level` and by `tilt`
+    /// per unit of its abscissa.
+    pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
+        let plain = |i: usize, x: f64| match self {
+            Self::Scar(grid, worn, unworn) => {
+                let r = (x - shift).abs();
+                // Nothing wears outside of the grid.
+                let depth = if r <= grid.radius() {
+                    grid.interpolate(worn, r)
+                } else {
+                    0.0
+                };
+                unworn.as_ref().map_or(0.0, |unworn| unworn.profile(r)) + depth
+            }
+            Self::Loop(strokes) => strokes.force(x - shift, set.rising[i]),
+            Self::History(values) => values[i],
+        };
+        let points = set.at.iter().enumerate();
+        points
+            .map(|(i, &x)| plain(i, x) + level + tilt * x)
+            .collect()
+    }
+
+    /// The share of the points of a scar that lie where nothing has worn.
+    pub fn unworn_share(&self, set: &Measured, shift: f64) -> f64 {
+        let Self::Scar(grid, worn, _) = self else {
+            return 0.0;
+        };
+        let least = 0.01 * largest(worn);
+        let is_unworn = |x: &&f64| {
+            let r = (**x - shift).abs();
+            r > grid.radius() || grid.interpolate(worn, r) <= least
+        };
+        set.at.iter().filter(is_unworn).count() as f64 / set.at.len() as f64
+    }
+}
+
+/// The response of a run of `cycles` to every data set, and the steps that it took.
 ///
 /// # Errors
-/// A contact that cannot be computed.
+/// A contact that cannot be computed, or that `go_on` says no to the steps so far.
 pub(super) fn simulate(
     scenario: &Scenario,
     data: &[Measured],
     cycles: f64,
-) -> Result<Vec<Vec<f64>>, SessionError> {
+    go_on: &dyn Fn(u64) -> bool,
+) -> Result<(Vec<Response>, u64), SessionError> {
     let mut session = Session::start(scenario.clone())?;
-    let mut simulated: Vec<Vec<f64>> = data.iter().map(|set| vec![0.0; set.at.len()]).collect();
+    let start = session.simulation().moment().depth;
+    let mut responses: Vec<Response> = Vec::new();
     // Where the run must stop, and for which points.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
         let stops = match set.axes {
             Axes::LOOP => vec![set.cycle.unwrap_or(cycles)],
-            axes if axes.over_r() => vec![cycles],
-            _ => set.at.clone(),
+            axes if axes.over_r() || axes.x == "energy_J" => vec![cycles],
+            axes => {
+                let per_cycle = per_cycle(session.simulation(), axes.x);
+                set.at.iter().map(|at| at / per_cycle).collect()
+            }
         };
         moments.extend(stops.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
+        responses.push(Response::History(vec![0.0; set.at.len()]));
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let is_over_energy = data.iter().any(|set| set.axes.x == "energy_J");
+    // E_d and what has worn by then: V, depth, approach.
+    let mut course: Vec<[f64; 4]> = Vec::new();
     for (cycle, i, j) in moments {
-        session.advance_to(cycle)?;
+        session.advance_while(cycle, |session| {
+            if is_over_energy {
+                let moment = session.simulation().moment();
+                let [volume, depth, approach] = worn(session.simulation(), start);
+                course.push([moment.dissipated_energy, volume, depth, approach]);
+            }
+            go_on(session.simulation().steps())
+        })?;
         let (set, simulation) = (&data[i], session.simulation());
-        match set.axes {
-            Axes::DEPTH => simulated[i][j] = largest(simulation.worn_depth()),
-            Axes::VOLUME => simulated[i][j] = simulation.moment().wear_volume,
-            Axes::LOOP => {
-                if let Some(strokes) = Strokes::new(&last_period(simulation)) {
-                    let points = set.at.iter().zip(rises(&set.at));
-                    let forces = points.map(|(&shift, rising)| strokes.force(shift, rising));
-                    simulated[i] = forces.collect();
-                }
+        match (&mut responses[i], set.axes) {
+            (response, Axes::LOOP) => {
+                let strokes = Strokes::new(&last_period(simulation));
+                *response = strokes.map_or_else(|| response.clone(), Response::Loop);
             }
-            axes => {
-                let depth = |&r: &f64| scar(simulation, r, axes == Axes::PROFILE);
-                simulated[i] = set.at.iter().map(depth).collect();
+            (response, axes) if axes.over_r() => {
+                let setup = simulation.setup();
+                let unworn = (axes == Axes::PROFILE).then(|| setup.indenter.clone());
+                *response =
+                    Response::Scar(setup.grid.clone(), simulation.worn_depth().to_vec(), unworn);
             }
+            (Response::History(values), axes) if axes.x == "energy_J" => {
+                let column = |k: usize| course.iter().map(|row| row[k]).collect::<Vec<f64>>();
+                let (energies, worn) = (column(0), column(1 + quantity(axes)));
+                let found = set
+                    .at
+                    .iter()
+                    .map(|&energy| value_at(&energies, &worn, energy));
+                *values = found.map(|value| value.unwrap_or(f64::NAN)).collect();
+            }
+            (Response::History(values), axes) => {
+                values[j] = worn(simulation, start)[quantity(axes)]
+            }
+            _ => {}
         }
     }
-    Ok(simulated)
+    Ok((responses, session.simulation().steps()))
 }
 
-/// What has worn at a radius, m, or the worn profile there, m.
-fn scar(simulation: &Simulation, r: f64, is_profile: bool) -> f64 {
-    let setup = simulation.setup();
-    let unworn = is_profile.then(|| setup.indenter.profile(r));
-    // Nothing wears outside of the grid.
-    let is_inside = r <= setup.grid.radius();
-    let worn = is_inside.then(|| setup.grid.interpolate(simulation.worn_depth(), r));
-    unworn.unwrap_or(0.0) + worn.unwrap_or(0.0)
+/// What one cycle adds to an abscissa of histories.
+pub(super) fn per_cycle(simulation: &Simulation, over: &str) -> f64 {
+    let drive = &simulation.setup().drive;
+    match over {
+        "time_s" => drive.period(),
+        // The path of the actuator: four amplitudes.
+        "distance_m" => drive
+            .tangential()
+            .map_or(f64::NAN, |control| 4.0 * control.oscillation().amplitude()),
+        _ => 1.0,
+    }
+}
+
+/// V, the largest depth and the approach since the start.
+fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
+    let moment = simulation.moment();
+    [
+        moment.wear_volume,
+        largest(simulation.worn_depth()),
+        moment.depth - start,
+    ]
+}
+
+/// Which of these a history tells.
+fn quantity(axes: Axes) -> usize {
+    match axes.y {
+        y if y == Axes::DEPTH.y => 1,
+        "approach_m" => 2,
+        _ => 0,
+    }
 }
 
 /// The displacement that the rig measures, m, and the tangential force, N, through the last period; nothing without

@@ -4,10 +4,10 @@ use anyhow::{Result, bail, ensure};
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
 
 use crate::scenario::schema::{self, Kind, Range};
-use crate::scenario::{Refusal, Scenario};
+use crate::scenario::{Refusal, Scenario, units};
 
 /// By how many e-folds a positive key may move.
-const FARTHEST: f64 = 12.0;
+const FARTHEST: f64 = 9.3;
 
 /// The step of differences, of a logarithm or relative to a value: the scenario is planned anew for
 /// each run, and its grid follows the keys, which leaves roughness below 1e-5.
@@ -70,9 +70,14 @@ impl Free {
                 (start, [least.max(reach[0]), most.min(reach[1])])
             }
         };
+        // A motion prescribes a force or a displacement.
+        let control = key
+            .rsplit_once('.')
+            .and_then(|(section, _)| scenario.value(&format!("{section}.control")));
+        let is_force = control.is_some_and(|control| control.contains("force"));
         Ok(Self {
             key: key.to_owned(),
-            unit: parameter.unit,
+            unit: units::unit_of(parameter, is_force),
             positive,
             start,
             bounds,
@@ -82,6 +87,30 @@ impl Free {
     /// The value of the key.
     pub fn value(&self, theta: f64) -> f64 {
         if self.positive { theta.exp() } else { theta }
+    }
+
+    /// Whether it is fitted by its logarithm.
+    pub fn is_positive(&self) -> bool {
+        self.positive
+    }
+
+    /// `theta` moved by so many e-folds, or as many times the size of the value, within its range.
+    pub fn moved(&self, theta: f64, step: f64) -> f64 {
+        let step = if self.positive {
+            step
+        } else {
+            step * theta.abs().max(1e-12)
+        };
+        let [low, up] = self.bounds;
+        // Just inside: an end of the range stands for what is not determined.
+        let inside = |bound: f64, into: f64| {
+            if bound.is_finite() {
+                bound + into
+            } else {
+                bound
+            }
+        };
+        (theta + step).clamp(inside(low, STEP), inside(up, -STEP).max(inside(low, STEP)))
     }
 
     /// The standard error of the value.
@@ -152,19 +181,19 @@ impl MPFitter for Problem<'_> {
     }
 }
 
-/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`. Returns the keys
-/// there, positive ones by their logarithms.
+/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`, until a step changes
+/// it by less than a `tolerance`, relative to itself. Returns the keys there, positive ones by their logarithms.
 ///
 /// # Errors
 /// In words, where the search cannot begin or does not end.
 pub(super) fn solve(
     free: &[Free],
     theta: &[f64],
-    points: usize,
+    (points, tolerance): (usize, f64),
     residuals: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
 ) -> Result<Vec<f64>, &'static str> {
     let mut config = MPConfig::new();
-    (config.ftol, config.xtol, config.gtol) = (1e-7, 1e-6, 1e-10);
+    (config.ftol, config.xtol, config.gtol) = (tolerance, tolerance, 1e-10);
     config.max_iter = 60;
     let parameters = free.iter().zip(theta);
     let parameters = parameters.map(|(free, theta)| free.limits(*theta));
@@ -201,7 +230,7 @@ mod tests {
         }];
         let mut residuals =
             |theta: &[f64]| Some((1..9).map(|i| f64::from(i) * (theta[0] - 2.0)).collect());
-        let theta = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");
+        let theta = solve(&free, &[0.3], (8, 1e-7), &mut residuals).expect("a minimum");
         assert_eq!(theta, [0.5]);
         assert!(free[0].is_at_bound(theta[0]));
     }

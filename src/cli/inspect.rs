@@ -1,0 +1,283 @@
+//! `mdr-tui inspect`: what is understood of a measured table, before anything is fitted to it.
+
+use anyhow::{Result, bail};
+use serde::Serialize;
+
+use super::args::Inspect;
+use super::{results, small_multiples};
+use crate::math::scan::range;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::scenario::columns::Columns;
+use crate::studies::measured::record::{Figures, Record};
+use crate::studies::measured::{Kind, Measured, loop_columns};
+use crate::traces::{Axes, unit_of};
+
+/// Cycles of a record that are printed one by one; of more, as many in even steps.
+const MOST_ROWS: usize = 20;
+
+/// What is understood of a table.
+#[derive(Serialize)]
+struct Understood {
+    file: String,
+    /// How the text is written.
+    written: String,
+    /// What it is taken for.
+    kind: &'static str,
+    rows: usize,
+    columns: Vec<Column>,
+    notes: Vec<String>,
+    /// The figures of each cycle of a loop.
+    cycles: Vec<CycleRow>,
+}
+
+#[derive(Serialize)]
+struct Column {
+    name: String,
+    /// As this program names it, in SI units.
+    read_as: String,
+    least: f64,
+    largest: f64,
+    missing: usize,
+}
+
+#[derive(Serialize)]
+#[allow(non_snake_case)]
+struct CycleRow {
+    cycle: usize,
+    energy_J: f64,
+    force_amplitude_N: f64,
+    displacement_amplitude_m: f64,
+    opening_m: f64,
+    A: f64,
+    B: f64,
+    D: f64,
+    friction: Option<f64>,
+    mean_displacement_m: f64,
+    mean_force_N: f64,
+}
+
+/// Prints and draws what is understood of a file.
+pub fn inspect(options: &Inspect) -> Result<()> {
+    let columns = Columns::read_as(&options.file, &options.naming.of_columns())?;
+    let kind = Kind::of(&columns);
+    let measured = match kind {
+        Some(Kind::Loop) => Some(Measured::fretting_loop(&columns, options.pick)?),
+        Some(Kind::History) => Some(Measured::history(&columns, Some(1.0))?),
+        Some(Kind::Scar | Kind::Map) => Some(Measured::scar(&columns)?),
+        None => None,
+    };
+    let Some(measured) = measured else {
+        bail!(columns.refuse(format!(
+            "holds no scar (r, wear or f), loop (u, F) or history (cycle, wear_volume or depth): its columns are {}; \
+             --fields r=1,wear=2 --units um,nm says which is which",
+            columns.named()
+        )));
+    };
+    let mut understood = understood(&columns, &measured, kind);
+    if kind == Some(Kind::Loop) {
+        understood.cycles = cycles(&columns, options)?;
+        understood.notes.extend(trends(&understood.cycles));
+    }
+    results::print(options.json.then_some(&understood), || {
+        understood.text() + &small_multiples::draw(&[chart(&measured)], options.marker)
+    })
+}
+
+fn understood(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Understood {
+    let all = columns.all();
+    let described = columns
+        .described()
+        .zip(&all)
+        .filter(|(_, (_, values))| values.iter().any(|value| value.is_finite()));
+    let described = described.map(|((name, own, _), (_, values))| {
+        let finite = values.iter().copied().filter(|value| value.is_finite());
+        let [least, largest] = range(finite.clone()).unwrap_or_default();
+        let missing = values.len() - finite.count();
+        Column {
+            name: name.to_owned(),
+            read_as: own.to_owned(),
+            least,
+            largest,
+            missing,
+        }
+    });
+    let mut notes = measured.notes.clone();
+    if measured.axes.over_r() {
+        notes.extend(of_trace(measured));
+    }
+    Understood {
+        file: columns.path.clone(),
+        written: columns.written.clone(),
+        kind: match (kind, measured.axes) {
+            (Some(Kind::Map), _) => "a map",
+            (_, Axes::LOOP) => "a fretting loop",
+            (_, Axes::WEAR) => "a scar: worn depth over the radius",
+            (_, Axes::PROFILE) => "a scar: the worn profile over the radius",
+            _ => "a history",
+        },
+        rows: columns.len(),
+        columns: described.collect(),
+        notes,
+        cycles: Vec::new(),
+    }
+}
+
+/// Sides, centre, offset and tilt of a trace, as far as they show without a model.
+fn of_trace(measured: &Measured) -> Vec<String> {
+    let (at, values) = (&measured.at, &measured.values);
+    if measured.is_averaged || !measured.is_two_sided() {
+        return vec![
+            "one side of the axis, or a trace whose zero is at its end: a fit tells which"
+                .to_owned(),
+        ];
+    }
+    let middle = measured.centre();
+    let mut notes = vec![format!(
+        "both sides of the axis; symmetric about x = {middle:.3e} m"
+    )];
+    if measured.axes == Axes::WEAR {
+        // The outer twentieths of the trace.
+        let outer = (at.len() / 20).max(2);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let ends = [&values[..outer], &values[values.len() - outer..]].map(mean);
+        let places = [&at[..outer], &at[at.len() - outer..]].map(mean);
+        notes.push(format!(
+            "at its ends: {:.2e} and {:.2e} m (offset {:.2e} m, tilt {:.1e} rad)",
+            ends[0],
+            ends[1],
+            0.5 * (ends[0] + ends[1]),
+            (ends[1] - ends[0]) / (places[1] - places[0])
+        ));
+    }
+    notes
+}
+
+/// The figures of every cycle that is looked at.
+fn cycles(columns: &Columns, options: &Inspect) -> Result<Vec<CycleRow>> {
+    let ([u, force], _) = columns.whole_rows(loop_columns(columns))?;
+    let mut record = Record::new(&u, &force).map_err(|why| columns.refuse(why))?;
+    if let Some(pick) = options.pick {
+        record.pick(pick).map_err(|why| columns.refuse(why))?;
+    }
+    Ok(record
+        .cycles
+        .iter()
+        .map(|cycle| row(cycle.number, &cycle.figures, options.load))
+        .collect())
+}
+
+fn row(number: usize, figures: &Figures, load: Option<f64>) -> CycleRow {
+    let figures = Figures {
+        energy: figures.energy.abs(),
+        ..*figures
+    };
+    let [a, d, b] = figures.ratios();
+    CycleRow {
+        cycle: number,
+        energy_J: figures.energy,
+        force_amplitude_N: figures.force,
+        displacement_amplitude_m: figures.amplitude,
+        opening_m: figures.opening,
+        A: a,
+        B: b,
+        D: d,
+        friction: load.map(|load| figures.friction(load)),
+        mean_displacement_m: figures.means[0],
+        mean_force_N: figures.means[1],
+    }
+}
+
+/// Zeros that are off, and what drifts from the first cycle to the last.
+fn trends(cycles: &[CycleRow]) -> Vec<String> {
+    let (Some(first), Some(last)) = (cycles.first(), cycles.last()) else {
+        return Vec::new();
+    };
+    let mean = |of: fn(&CycleRow) -> f64| cycles.iter().map(of).sum::<f64>() / cycles.len() as f64;
+    let mut notes = vec![format!(
+        "stroke ±{:.3e} m, mean displacement {:.2e} m, mean force {:.2e} N",
+        mean(|row| row.displacement_amplitude_m),
+        mean(|row| row.mean_displacement_m),
+        mean(|row| row.mean_force_N)
+    )];
+    if cycles.len() > 1 {
+        notes.push(format!(
+            "from cycle {} to {}: mean displacement {:+.1e} m, mean force {:+.1e} N, energy {:+.1} %",
+            first.cycle, last.cycle,
+            last.mean_displacement_m - first.mean_displacement_m,
+            last.mean_force_N - first.mean_force_N,
+            100.0 * (last.energy_J / first.energy_J - 1.0)
+        ));
+    }
+    notes
+}
+
+impl Understood {
+    fn text(&self) -> String {
+        let mut lines = vec![
+            format!("{}: {}", self.file, self.kind),
+            format!("{} rows, {}", self.rows, self.written),
+        ];
+        let width = self
+            .columns
+            .iter()
+            .map(|column| column.name.chars().count())
+            .max()
+            .unwrap_or(0);
+        for Column {
+            name,
+            read_as,
+            least,
+            largest,
+            missing,
+        } in &self.columns
+        {
+            let gaps = if *missing > 0 {
+                format!(", {missing} missing")
+            } else {
+                String::new()
+            };
+            let unit = unit_of(read_as);
+            lines.push(format!(
+                "  {name:width$}  read as {read_as}: {least:.3e} to {largest:.3e} {unit}{gaps}"
+            ));
+        }
+        lines.extend(self.notes.iter().cloned());
+        if !self.cycles.is_empty() {
+            lines.push(
+                "cycle      E_d/J       Q*/N        U/m       d0/m      A      B      D    mu_e"
+                    .to_owned(),
+            );
+            let every = self.cycles.len().div_ceil(MOST_ROWS);
+            for row in self.cycles.iter().step_by(every) {
+                let friction = row
+                    .friction
+                    .map_or("      -".to_owned(), |friction| format!("{friction:7.4}"));
+                lines.push(format!(
+                    "{:5}  {:9.3e}  {:9.3e}  {:9.3e}  {:9.3e}  {:5.3}  {:5.3}  {:5.3} {friction}",
+                    row.cycle,
+                    row.energy_J,
+                    row.force_amplitude_N,
+                    row.displacement_amplitude_m,
+                    row.opening_m,
+                    row.A,
+                    row.B,
+                    row.D
+                ));
+            }
+        }
+        lines.iter().map(|line| format!("{line}\n")).collect()
+    }
+}
+
+fn chart(measured: &Measured) -> Chart {
+    let axes = measured.axes;
+    let (name, unit) = axes.x.rsplit_once('_').unwrap_or((axes.x, ""));
+    let curve = Curve::new("", &measured.at[..], &measured.values[..], Role::Profile);
+    Chart::new(
+        "",
+        Axis::new(name, unit),
+        Axis::new(axes.symbol, axes.unit()),
+    )
+    .curve(curve)
+}

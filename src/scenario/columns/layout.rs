@@ -1,0 +1,295 @@
+//! Finds the table in a text: its separator, where its numbers begin, and the lines above that name columns and units.
+
+use csv::StringRecord;
+
+use super::names::is_unit;
+
+/// What separates the fields of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Separator {
+    /// `\t`
+    Tab,
+    /// `;`
+    Semicolon,
+    /// `,`
+    Comma,
+    /// One blank or more.
+    Blanks,
+}
+
+impl Separator {
+    /// In the order in which they are tried: of two that read as many numbers, the first.
+    const ALL: [Self; 4] = [Self::Tab, Self::Semicolon, Self::Comma, Self::Blanks];
+
+    /// Its name in the plural.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tab => "tabs",
+            Self::Semicolon => "semicolons",
+            Self::Comma => "commas",
+            Self::Blanks => "blanks",
+        }
+    }
+
+    /// The lines of a text as records with the number of their line, comments and blank lines left out.
+    fn records(self, text: &str) -> Result<Vec<Row>, csv::Error> {
+        let (mut lines, mut kept) = (Vec::new(), String::with_capacity(text.len()));
+        for (line, number) in text.lines().zip(1..) {
+            let trimmed = line.trim();
+            if !trimmed.is_empty() && !trimmed.starts_with('#') {
+                lines.push(number);
+                let line = if self == Self::Blanks {
+                    with_tabs(line)
+                } else {
+                    line.to_owned()
+                };
+                kept += &line;
+                kept.push('\n');
+            }
+        }
+        let delimiter = match self {
+            Self::Tab | Self::Blanks => b'\t',
+            Self::Semicolon => b';',
+            Self::Comma => b',',
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .has_headers(false)
+            .flexible(true)
+            .delimiter(delimiter)
+            .from_reader(kept.as_bytes());
+        let number = |row: &StringRecord| lines.get(row.position()?.line() as usize - 1).copied();
+        let rows = reader.records();
+        rows.map(|row| row.map(|row| (number(&row).unwrap_or(0), row)))
+            .collect()
+    }
+}
+
+/// A line's number, from 1, and its fields.
+pub(super) type Row = (u64, StringRecord);
+
+/// Lines looked at to choose the separator.
+const SAMPLE: usize = 2000;
+
+/// Words for a value that is missing, beside an empty field.
+const MISSING: [&str; 14] = [
+    "nan", "-nan", "na", "n/a", "bad", "null", "none", "missing", "invalid", "inf", "-inf", "-",
+    "--", "---",
+];
+
+/// Whether a field stands for a value that is missing.
+pub(super) fn is_missing(field: &str) -> bool {
+    field.is_empty() || MISSING.iter().any(|word| field.eq_ignore_ascii_case(word))
+}
+
+/// The finite number of a field, with a decimal point or a decimal comma.
+pub(super) fn number(field: &str) -> Option<f64> {
+    let plain = field
+        .strip_prefix('\u{2212}')
+        .map(|rest| format!("-{rest}"));
+    let field = plain.as_deref().unwrap_or(field);
+    let value = match field.split_once(',') {
+        Some((whole, rest)) if !field.contains('.') => format!("{whole}.{rest}").parse(),
+        _ => field.parse(),
+    };
+    value.ok().filter(|value: &f64| value.is_finite())
+}
+
+/// A line with tabs for its blanks, but those before a unit in brackets: `r [um]  wear [nm]` has two fields.
+fn with_tabs(line: &str) -> String {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let joined = words.join("\t");
+    joined.replace("\t[", " [").replace("\t(", " (")
+}
+
+/// A table that was found in a text.
+#[derive(Debug, Clone)]
+pub(super) struct Layout {
+    pub separator: Separator,
+    /// Whether numbers have decimal commas.
+    pub has_decimal_commas: bool,
+    /// The names of the columns; none where no line names them.
+    pub names: Option<Vec<String>>,
+    /// The units that stand in a line of their own, or no text.
+    pub units: Vec<String>,
+    /// The number of columns.
+    pub fields: usize,
+    /// The rows from the first one with numbers on.
+    pub rows: Vec<Row>,
+    /// The first row of another length.
+    pub uneven: Option<Row>,
+}
+
+impl Layout {
+    /// Finds the table of a text.
+    ///
+    /// # Errors
+    /// What the reader of records refuses.
+    pub fn find(text: &str) -> Result<Self, csv::Error> {
+        let end = text
+            .match_indices('\n')
+            .nth(SAMPLE)
+            .map_or(text.len(), |(at, _)| at);
+        let mut best = (Separator::Comma, 0);
+        for separator in Separator::ALL {
+            let score = separator
+                .records(&text[..end])
+                .map_or(0, |rows| score(&rows));
+            if score > best.1 {
+                best = (separator, score);
+            }
+        }
+        let separator = best.0;
+        let mut rows = separator.records(text)?;
+        let fields = usual_length(&rows);
+        let is_number = numeric_columns(&rows, fields);
+        let is_data = |row: &StringRecord| {
+            let fits = |(field, is_number): (&str, &bool)| {
+                !is_number || number(field).is_some() || is_missing(field)
+            };
+            row.len() == fields
+                && row.iter().any(|field| number(field).is_some())
+                && row.iter().zip(&is_number).all(fits)
+        };
+        let first = rows.iter().position(|(_, row)| is_data(row));
+        let begin = first.unwrap_or(rows.len().min(1));
+        let above: Vec<Row> = rows.drain(..begin).collect();
+        let begin = rows.first().map_or(u64::MAX, |(line, _)| *line);
+        let (names, units) = names_and_units(text, &above, begin, fields);
+        let mut fields = fields;
+        let last_is_empty = || {
+            rows.iter()
+                .all(|(_, row)| row.get(fields - 1).is_some_and(str::is_empty))
+        };
+        // Separators at the ends of lines.
+        if names
+            .as_ref()
+            .is_some_and(|names| names.len() + 1 == fields)
+            && last_is_empty()
+        {
+            fields -= 1;
+            rows.iter_mut().for_each(|(_, row)| row.truncate(fields));
+        }
+        let has_decimal_commas = rows.iter().any(|(_, row)| row.iter().any(is_decimal_comma));
+        let uneven = rows.iter().find(|(_, row)| row.len() != fields).cloned();
+        Ok(Self {
+            separator,
+            has_decimal_commas,
+            names,
+            units,
+            fields,
+            rows,
+            uneven,
+        })
+    }
+}
+
+fn is_decimal_comma(field: &str) -> bool {
+    field.contains(',') && number(field).is_some()
+}
+
+/// Numbers of rows that are rows by this separator, less fields that would be some but for it.
+fn score(rows: &[Row]) -> i64 {
+    let worth = |field: &str| match number(field) {
+        Some(_) => 1,
+        None => -i64::from(
+            field.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '"')
+                && field.len() > 1,
+        ),
+    };
+    let whole = rows.iter().filter(|(_, row)| row.len() > 1);
+    whole.flat_map(|(_, row)| row.iter().map(worth)).sum()
+}
+
+/// The number of fields that most rows with numbers have.
+fn usual_length(rows: &[Row]) -> usize {
+    let with_numbers = rows
+        .iter()
+        .filter(|(_, row)| row.len() > 1 && row.iter().any(|field| number(field).is_some()));
+    let mut counts: Vec<(usize, usize)> = Vec::new();
+    for (_, row) in with_numbers {
+        match counts.iter_mut().find(|(length, _)| *length == row.len()) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((row.len(), 1)),
+        }
+    }
+    let most = counts.into_iter().rev().max_by_key(|(_, count)| *count);
+    most.map_or_else(
+        || rows.first().map_or(0, |(_, row)| row.len()),
+        |(length, _)| length,
+    )
+}
+
+/// Which of the columns hold numbers in half of the rows or more.
+fn numeric_columns(rows: &[Row], fields: usize) -> Vec<bool> {
+    let of_length = || rows.iter().filter(|(_, row)| row.len() == fields);
+    let numbers = |column: usize| {
+        of_length()
+            .filter(|(_, row)| row.get(column).is_some_and(|field| number(field).is_some()))
+            .count()
+    };
+    let all = of_length().count();
+    (0..fields)
+        .map(|column| 2 * numbers(column) >= all)
+        .collect()
+}
+
+/// The lines above the first row that name its columns and their units; a comment names them where no other line does.
+fn names_and_units(
+    text: &str,
+    above: &[Row],
+    begin: u64,
+    fields: usize,
+) -> (Option<Vec<String>>, Vec<String>) {
+    let lines = || {
+        text.lines()
+            .zip(1u64..)
+            .take_while(|(_, line)| *line < begin)
+    };
+    let words = |row: &StringRecord| -> Vec<String> { row.iter().map(str::to_owned).collect() };
+    // A line of names may have other separators than the numbers.
+    let split = |line: &str| {
+        let found = Separator::ALL
+            .into_iter()
+            .filter_map(|separator| separator.records(line).ok()?.pop());
+        let mut names = found.map(|(_, row)| words(&row));
+        names.find(|names| names.len() == fields || names.len() + 1 == fields)
+    };
+    let is_length =
+        |row: &StringRecord| row.len() == fields || row.len() + 1 == fields && fields > 2;
+    let mut found = above
+        .iter()
+        .rev()
+        .filter_map(|(at, row)| match is_length(row) {
+            true => Some(words(row)),
+            false => split(lines().find(|(_, line)| line == at)?.0),
+        });
+    let nearest = found.next();
+    let is_units = |row: &[String]| {
+        row.iter().all(|unit| {
+            is_unit(unit) || matches!(unit.as_str(), "" | "-" | "1" | "[-]" | "#" | "cycles")
+        }) && row.iter().any(|unit| is_unit(unit))
+    };
+    match nearest {
+        Some(units) if is_units(&units) => match found.next() {
+            Some(names) => (Some(names), units),
+            None => (Some(units), Vec::new()),
+        },
+        Some(names) => (Some(names), Vec::new()),
+        None => {
+            let is_comment = |line: &&str| line.starts_with('#') && !line.contains(':');
+            let comments: Vec<&str> = lines()
+                .map(|(line, _)| line.trim_start())
+                .filter(is_comment)
+                .collect();
+            let named = comments
+                .iter()
+                .rev()
+                .find_map(|line| split(line.trim_start_matches(['#', ' '])));
+            (
+                named.filter(|names| names.iter().all(|name| number(name).is_none())),
+                Vec::new(),
+            )
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What a fit tells: keys with their errors, nuisances, and how well each data set is matched.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use serde::Serialize;
+
+use super::errors::{Errors, freedom};
+use super::nuisance::NAMES;
+use super::search::{Found, Search, residuals};
+use super::structure::Structure;
+use crate::math::scan::rms;
+use crate::scenario::Scenario;
+use crate::studies::measured::Measured;
+use crate::traces::unit_of;
+
+/// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
+const VAGUE: f64 = 0.5;
+const ALIKE: f64 = 0.95;
+
+/// A key that was fitted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Value {
+    /// The dotted path.
+    #[serde(skip)]
+    pub key: String,
+    /// Its unit.
+    #[serde(skip)]
+    pub unit: &'static str,
+    /// The value at the minimum.
+    pub value: f64,
+    /// Its standard error; `None` if the data do not determine it.
+    pub stderr: Option<f64>,
+    /// How much a finer computation may move it; `None` if it is not determined.
+    pub numerical_error: Option<f64>,
+    /// The ends of two standard errors by the profile of the likelihood, where its error is no symmetric one; an end is
+    /// `None` if the data set none.
+    pub interval: Option<[Option<f64>; 2]>,
+    /// Its correlations with the other keys; 0 with a key that is not determined.
+    pub correlations: BTreeMap<String, f64>,
+}
+
+/// A zero, a centre or a tilt that was fitted beside the keys.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Nuisance {
+    /// `baseline`, `level`, `centre`, `shift` or `tilt`.
+    pub name: &'static str,
+    /// Its unit: that of the values, of the abscissae, or their ratio.
+    pub unit: String,
+    /// The value at the minimum.
+    pub value: f64,
+    /// Its standard error.
+    pub stderr: f64,
+}
+
+/// How a data set is matched.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SetResult {
+    /// The file.
+    pub file: String,
+    /// The points that were compared.
+    pub points: usize,
+    /// What was left out or put right before.
+    pub notes: Vec<String>,
+    /// What was fitted beside the keys.
+    pub nuisances: Vec<Nuisance>,
+    /// Whether its residuals are noise.
+    #[serde(flatten)]
+    pub structure: Structure,
+    /// Where the points lie, in the unit of the file's abscissa in SI.
+    pub at: Vec<f64>,
+    /// Measured less simulated values, zeros and tilt taken off.
+    pub residuals: Vec<f64>,
+}
+
+/// What came of a fit.
+#[derive(Debug)]
+pub struct Fitted {
+    /// The keys in the order in which they were asked for.
+    pub values: Vec<Value>,
+    /// How each data set is matched.
+    pub sets: Vec<SetResult>,
+    /// Where data do not determine a key, or the model not the data, in a line each.
+    pub remarks: Vec<String>,
+    /// The scenario with the fitted values.
+    pub scenario: Scenario,
+    pub(super) errors: Errors,
+}
+
+impl Fitted {
+    pub(super) fn new(search: &Search, found: &Found, errors: Errors, scenario: Scenario) -> Self {
+        let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
+        let covariance = &errors.covariance;
+        let correlation = |i: usize, j: usize| {
+            let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+            match norm > 0.0 {
+                true => covariance[(i, j)] / norm,
+                false => 0.0,
+            }
+        };
+        let keys = &search.fit.free;
+        for (i, (free, &theta)) in keys.iter().zip(&found.theta).enumerate() {
+            let error = covariance[(i, i)].sqrt();
+            let at_bound = free.is_at_bound(theta);
+            let is_known = error.is_finite() && error > 0.0 && !at_bound;
+            let key = free.key.clone();
+            if at_bound {
+                remarks.push(format!(
+                    "the data do not determine {key}: it reached the end of its range"
+                ));
+            } else if !is_known {
+                remarks.push(format!("the data do not determine {key}"));
+            } else if error > VAGUE * free.vague_at(theta) {
+                remarks.push(format!(
+                    "the data hardly determine {key}: its standard error is as large as itself"
+                ));
+            }
+            let others = keys.iter().enumerate().filter(|(j, _)| *j != i);
+            let others = others.map(|(j, other)| (other.key.clone(), correlation(i, j)));
+            for (other, correlation) in others.clone().take(i) {
+                if correlation.abs() > ALIKE {
+                    alike.push(format!(
+                        "the data hardly distinguish {other} from {key}: their correlation is {correlation:.4}"
+                    ));
+                }
+            }
+            values.push(Value {
+                unit: free.unit,
+                value: free.value(theta),
+                stderr: is_known.then(|| free.error(theta, error)),
+                numerical_error: None,
+                interval: None,
+                correlations: others.collect(),
+                key,
+            });
+        }
+        remarks.extend(alike);
+        let sets = sets(search, found, &errors);
+        remarks.extend(
+            sets.iter()
+                .filter_map(|set| set.structure.remark(&set.file)),
+        );
+        Self {
+            values,
+            sets,
+            remarks,
+            scenario,
+            errors,
+        }
+    }
+}
+
+fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
+    let mut next = found.theta.len();
+    let mut result = |i: usize, (set, place): (&Measured, Range<usize>), simulated: &Vec<f64>| {
+        let left = residuals(set, simulated);
+        let spent: f64 = errors.leverages[place].iter().sum();
+        let freedom = freedom(left.len(), spent);
+        let (values, abscissae) = (set.axes.unit(), unit_of(set.axes.x));
+        let column = usize::from(!set.axes.over_r());
+        let mut nuisances = Vec::new();
+        for k in (0..3).filter(|&k| search.nuisances[i].active[k]) {
+            nuisances.push(Nuisance {
+                name: NAMES[k][column],
+                unit: match k {
+                    0 => values.to_owned(),
+                    1 => abscissae.to_owned(),
+                    _ if values == abscissae => "rad".to_owned(),
+                    _ => format!("{values}/{abscissae}"),
+                },
+                value: found.nuisances[i][k],
+                stderr: errors.covariance[(next, next)].sqrt(),
+            });
+            next += 1;
+        }
+        SetResult {
+            file: set.name.clone(),
+            points: left.len(),
+            notes: set.notes.clone(),
+            nuisances,
+            structure: Structure::new(&left, set.errors.as_deref(), freedom),
+            at: set.at.clone(),
+            residuals: left,
+        }
+    };
+    let sets = search.places().zip(&found.simulated).enumerate();
+    sets.map(|(i, (set, simulated))| result(i, set, simulated))
+        .collect()
+}
+
+impl SetResult {
+    /// The root of the mean square of its residuals.
+    pub fn rms(&self) -> f64 {
+        rms(&self.residuals)
+    }
+}

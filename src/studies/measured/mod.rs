@@ -1,0 +1,359 @@
+//! Measured results to compare with simulated ones: scars, fretting loops, histories.
+//!
+//! Instruments choose their zeros, signs and directions at will. What can be told without a model is put right here and
+//! noted; what needs one (zeros, centre, tilt) a fit finds beside its keys.
+
+use crate::math::scan::range;
+use crate::scenario::Refusal;
+use crate::scenario::columns::Columns;
+use crate::traces::Axes;
+use record::Record;
+
+mod map;
+pub mod record;
+mod strokes;
+mod trace;
+
+pub use record::Pick;
+pub use strokes::{Strokes, rises};
+
+/// The fewest rows of a data set.
+const FEWEST: usize = 3;
+
+/// The fewest rows of a loop.
+const FEWEST_OF_LOOP: usize = 8;
+
+/// A loop that leans this much to the left has its force or its displacement with the other sign: the correlation of both.
+const LEANS_LEFT: f64 = -0.3;
+
+/// What the rows of a file are, by its columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Heights or depths over x and y.
+    Map,
+    /// A force over a displacement.
+    Loop,
+    /// A volume, a depth, an approach or a mass over cycles, time, distance or energy.
+    History,
+    /// A profile or what has worn of it, over the radius.
+    Scar,
+}
+
+/// Abscissae of histories, in the order in which they are looked for.
+pub const OVER: [&str; 4] = ["cycle", "energy_J", "distance_m", "time_s"];
+
+/// Ordinates of histories, with what they are called in [`Axes`] and its symbol.
+const WORN: [(&str, &str, &str); 4] = [
+    ("depth_m", Axes::DEPTH.y, Axes::DEPTH.symbol),
+    ("wear_volume_m3", Axes::VOLUME.y, Axes::VOLUME.symbol),
+    ("approach_m", "approach_m", "approach"),
+    ("mass_kg", Axes::VOLUME.y, Axes::VOLUME.symbol),
+];
+
+impl Kind {
+    /// By the columns of a file; `None` if they are of nothing that was measured.
+    pub fn of(columns: &Columns) -> Option<Self> {
+        let has = |name: &str| columns.has(name);
+        let is_own_loop = has("u_x_m") && has("F_x_N") && !has(Axes::VOLUME.y);
+        if has("x_m") && has("y_m") && (has("f_m") || has("wear_m")) {
+            Some(Self::Map)
+        } else if is_own_loop || has(Axes::LOOP.x) && has(Axes::LOOP.y) {
+            Some(Self::Loop)
+        } else if OVER.iter().any(|name| has(name)) && WORN.iter().any(|(name, ..)| has(name)) {
+            Some(Self::History)
+        } else {
+            has("r_m").then_some(Self::Scar)
+        }
+    }
+}
+
+/// A data set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The file.
+    pub name: String,
+    /// What it holds: a profile, what has worn of it, a loop, or what has worn over the course of a test.
+    pub axes: Axes,
+    /// The radius in m, of either sign where a trace runs through the axis; u_x in m; cycles, s, m or J.
+    pub at: Vec<f64>,
+    /// What was measured there, in the unit of the axes.
+    pub values: Vec<f64>,
+    /// Standard errors of the values, where the file gives them.
+    pub errors: Option<Vec<f64>>,
+    /// The end of the cycle that a loop was measured in, where it is known.
+    pub cycle: Option<f64>,
+    /// Of a loop, which points belong to rising strokes; else empty.
+    pub rising: Vec<bool>,
+    /// Whether its values are means around the axis, so that it has no other side and no other centre.
+    pub is_averaged: bool,
+    /// What was left out or put right, a line each.
+    pub notes: Vec<String>,
+}
+
+impl Measured {
+    /// A scar: columns `r_m` and `wear_m`, or `f_m` for the worn profile; standard errors in `error_m`. A map has columns
+    /// `x_m` and `y_m`, and is averaged around its axis.
+    ///
+    /// # Errors
+    /// A file that is not such a table; fewer than 3 rows.
+    pub fn scar(columns: &Columns) -> Result<Self, Refusal> {
+        let axes = match columns.has(Axes::WEAR.y) {
+            true => Axes::WEAR,
+            false => Axes::PROFILE,
+        };
+        let mut scar = match Kind::of(columns) {
+            Some(Kind::Map) => map::read(columns, axes)?,
+            _ => read(columns, axes, [axes.x, axes.y])?,
+        };
+        scar.sort();
+        if axes == Axes::WEAR && trace::is_downwards(&scar.at, &scar.values) {
+            scar.negate("its wear is negative: taken with the other sign");
+        }
+        Ok(scar)
+    }
+
+    /// A loop: columns `u_m` and `F_N`, in the order of time through one closed cycle or more; `error_N`. In this
+    /// program's own `loop.csv` they are the displacement that the rig senses, else `u_x_m`, and `F_x_N`. All whole
+    /// cycles count, or those that `pick` names.
+    ///
+    /// # Errors
+    /// A file that is not such a table; fewer than 8 rows; a loop that does not close; cycles that are not there.
+    pub fn fretting_loop(columns: &Columns, pick: Option<Pick>) -> Result<Self, Refusal> {
+        let mut measured = read(columns, Axes::LOOP, loop_columns(columns))?;
+        if measured.at.len() < FEWEST_OF_LOOP {
+            let reason = format!("a loop needs {FEWEST_OF_LOOP} rows or more");
+            return Err(columns.refuse(reason));
+        }
+        let spans = [&measured.at, &measured.values].map(|values| span(values));
+        if spans.contains(&0.0) {
+            return Err(columns.refuse("is not a loop: displacement or force never changes"));
+        }
+        if correlation(&measured.at, &measured.values) < LEANS_LEFT {
+            measured.negate("force and displacement have opposite signs: the force is turned");
+        }
+        let mut record =
+            Record::new(&measured.at, &measured.values).map_err(|why| columns.refuse(why))?;
+        let whole = record.cycles.len();
+        let left = measured.at.len() - record.points();
+        if whole > 1 || left > 0 {
+            let rest = if left > 0 {
+                format!("; {left} points belong to no whole one")
+            } else {
+                String::new()
+            };
+            measured.notes.push(format!("{whole} whole cycles{rest}"));
+        }
+        if let Some(pick) = pick {
+            record.pick(pick).map_err(|why| columns.refuse(why))?;
+            measured
+                .notes
+                .push(format!("cycles {} to {} are picked", pick.first, pick.last));
+        }
+        if record.area() < 0.0 {
+            record.turn();
+            measured
+                .notes
+                .push("it runs backwards (its area is negative): turned".to_owned());
+        }
+        let kept: Vec<usize> = record
+            .cycles
+            .iter()
+            .flat_map(|cycle| cycle.points.clone())
+            .collect();
+        let choose = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
+        measured.rising = record
+            .cycles
+            .iter()
+            .flat_map(|cycle| cycle.rising.iter().copied())
+            .collect();
+        measured.at = choose(&measured.at);
+        measured.values = choose(&measured.values);
+        measured.errors = measured.errors.as_deref().map(choose);
+        Ok(measured)
+    }
+
+    /// A history: columns `cycle`, `energy_J`, `distance_m` or `time_s`, and `wear_volume_m3`, `depth_m`, `approach_m`, or
+    /// `mass_kg` with a `density` in kg/m³; errors in `error_m3`, `error_m` or `error_kg`.
+    ///
+    /// # Errors
+    /// A file that is not such a table; fewer than 3 rows; negative cycles; a mass without a density.
+    pub fn history(columns: &Columns, density: Option<f64>) -> Result<Self, Refusal> {
+        let x = OVER
+            .into_iter()
+            .find(|name| columns.has(name))
+            .unwrap_or(OVER[0]);
+        let found = WORN
+            .into_iter()
+            .find(|(name, ..)| columns.has(name))
+            .unwrap_or(WORN[1]);
+        let (name, y, symbol) = found;
+        let mut measured = read(columns, Axes::new(x, y, symbol), [x, name])?;
+        if name == "mass_kg" {
+            let rule = "a mass needs the density of what has worn: --density 7800 (kg/m^3)";
+            let density = density.ok_or_else(|| columns.refuse(rule))?;
+            let errors = measured.errors.iter_mut().flatten();
+            measured
+                .values
+                .iter_mut()
+                .chain(errors)
+                .for_each(|value| *value /= density);
+        }
+        if let Some(row) = measured.at.iter().position(|at| *at < 0.0) {
+            let line = columns.line(row);
+            return Err(columns.refuse(format!("line {line}: {x} must be 0 or greater")));
+        }
+        Ok(measured)
+    }
+
+    /// Whether a scar's trace runs through its axis, by the signs of its radii.
+    pub fn is_two_sided(&self) -> bool {
+        let ends = range(self.at.iter().copied()).unwrap_or_default();
+        self.axes.over_r() && ends[0] < -0.2 * ends[1] && ends[1] > -0.2 * ends[0]
+    }
+
+    /// The centre of a trace, m, as far as it shows without a model.
+    pub fn centre(&self) -> f64 {
+        trace::centre(&self.at, &self.values, self.axes == Axes::WEAR)
+    }
+
+    /// Turns the sign of all values, and says why.
+    pub fn negate(&mut self, why: &str) {
+        self.values.iter_mut().for_each(|value| *value = -*value);
+        self.notes.push(why.to_owned());
+    }
+
+    /// Puts the points in the order of their abscissae.
+    fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.at.len()).collect();
+        order.sort_by(|&i, &j| self.at[i].total_cmp(&self.at[j]));
+        let sorted = |values: &[f64]| order.iter().map(|&i| values[i]).collect::<Vec<f64>>();
+        self.at = sorted(&self.at);
+        self.values = sorted(&self.values);
+        self.errors = self.errors.as_deref().map(sorted);
+    }
+}
+
+/// The columns of displacement and force in a file of loops.
+pub fn loop_columns(columns: &Columns) -> [&'static str; 2] {
+    let is_own = columns.has("u_x_m") && columns.has("F_x_N");
+    let is_sensed = columns.column("rig_displacement_m").is_ok();
+    match (is_own, is_sensed) {
+        (true, true) => ["rig_displacement_m", "F_x_N"],
+        (true, false) => ["u_x_m", "F_x_N"],
+        (false, _) => [Axes::LOOP.x, Axes::LOOP.y],
+    }
+}
+
+fn read(columns: &Columns, axes: Axes, [at, values]: [&str; 2]) -> Result<Measured, Refusal> {
+    let (_, unit) = values.rsplit_once('_').unwrap_or_default();
+    let error = format!("error_{unit}");
+    let cycle = columns.header.iter().find(|(key, _)| key == "cycle");
+    let has_errors = columns.has(&error);
+    // Without errors, the values take their place.
+    let error = if has_errors { error.as_str() } else { values };
+    let ([at, values, errors], rows) = columns.whole_rows([at, values, error])?;
+    if at.len() < FEWEST {
+        return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));
+    }
+    let wrong = errors.iter().position(|error| has_errors && *error <= 0.0);
+    if let Some(row) = wrong {
+        let line = columns.line(rows[row]);
+        return Err(columns.refuse(format!("line {line}: an error must be greater than 0")));
+    }
+    let skipped = columns.len() - rows.len();
+    let note = format!(
+        "{skipped} of {} rows have missing values and are left out",
+        columns.len()
+    );
+    Ok(Measured {
+        name: columns.path.clone(),
+        axes,
+        at,
+        values,
+        errors: has_errors.then_some(errors),
+        cycle: cycle.and_then(|(_, cycle)| cycle.parse().ok()),
+        rising: Vec::new(),
+        is_averaged: false,
+        notes: if skipped > 0 { vec![note] } else { Vec::new() },
+    })
+}
+
+/// By how many times two lengths may differ before one of them is thought to be in another unit.
+const OTHER_UNIT: f64 = 100.0;
+
+/// Says so where the largest of `radii` and the `reach` of the contact, m, differ by so much that one of
+/// them is in another unit.
+pub(super) fn check_radii(name: &str, radii: &[f64], reach: f64) -> Result<(), Refusal> {
+    let widest = radii.iter().map(|r| r.abs()).fold(0.0, f64::max);
+    if (reach / OTHER_UNIT..=OTHER_UNIT * reach).contains(&widest) {
+        return Ok(());
+    }
+    let rule = format!(
+        "radii up to {widest:.1e} m, but the contact reaches only {reach:.1e} m: are they in m?"
+    );
+    Err(Refusal::new(name, rule))
+}
+
+fn span(values: &[f64]) -> f64 {
+    range(values.iter().copied()).map_or(0.0, |[least, most]| most - least)
+}
+
+fn correlation(x: &[f64], y: &[f64]) -> f64 {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (mx, my) = (mean(x), mean(y));
+    let pairs = x.iter().zip(y).map(|(x, y)| (x - mx, y - my));
+    let [xx, xy, yy] = pairs.fold([0.0; 3], |[xx, xy, yy], (x, y)| {
+        [xx + x * x, xy + x * y, yy + y * y]
+    });
+    xy / (xx * yy).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn columns(text: &str) -> Columns {
+        Columns::parse(text, "data.csv").expect("columns")
+    }
+
+    #[test]
+    fn scars_loops_and_histories_are_read_with_their_errors() {
+        let scar = Measured::scar(&columns("r_um,wear_nm,error_nm\n-1,5,1\n0,7,1\n1,5,2\n"));
+        let scar = scar.expect("a scar");
+        assert_eq!((scar.axes, scar.at[0]), (Axes::WEAR, -1e-6));
+        assert!((scar.errors.expect("errors")[2] / 2e-9 - 1.0).abs() < 1e-12);
+        let profile = Measured::scar(&columns("r_m,f_m\n0,0\n1,1\n2,4\n")).expect("a scar");
+        assert_eq!((profile.axes, profile.errors), (Axes::PROFILE, None));
+        let history = Measured::history(&columns("cycle,wear_volume_m3\n0,0\n1,1\n2,4\n"), None);
+        assert_eq!(history.expect("a history").axes, Axes::VOLUME);
+        let history = Measured::history(&columns("cycle,depth_um\n0,0\n1,1\n2,4\n"), None);
+        assert_eq!(history.expect("a history").values[2], 4e-6);
+    }
+
+    #[test]
+    fn bad_data_are_one_line() {
+        let scar = |text: &str| {
+            Measured::scar(&columns(text))
+                .expect_err("refused")
+                .to_string()
+        };
+        assert!(scar("r_m,f_m\n0,0\n1,1\n").contains("fewer than 3 rows"));
+        assert!(scar("r_m,f_m,error_m\n0,0,1\n1,1,0\n2,4,1\n").contains("line 3: an error must"));
+        let history = Measured::history(&columns("cycle,depth_m\n0,0\n-1,1\n2,4\n"), None);
+        assert!(
+            history
+                .expect_err("refused")
+                .to_string()
+                .contains("line 3: cycle must")
+        );
+        let mut open = "u_m,F_N\n".to_owned();
+        for i in 0..20 {
+            open.push_str(&format!("{},{}\n", i, 2 * i));
+        }
+        let refused = Measured::fretting_loop(&columns(&open), None).expect_err("refused");
+        assert!(
+            refused.to_string().contains("the loop does not close"),
+            "{refused}"
+        );
+    }
+}

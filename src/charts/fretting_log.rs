@@ -1,15 +1,14 @@
-//! The fretting log: the loops F_x over u_x of earlier cycles behind that of the last one, each a step
-//! further to the right and up. The axes are those of the last loop.
+//! The fretting log: the loops F_x over u_x of earlier cycles and of the last one, each at the height of its cycle.
 
 use super::*;
-use crate::math::scan::range;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
     title: "fretting log",
     is_calm: true,
-    text: "The fretting loops of earlier cycles behind the last one. The axes belong to the last loop; older \
-           loops are shifted to the right and up.",
+    text: "The fretting loops of earlier cycles and of the last one: each stands at the cycle that it ends, and \
+           its height is the tangential force, as large as the note says. Loops that grow fatter or tilt show \
+           that the contact changes.",
     symbols: &[U_X, F_X],
     ..Recipe::new(make)
 };
@@ -17,8 +16,8 @@ pub static RECIPE: Recipe = Recipe {
 /// The most loops that are drawn.
 const MOST: usize = 12;
 
-/// How far the oldest loop lies behind the newest, in widths and heights of the largest.
-const SHIFT: [f64; 2] = [0.6, 1.2];
+/// How much of the distance to the next loop each takes, to both sides together.
+const HEIGHT: f64 = 1.6;
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let live = run.live.as_ref().filter(|live| live.moves());
@@ -27,26 +26,25 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let mut loops: Vec<&Loop> = log.iter().rev().step_by(every).map(AsRef::as_ref).collect();
     loops.reverse();
     let (first, last) = loops.first().zip(loops.last()).ok_or(NO_CYCLE)?;
-    let extent = |of: fn(&Loop) -> &Vec<f64>| {
-        let values = loops.iter().flat_map(|one| of(one)).copied();
-        range(values).map_or(0.0, |[low, high]| high - low)
-    };
-    let size = [extent(|one| &one.shifts), extent(|one| &one.forces)];
-    let newest = loops.len() - 1;
-    let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"));
-    chart.note = format!("cycles {:.0} (back) to {:.0}", first.end, last.end);
+    let forces = loops.iter().flat_map(|one| &one.forces);
+    let most = forces.map(|force| force.abs()).fold(0.0, f64::max);
+    let apart = ((last.end - first.end) / (loops.len() - 1).max(1) as f64).max(1.0);
+    let height = 0.5 * HEIGHT * apart;
+    let scale = if most > 0.0 { height / most } else { 0.0 };
+    let bounds = [(first.end - height).min(0.0), last.end + height];
+    let cycles = Axis::new("cycle", "").bounds(bounds);
+    let mut chart = Chart::new("", Axis::new("u_x", "m"), cycles);
+    chart.note = format!("F_x up to {}", format_value(most, "N", 3));
     // The newest is drawn last, over the others.
     Ok(chart.curves(loops.iter().enumerate().map(|(k, one)| {
-        let step = (newest - k) as f64 / newest.max(1) as f64;
-        let moved = |values: &[f64], axis: usize| -> Vec<f64> {
-            let by = step * SHIFT[axis] * size[axis];
-            values.iter().map(|value| value + by).collect()
+        let heights = one.forces.iter().map(|force| one.end + scale * force);
+        let role = match k + 1 == loops.len() {
+            true => Role::Shear,
+            false => Role::Unworn,
         };
-        let role = if k == newest {
-            Role::Shear
-        } else {
-            Role::Unworn
-        };
-        Curve::new("", moved(&one.shifts, 0), moved(&one.forces, 1), role)
+        let heights: Vec<f64> = heights.collect();
+        let mut curve = Curve::new("", one.shifts.clone(), heights, role);
+        curve.true_values.clone_from(&one.forces);
+        curve
     })))
 }

@@ -3,15 +3,17 @@
 
 use super::*;
 
-/// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any.
-type Points = (Vec<f64>, Vec<f64>, Vec<f64>);
+/// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any; the values that a cursor reads,
+/// where these are not the ordinates.
+type Points = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 
 /// The curves of all ghosts that `of` finds points in.
 fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
     let ghosts = run.ghosts.iter().enumerate();
     let curves = ghosts.filter_map(|(k, ghost)| {
-        let (xs, ys, errors) = of(ghost)?;
-        let curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
+        let (xs, ys, errors, true_values) = of(ghost)?;
+        let mut curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
+        curve.true_values = true_values;
         Some(match ghost.is_measured {
             true => curve.scattered(errors),
             false => curve.dashed(),
@@ -26,20 +28,19 @@ pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
     curves(run, |ghost| {
         let trace = ghost.trace(axes)?;
         let errors = trace.errors.unwrap_or_default();
-        Some((trace.xs.to_vec(), trace.ys.to_vec(), errors.to_vec()))
+        let [xs, ys, errors] = [trace.xs, trace.ys, errors].map(<[f64]>::to_vec);
+        Some((xs, ys, errors, Vec::new()))
     })
 }
 
-/// The curves of the traces on both axes, what the second ones show changed by `scale`, errors included. One entry of
-/// the legend is for both.
-pub(super) fn both(run: &Run, axes: [Axes; 2], scale: impl Fn(f64) -> f64) -> Vec<Curve> {
+/// The curves of the traces on both axes, the second ones changed. One entry of the legend is for both.
+pub(super) fn both(run: &Run, axes: [Axes; 2], change: impl Fn(&mut Curve)) -> Vec<Curve> {
     let [mut curves, mut second] = axes.map(|axes| on(run, axes));
     for curve in &mut second {
         if curves.iter().any(|other| other.role == curve.role) {
             curve.name.clear();
         }
-        let values = curve.ys.iter_mut().chain(&mut curve.errors);
-        values.for_each(|value| *value = scale(*value));
+        change(curve);
     }
     curves.append(&mut second);
     curves
@@ -49,11 +50,14 @@ pub(super) fn both(run: &Run, axes: [Axes; 2], scale: impl Fn(f64) -> f64) -> Ve
 pub fn worn(run: &Run, times: Option<f64>) -> Vec<Curve> {
     curves(run, |ghost| {
         let worn = ghost.worn(|r| run.unworn(r))?;
-        let drawn = worn.unworn.iter().zip(&worn.wear);
-        let ys = drawn.map(|(f0, wear)| times.map_or(*wear, |times| f0 + times * wear));
-        let ys = ys.collect();
+        let drawn = |times: Option<f64>| -> Vec<f64> {
+            let pairs = worn.unworn.iter().zip(&worn.wear);
+            let ys = pairs.map(|(f0, wear)| times.map_or(*wear, |times| f0 + times * wear));
+            ys.collect()
+        };
+        let (ys, true_values) = (drawn(times), drawn(times.map(|_| 1.0)));
         let scaled = |error: f64| times.unwrap_or(1.0) * error;
         let errors = worn.errors.into_iter().flatten().map(scaled).collect();
-        Some((worn.radii, ys, errors))
+        Some((worn.radii, ys, errors, true_values))
     })
 }

@@ -129,13 +129,12 @@ impl Recipe {
                 curve.name = named(&curve.name);
             }
         }
-        if run.live.is_none() {
-            // There, curves of other sources lie over those of the run.
-            chart.curves.sort_by_key(|curve| match curve.role {
-                Role::Ghost(k) => k + 1,
-                _ => 0,
-            });
-        }
+        chart.curves.sort_by_key(|curve| match curve.role {
+            // On paper, curves of other sources lie over those of the run.
+            Role::Ghost(k) if run.live.is_none() => k + 1,
+            // On a screen, closed forms lie below what they explain.
+            _ => usize::from(run.live.is_some() && !curve.is_theory),
+        });
         Ok(chart)
     }
 
@@ -227,10 +226,10 @@ fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve
         Some(times) => f0 + times * (f - f0),
     });
     let curve = Curve::new("limit", radii, worn.collect::<Vec<_>>(), Role::Limit);
-    Some(curve.dashed().theory())
+    Some(curve.theory().magnified(times.unwrap_or(1.0), limit))
 }
 
-/// A chart over cycles: on a screen over all that are planned, from the first one on.
+/// A chart over cycles: on a screen over 10, 20, 50, 100, … of them, and at last over all that are planned.
 fn over_cycles(run: &Run, y: Axis) -> Chart {
     let mut cycles = Axis::new("cycles", "");
     cycles.bounds = cycles_shown(run);
@@ -254,13 +253,18 @@ fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'stati
     Ok(curve)
 }
 
-/// The cycles that charts of a live run show.
+/// The cycles that charts of a live run show: those so far fill a good part of it, and it grows seldom.
 fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     let live = run.live.as_ref()?;
     let seen = run.history.as_ref().and_then(Table::last_cycle);
-    let end = seen.unwrap_or(0.0).max(live.planned_cycles.unwrap_or(0.0));
     let of_ghosts = run.ghosts.iter().map(|ghost| ghost.end());
-    Some([0.0, round_end(of_ghosts.fold(end, f64::max))])
+    let seen = of_ghosts.fold(seen.unwrap_or(0.0), f64::max);
+    let planned = live.planned_cycles.filter(|planned| seen <= *planned);
+    let grown = Step::above(seen.max(10.0) * (1.0 - 1e-6)).value();
+    Some([
+        0.0,
+        planned.map_or(grown, |planned| grown.min(round_end(planned))),
+    ])
 }
 
 /// How many times what is at most `deepest` is drawn magnified, so that it takes no more than `height`: 1, 2, 5,
@@ -288,7 +292,7 @@ pub fn round_end(end: f64) -> f64 {
 
 impl Live {
     /// Marks at the contact radius a and at the permanent stick radius c; where more sticks at the moment, a
-    /// faint one there.
+    /// faint one there, `now`.
     pub fn edge_marks(&self) -> Vec<Mark> {
         let moment = &self.moment;
         let mark = |x, label, role| Mark { x, label, role };
@@ -300,7 +304,7 @@ impl Live {
         let permanent = moment.permanent_stick_radius.filter(within);
         let now = moment.stick_radius.filter(within);
         let is_more = |now: &f64| permanent.is_none_or(|c| *now > c * (1.0 + 1e-9));
-        marks.extend(now.filter(is_more).map(|now| mark(now, "", Role::Faint)));
+        marks.extend(now.filter(is_more).map(|now| mark(now, "now", Role::Faint)));
         marks.extend(permanent.map(|c| mark(c, "c", Role::Stick)));
         marks
     }

@@ -12,8 +12,8 @@ pub static RECIPE: Recipe = Recipe {
     needs: Curves::PROFILE,
     overlays: &[Axes::WEAR, Axes::PROFILE],
     text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a line is drawn \
-           magnified, by one factor for the whole run that the title tells. It begins where surfaces slide \
-           under pressure: in the ring between c and a. A faint line ends what sticks at the moment: all, \
+           magnified, by one factor for the whole run that the legend tells. It begins where surfaces slide \
+           under pressure: in the ring between c and a. A faint line, now, ends what sticks at the moment: all, \
            whenever the motion reverses.",
     symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
     ..Recipe::new(make)
@@ -51,15 +51,12 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (radii, unworn, wear) = (column("r_m"), column("f0_m"), column("wear_m"));
     let mut chart = over_r(run, "r", ("f", "m"));
     let times = run.pick(times(run, unworn, wear), 1.0);
-    if times > 1.0 {
-        chart.title = format!("{}, wear drawn ×{times}", RECIPE.title);
-    }
     let worn = match run.live {
         Some(_) => {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
-            vec![worn.filled(unworn)]
+            vec![worn.magnified(times, column("f_m")).filled(unworn)]
         }
         None => {
             // What a page hides in the profile: wear that is seen there would lie under its inset.

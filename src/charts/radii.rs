@@ -35,7 +35,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         let largest = contact.highest();
         ordinate.bounds = (largest > 0.0).then_some([0.0, 1.1 * largest]);
     }
-    let others = ghosts::both(run, [Axes::CONTACT, Axes::STICK], |radius| radius);
+    let others = ghosts::both(run, [Axes::CONTACT, Axes::STICK], |_| {});
     Ok(over_cycles(run, ordinate)
         .curves(others)
         .curve(contact)

@@ -25,18 +25,18 @@ pub static RECIPE: Recipe = Recipe {
 const DEPTH: Axes = Axes::new("dissipated_energy_J", "scar_depth_m", "depth");
 const RADIUS: Axes = Axes::new("dissipated_energy_J", "scar_radius_m", "radius");
 
-/// The work at the planned end of a live run, J, where each cycle takes as much as those so far.
-fn planned_work(run: &Run) -> Option<f64> {
+/// The work at the last of the cycles that charts show, J, where each cycle takes as much as those so far.
+fn shown_work(run: &Run) -> Option<f64> {
     let [cycles, work] = run.over_cycles(["cycle", "dissipated_energy_J"])?;
     let (cycle, done) = (*cycles.last()?, *work.last()?);
-    let planned = run.live.as_ref()?.planned_cycles.unwrap_or(cycle);
-    (cycle >= 1.0).then(|| done * (planned / cycle).max(1.0))
+    let [_, end] = cycles_shown(run)?;
+    (cycle >= 1.0).then(|| done * (end / cycle).max(1.0))
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.wears()?;
     let columns = run.over_cycles(["dissipated_energy_J", "scar_radius_m", "scar_depth_m"]);
-    let [work, radii, mut depths] = columns.ok_or(NO_HISTORY)?;
+    let [work, radii, depths] = columns.ok_or(NO_HISTORY)?;
     let radius = Curve::new("radius", work.clone(), radii, Role::Contact);
     let expected = run.expected_wear();
     let deepest = depths.iter().copied().fold(expected, f64::max);
@@ -44,22 +44,22 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         Scale::Linear => magnification(deepest, radius.highest()),
         Scale::Log => 1.0,
     };
-    depths.iter_mut().for_each(|depth| *depth *= times);
-    let name = match times {
-        1.0 => "depth".to_owned(),
-        times => format!("depth ×{times}"),
-    };
-    let others = ghosts::both(run, [RADIUS, DEPTH], |depth| times * depth);
+    let drawn: Vec<f64> = depths.iter().map(|depth| times * depth).collect();
+    let depth = Curve::new("depth", work, drawn, Role::Profile);
+    let others = ghosts::both(run, [RADIUS, DEPTH], |curve| {
+        curve.true_values.clone_from(&curve.ys);
+        curve.scale(|depth| times * depth);
+    });
     let (mut work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     let mut reach = 0.0;
     if let Some(live) = &run.live {
         reach = live.moment.contact_radius;
         let of_others = others.iter().flat_map(|ghost| &ghost.xs).copied();
-        let end = of_others.fold(planned_work(run).ok_or(NO_CYCLE)?, f64::max);
+        let end = of_others.fold(shown_work(run).ok_or(NO_CYCLE)?, f64::max);
         work_axis = work_axis.bounds([0.0, end]);
     }
     Ok(Chart::new("", work_axis, axis.from_zero().expecting(reach))
         .curves(others)
         .curve(radius.dashed())
-        .curve(Curve::new(name, work, depths, Role::Profile)))
+        .curve(depth.magnified(times, depths)))
 }

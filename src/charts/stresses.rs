@@ -40,7 +40,9 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     };
     let curve = |name, ys: Vec<f64>, role| Curve::new(name, radii, ys, role);
     let others = match divisor {
-        Some(_) => ghosts::both(run, [Axes::PRESSURE, Axes::SHEAR], scaled),
+        Some(_) => ghosts::both(run, [Axes::PRESSURE, Axes::SHEAR], |curve| {
+            curve.scale(scaled);
+        }),
         None => ghosts::on(run, Axes::PRESSURE),
     };
     let mut chart = over_r(run, "r", ("stress", "Pa"))
@@ -53,6 +55,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         let shear = curve(name, shear, Role::Shear);
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
         chart = chart.curve(shear.dashed_if(run.live.is_some()));
+        chart.y.is_symmetric = true;
     }
     let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
         return Ok(chart);
@@ -64,5 +67,5 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let cattaneo = cattaneo.map(|shear| shear.iter().copied().map(scaled).collect());
     let cattaneo = cattaneo.map(|shear| curve("Cattaneo", shear, Role::Unworn));
     let closed_forms = [hertz, cattaneo].into_iter().flatten();
-    Ok(chart.curves(closed_forms.map(|curve| curve.dashed().theory())))
+    Ok(chart.curves(closed_forms.map(Curve::theory)))
 }

@@ -19,6 +19,7 @@ use crate::scenario::nearest::nearest;
 use crate::scenario::typed;
 use crate::tui::command::{COMMANDS, Command};
 use crate::tui::keys::{Key, parse_script};
+use crate::tui::panels::Panel;
 
 /// The preferences, each of which may be left out.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -35,6 +36,9 @@ pub struct Config {
     pub fps: Option<u16>,
     /// Whether the mouse belongs to the explorer.
     pub mouse: Option<bool>,
+    /// The panels that come first.
+    #[serde(deserialize_with = "panels")]
+    pub panels: Vec<Panel>,
     /// Further keys of commands.
     #[serde(deserialize_with = "keys")]
     pub keys: Vec<(Key, Command)>,
@@ -79,6 +83,21 @@ fn rate<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u16>, D::Error> {
         fps @ 1..=120 => Ok(Some(fps)),
         fps => Err(D::Error::custom(format!("{fps}: must be from 1 to 120"))),
     }
+}
+
+fn panels<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Panel>, D::Error> {
+    let titles = Vec::<String>::deserialize(from)?;
+    let panel = |title: &String| {
+        Panel::titled(title).ok_or_else(|| {
+            let known = Panel::ALL.map(|panel| panel.recipe().title);
+            let rule = match nearest(title, known.into_iter()) {
+                Some(near) => format!("did you mean {near:?}?"),
+                None => format!("known are {}", known.join(", ")),
+            };
+            D::Error::custom(format!("panels: {title:?} is not a panel; {rule}"))
+        })
+    };
+    titles.iter().map(panel).collect()
 }
 
 fn keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Key, Command)>, D::Error> {
@@ -126,6 +145,7 @@ mod tests {
         assert_eq!(all.color, Some(ColorChoice::Auto));
         assert_eq!(all.marker, Some(Marker::Braille));
         assert_eq!((all.fps, all.mouse), (Some(10), Some(false)));
+        assert_eq!(all.panels, [Panel::Stresses, Panel::Section]);
         assert!(all.keys.contains(&(Key::Char('R'), Command::RunPause)));
     }
 
@@ -140,6 +160,10 @@ mod tests {
             (
                 "\nthem = 1",
                 "config.toml: line 2: unknown key them; did you mean theme?",
+            ),
+            (
+                "panels = [\"stress\"]",
+                "config.toml: line 1: panels: \"stress\" is not a panel; did you mean \"stresses\"?",
             ),
             (
                 "[keys]\nstep = \"ab\"",

@@ -70,6 +70,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         theme: tui::theme_of(marker, colored, look),
         present: options.present,
+        panels: config.panels,
         mouse: screen.mouse || config.mouse == Some(true),
         script: screen.print.map(|size| Script {
             strokes,

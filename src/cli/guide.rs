@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use anyhow::Result;
 
 use super::args::Guide;
+use super::markdown;
 use crate::guide::{TOPICS, Topic};
 use crate::scenario::Refusal;
 use crate::scenario::nearest::hint;
@@ -17,10 +18,15 @@ pub fn guide(options: &Guide) -> Result<()> {
     };
     let topic = Topic::find(name).ok_or_else(|| unknown(name))?;
     let shown = match io::stdout().is_terminal() {
-        true => page(&emphasised(topic.text)),
+        true => page(&markdown::rendered(topic.text, columns())),
         false => io::stdout().write_all(topic.text.as_bytes()),
     };
     Ok(shown?)
+}
+
+/// The width of the terminal, in cells.
+fn columns() -> usize {
+    ratatui::crossterm::terminal::size().map_or(80, |(columns, _)| usize::from(columns))
 }
 
 fn list() -> String {
@@ -32,21 +38,6 @@ fn list() -> String {
 fn unknown(name: &str) -> Refusal {
     let hint = hint(name, TOPICS.iter().map(|topic| topic.name));
     Refusal::new(format_args!("guide {name}"), "no such topic").or(hint)
-}
-
-/// Markdown with headings in bold; everything else reads well as it is.
-fn emphasised(text: &str) -> String {
-    let (mut out, mut in_code) = (String::new(), false);
-    for line in text.lines() {
-        in_code ^= line.starts_with("```");
-        match line.trim_start_matches('#').strip_prefix(' ') {
-            Some(heading) if !in_code && line.starts_with('#') => {
-                out += &format!("\u{1b}[1m{heading}\u{1b}[0m\n");
-            }
-            _ => out += &format!("{line}\n"),
-        }
-    }
-    out
 }
 
 /// Shows the text in `$PAGER`, or `less`; without either, prints it.
@@ -72,14 +63,6 @@ fn page(text: &str) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn headings_stand_out_and_code_stays() {
-        let text = "# A\n```sh\n# comment\n```\n## B\nplain #1\n";
-        let expected =
-            "\u{1b}[1mA\u{1b}[0m\n```sh\n# comment\n```\n\u{1b}[1mB\u{1b}[0m\nplain #1\n";
-        assert_eq!(emphasised(text), expected);
-    }
 
     #[test]
     fn a_mistyped_topic_is_led_to_the_nearest() {

@@ -32,6 +32,7 @@ mod given;
 mod guide;
 mod inspect;
 mod job;
+mod markdown;
 mod new;
 mod presets;
 mod progress;

@@ -102,6 +102,26 @@ pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
     None
 }
 
+/// How far an axis must reach for sizes with weights: to the largest, but no further than half again what 95 % of
+/// the weight stays below. A size that is singular in a small place does not flatten all others. Sizes of zero do not count.
+pub fn robust_top(sizes: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let is_there = |[size, weight]: &[f64; 2]| *size > 0.0 && size.is_finite() && *weight > 0.0;
+    let mut sizes: Vec<[f64; 2]> = sizes.filter(is_there).collect();
+    sizes.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
+    let Some(&[largest, _]) = sizes.first().filter(|_| sizes.len() >= FEW) else {
+        return sizes.first().map_or(0.0, |[size, _]| *size);
+    };
+    let mut left = 0.05 * sizes.iter().map(|[_, weight]| weight).sum::<f64>();
+    let quantile = sizes.iter().find(|[_, weight]| {
+        left -= weight;
+        left < 0.0
+    });
+    largest.min(1.5 * quantile.map_or(largest, |[size, _]| *size))
+}
+
+/// Fewer sizes than these tell nothing of their distribution.
+const FEW: usize = 20;
+
 /// The element `places` after the one that is `now`, wrapping around at the ends.
 pub fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
     let at = all.iter().position(|one| *one == now).unwrap_or(0) as isize;

@@ -25,6 +25,8 @@ pub struct Axis {
     pub expects: f64,
     /// Linear or logarithmic.
     pub scale: Scale,
+    /// Whether bounds from the data are as far on both sides of zero, on a screen.
+    pub is_symmetric: bool,
     /// Whether the ordinate grows downwards, on paper.
     pub downwards: bool,
 }
@@ -58,6 +60,15 @@ impl Axis {
     pub fn expecting(mut self, value: f64) -> Self {
         self.expects = value;
         self
+    }
+
+    /// The same axis, which takes its bounds from the data.
+    #[must_use]
+    pub fn unbounded(self) -> Self {
+        Self {
+            bounds: None,
+            ..self
+        }
     }
 
     /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.

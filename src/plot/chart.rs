@@ -31,6 +31,8 @@ pub struct Curve {
     pub dashed: bool,
     /// Ordinates of the other side of the shaded area, in a terminal; empty where nothing is shaded.
     pub fill: Vec<f64>,
+    /// The values that its points stand for, where it is drawn magnified; empty where these are the ordinates.
+    pub true_values: Vec<f64>,
     /// Standard errors of the ordinates; empty where they are not known.
     pub errors: Vec<f64>,
     /// Whether its points are measured: on paper each has a symbol.
@@ -79,10 +81,26 @@ impl Curve {
         Self { fill, ..self }
     }
 
-    /// The same curve as a closed form beside the run.
+    /// The same curve, drawn magnified `times`: the name says so, and a cursor reads `values`.
+    #[must_use]
+    pub fn magnified(mut self, times: f64, values: impl Into<Vec<f64>>) -> Self {
+        if times != 1.0 {
+            self.name = format!("{} ×{times}", self.name);
+            self.true_values = values.into();
+        }
+        self
+    }
+
+    /// Changes its ordinates, error bars included.
+    pub fn scale(&mut self, scale: impl Fn(f64) -> f64) {
+        let values = self.ys.iter_mut().chain(&mut self.errors);
+        values.for_each(|value| *value = scale(*value));
+    }
+
+    /// The same curve as a closed form beside the run: dashed, and drawn below the run's own curves.
     #[must_use]
     pub fn theory(mut self) -> Self {
-        self.is_theory = true;
+        (self.is_theory, self.dashed) = (true, true);
         self
     }
 
@@ -94,10 +112,27 @@ impl Curve {
         self
     }
 
-    /// The curve's value at `x`: at a point of it, or linearly interpolated between the first two
-    /// neighbouring points that have `x` between them. `None` in gaps and outside.
+    /// The value that the curve stands for at `x`: at a point of it, or linearly interpolated between the first
+    /// two neighbouring points that have `x` between them. `None` in gaps and outside.
     pub fn value_at(&self, x: f64) -> Option<f64> {
-        value_at(&self.xs, &self.ys, x)
+        let values = match self.true_values.is_empty() {
+            true => &self.ys,
+            false => &self.true_values,
+        };
+        value_at(&self.xs, values, x)
+    }
+
+    /// All values that the curve stands for at `x`, in the order of its points: a loop has two at most places.
+    pub fn values_at(&self, x: f64) -> impl Iterator<Item = f64> {
+        let values = match self.true_values.is_empty() {
+            true => &self.ys,
+            false => &self.true_values,
+        };
+        let pairs = self.xs.windows(2).zip(values.windows(2));
+        pairs.filter_map(move |(xs, ys)| {
+            let is_between = (xs[0] <= x && x < xs[1]) || (xs[1] < x && x <= xs[0]);
+            is_between.then(|| value_at(xs, ys, x)).flatten()
+        })
     }
 
     /// The largest finite ordinate, 0 without a positive one; error bars count.

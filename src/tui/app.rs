@@ -50,14 +50,20 @@ impl App {
                 explorer.unwritten.get_or_insert_with(|| text.clone());
                 explorer.notice = Some(text);
             }
+            Event::Copied(text, what) => explorer.take_to_clipboard(&text, what),
             Event::Notice(text) => explorer.notice = Some(text),
-            Event::Sweep(live) => self.overlays = vec![Overlay::Sweep(live)],
+            Event::Sweep(live) => {
+                self.overlays = vec![Overlay::Sweep(live)];
+                self.make_room();
+            }
             Event::Opened => {
                 explorer.notice.take_if(|told| told == OPENING);
-                if let Some(Overlay::Sweep(live)) = self.overlays.pop() {
-                    self.map = Some(live).filter(Live::is_of_file);
+                for overlay in self.overlays.drain(..) {
+                    if let Overlay::Sweep(live) = overlay {
+                        self.map = Some(live).filter(Live::is_of_file);
+                    }
                 }
-                self.overlays.clear();
+                self.make_room();
             }
             _ => {}
         }
@@ -77,9 +83,19 @@ impl App {
     /// Handles a key where the app is.
     fn press_here(&mut self, key: Key) {
         let explorer = &mut self.explorer;
+        let is_of_program = |command: &Command| *command == Command::Suspend;
+        if let Some(command) = command::of_key(key).filter(is_of_program) {
+            return self.run(command);
+        }
         let answer = match self.overlays.last_mut() {
             Some(overlay) => overlay.press(key, explorer),
-            None => command::of_key(key).map_or(Answer::Stay, Answer::Run),
+            None => match (command::of_key(key), key) {
+                (Some(Command::Focus), Key::Char(digit @ '1'..='9')) => {
+                    explorer.stage.focus_at(digit as usize - '1' as usize);
+                    Answer::Stay
+                }
+                (command, _) => command.map_or(Answer::Stay, Answer::Run),
+            },
         };
         match answer {
             Answer::Stay => {}
@@ -96,7 +112,18 @@ impl App {
                 self.run(command);
             }
         }
+        self.make_room();
         self.explorer.show();
+    }
+
+    /// The list of parameters has its place beside the panels, and what it compares with while it is open.
+    fn make_room(&mut self) {
+        let is_form = |overlay: &Overlay| matches!(overlay, Overlay::Form(_));
+        let has_list = self.overlays.iter().any(is_form);
+        let stage = &mut self.explorer.stage;
+        if std::mem::replace(&mut stage.has_list, has_list) && !has_list {
+            self.explorer.order(Worker::end_changes);
+        }
     }
 
     /// Carries out a command.
@@ -109,7 +136,7 @@ impl App {
             Act::Words(key) => {
                 let mut settings = self.explorer.frame.facts.settings.iter();
                 let setting = settings.find(|setting| setting.parameter.path == key);
-                match setting.map(|setting| Palette::choosing(setting, None)) {
+                match setting.map(Palette::choosing) {
                     Some(words) => self.overlays.push(Overlay::Palette(words)),
                     None => self.explorer.notice = Some(format!("this scenario has no {key}")),
                 }
@@ -156,7 +183,9 @@ impl App {
     /// Answers the mouse: it scrolls lists, and points where no overlay is.
     pub fn point(&mut self, gesture: Gesture) {
         match (gesture, self.overlays.last()) {
-            (Gesture::WheelUp | Gesture::WheelDown, None | Some(Overlay::Accuracy { .. })) => {}
+            (Gesture::WheelUp | Gesture::WheelDown, Some(Overlay::Accuracy { .. })) => {}
+            (Gesture::WheelUp, None) => self.explorer.wheel(true),
+            (Gesture::WheelDown, None) => self.explorer.wheel(false),
             (Gesture::WheelUp, _) => self.press(Key::Named(Named::Up)),
             (Gesture::WheelDown, _) => self.press(Key::Named(Named::Down)),
             (Gesture::Click(at), None) => self.explorer.click(at, false),

@@ -6,6 +6,7 @@ use ratatui::prelude::*;
 use ratatui::symbols::border;
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
+use super::line::wrapped;
 use crate::plot::theme::{Role, Theme};
 use crate::plot::{Chart, Plot};
 
@@ -72,6 +73,25 @@ impl<'a> Canvas<'a> {
         self.show(lines);
     }
 
+    /// Tells something in as many rows as it needs, upwards from the last one.
+    fn tell(&mut self, text: &str, role: Role) {
+        let text = self.printable(&text.replace('\n', " "));
+        let lines = wrapped(&text, usize::from(self.area.width.saturating_sub(2)));
+        let more = (lines.len().saturating_sub(1) as u16).min(self.area.y - self.buffer.area.y);
+        let (area, style) = (self.area, self.style(role));
+        let mut canvas = self.at(Rect::new(
+            area.x,
+            area.y - more,
+            area.width,
+            area.height + more,
+        ));
+        canvas.show(Clear);
+        let lines = lines
+            .into_iter()
+            .map(|line| Line::styled(format!(" {line}"), style));
+        canvas.show(Text::from_iter(lines));
+    }
+
     /// What is told, or else keys and what they do: as many of `keys` as fit, and those of `always`.
     pub fn keys<S: AsRef<str>>(
         &mut self,
@@ -80,7 +100,7 @@ impl<'a> Canvas<'a> {
         always: &[[S; 2]],
     ) {
         if let Some((text, role)) = told {
-            return self.say(text, role);
+            return self.tell(text, role);
         }
         let width = |texts: &[S; 2]| -> usize {
             let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
@@ -150,6 +170,19 @@ impl<'a> Canvas<'a> {
         self.popup(title, size).indented().write(lines);
     }
 
+    /// Says at the right end of the last row how many entries below it are not shown, if there are any.
+    pub fn more(&mut self, below: usize) {
+        if below > 0 && !self.area.is_empty() {
+            let text = self.printable(&format!(" {below} more ↓ "));
+            let style = self.style(Role::Title);
+            let line = Line::styled(text, style);
+            let width = (line.width() as u16).min(self.area.width);
+            let last = self.area.bottom() - 1;
+            self.at(Rect::new(self.area.right() - width, last, width, 1))
+                .show(line);
+        }
+    }
+
     /// Draws the entries around the one `at`, which has a style of its own, and a few that follow it.
     pub fn list<'t>(
         &mut self,
@@ -162,7 +195,9 @@ impl<'a> Canvas<'a> {
         let first = (at + 1 + rows / 3).min(list.len()).saturating_sub(rows);
         let selected = ListState::default().with_selected(Some(at));
         let mut state = selected.with_offset(first);
+        let below = list.len().saturating_sub(first + rows);
         StatefulWidget::render(list, self.area, self.buffer, &mut state);
+        self.more(below);
     }
 
     /// Draws a chart below a rule with its title, with a cursor if there is one.

@@ -71,6 +71,7 @@ commands! {
     "palette" {
         Set [] "set", "change keys of the scenario: set KEY=VALUE, KEY=VALUE", Argument(completion::set);
         Load [] "load", "another preset, or a file: load NAME", Argument(completion::load);
+        Goto [] "goto", "show the run at a cycle, past or to come: goto CYCLE", Argument(completion::goto);
         Sweep [] "sweep", "run many values of a key up to this cycle: sweep KEY FROM..TO", Argument(completion::sweep);
         Figure [] "figure", "draw this state for a paper: figure FILE.svg", Argument(completion::figure);
         Overlay [] "overlay", "data, a run or a scenario over the plots: overlay FILE", Argument(completion::overlay);
@@ -92,24 +93,27 @@ commands! {
         PreviousPanel [Named(N::BackTab)] "panel back", "focus the previous panel",
             Screen(|on| on.stage.shift_focus(-1));
         NextPage [Char('v')] "view", "the next page of panels", Screen(|on| on.stage.turn_page());
+        Focus [Char('1'), Char('2'), Char('3'), Char('4'), Char('5'), Char('6'), Char('7'), Char('8'), Char('9')]
+            "focus", "focus a panel of this page; by name: focus PANEL", Argument(completion::focus);
         Zoom [Char('z')] "zoom", "zoom the focused panel, or show all panels", Screen(|on| on.stage.toggle_zoom());
         Contact [Char('V')] "contact", "the contact itself, large and in motion, or all panels",
             Screen(|on| on.stage.toggle_contact());
         LogScale [Char('L')] "log", "logarithmic scale in the focused panel", Screen(Explorer::toggle_log);
-        Cursor [Char('x')] "cursor", "a cursor that reads all curves at r; arrows move it", Screen(|on| on.cursor.toggle());
-        Left [Named(N::Left), Char('h')] "left", "move the cursor inwards, or focus the previous panel",
+ Cursor [Char('x')] "cursor", "a cursor that reads the curves; arrows move it and zoom", Screen(|on| on.cursor.toggle());
+        Left [Named(N::Left), Char('h')] "left", "move the cursor to the left, or focus the previous panel",
             Screen(|on| on.move_sideways(-1));
-        Right [Named(N::Right), Char('l')] "right", "move the cursor outwards, or focus the next panel",
+        Right [Named(N::Right), Char('l')] "right", "move the cursor to the right, or focus the next panel",
             Screen(|on| on.move_sideways(1));
-        Up [Named(N::Up), Char('k')] "up", "up in a list", Screen(|on| on.stage.shift_focus(-1));
-        Down [Named(N::Down), Char('j')] "down", "down in a list", Screen(|on| on.stage.shift_focus(1));
+        Up [Named(N::Up), Char('k')] "up", "zoom in about the cursor; up in a list", Screen(|on| on.move_upwards(true));
+        Down [Named(N::Down), Char('j')] "down", "zoom out; down in a list", Screen(|on| on.move_upwards(false));
+        ShowAll [Char('0')] "show all", "show all of the charts that were zoomed", Screen(Explorer::show_all);
         Theory [Char('t')] "theory", "show or hide closed forms in the plots",
             Screen(|on| on.charts.with_theory ^= true);
         Stress [Char('o')] "stress", "next stress component in the cross-section", Screen(|on| on.change_stress(StressMap::next));
         StressOfCycle [Char('O')] "stress, cycle", "largest stress of a cycle, or of this moment",
             Screen(|on| on.change_stress(StressMap::toggle_cycle));
         Theme [Char('T')] "theme", "colours for a dark or light background, or none", Screen(Explorer::change_theme);
-        Back [Named(N::Esc)] "back", "close what is open, or leave the zoomed panel", Screen(|on| on.stage.go_back());
+        Back [Named(N::Esc)] "back", "close what is open: cursor, zoomed panel, closed forms", Screen(Explorer::go_back);
     }
     "change" {
         Presets [Char('p')] "presets", "another preset, or a file of your own", Open;
@@ -137,6 +141,19 @@ commands! {
             Work(|run| run.travel(Past::back, "this is the start of the run"));
         TimeForth [Char(']')] "forward in time", "forward in time, up to the present",
             Work(|run| run.travel(Past::forth, "this is the present"));
+        TimeFarBack [Named(N::PageUp)] "far back", "ten states back in time",
+            Work(|run| run.travel(|past| past.go(-10), "this is the start of the run"));
+        TimeFarForth [Named(N::PageDown)] "far forward", "ten states forward in time",
+            Work(|run| run.travel(|past| past.go(10), "this is the present"));
+        TimeStart [Named(N::Home)] "start", "the start of the run",
+            Work(|run| run.travel(|past| past.visit_before(0.0), "this is the start of the run"));
+        TimePresent [Named(N::End)] "present", "the present of the run",
+            Work(|run| run.travel(Past::visit_present, "this is the present"));
+        StateBack [Char('{')] "state back", "back to a state that the scenario writes",
+            Work(|run| run.go_to_planned(false));
+        StateForth [Char('}')] "state", "on to the next state that the scenario writes",
+            Work(|run| run.go_to_planned(true));
+        Copy [Char('y')] "copy", "copy readings, scenario or run command", Argument(completion::copy);
         Snapshot [Char('s')] "snapshot", "write state, history and loop to a new directory",
             Work(|run| run.write_snapshot(None));
         SnapshotNote [Char('S')] "snapshot, note", "the same, with a note in both files", Argument(completion::note);
@@ -161,9 +178,12 @@ impl Command {
 }
 
 impl Row {
-    /// The names of its keys.
+    /// The names of its keys; a row of digits is told by its ends.
     pub fn key_names(&self) -> Vec<String> {
-        self.keys.iter().map(ToString::to_string).collect()
+        match self.keys {
+            [first, .., last] if self.keys.len() > 3 => vec![format!("{first}-{last}")],
+            keys => keys.iter().map(ToString::to_string).collect(),
+        }
     }
 }
 

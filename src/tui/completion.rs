@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use super::explorer::Explorer;
+use super::explorer::{Copied, Explorer};
 use super::frame::Frame;
 use super::map::range::{POINTS, Range};
+use super::panels::Panel;
 use super::settings::Setting;
+use crate::charts::Recipe;
 use crate::scenario::preset;
 use crate::scenario::schema::Kind;
 
@@ -115,6 +117,73 @@ fn keys<'a>(
     });
     let shown = |setting: &Setting| completion(setting).with_right(setting.shown(true));
     fitting.into_iter().map(shown).collect()
+}
+
+/// A cycle, past or to come; those that the scenario writes are at hand.
+pub fn goto(typed: &str, frame: &Frame) -> Vec<Completion> {
+    let go = |cycle: f64, help: String| {
+        let there = Completion::new(format!("goto {cycle}"), help);
+        there.doing(move |explorer| explorer.order(move |run| run.go_to(cycle)))
+    };
+    let given = typed
+        .parse()
+        .ok()
+        .filter(|cycle: &f64| cycle.is_finite() && *cycle >= 0.0);
+    if let Some(cycle) = given {
+        return vec![go(
+            cycle,
+            "past: as it was; to come: runs there and pauses".into(),
+        )];
+    }
+    let plan = frame.facts.scenario.run();
+    let planned = plan.snapshot_at.iter().chain(&plan.cycles);
+    let help = || "the scenario writes the state there".to_owned();
+    let mut list = vec![Completion::new(
+        "goto ",
+        "a number of cycles, such as 50.72",
+    )];
+    if typed.is_empty() {
+        list.extend(planned.map(|cycle| go(*cycle, help())));
+    }
+    list
+}
+
+/// What can be copied.
+pub fn copy(typed: &str, _: &Frame) -> Vec<Completion> {
+    let all = [
+        (
+            "readings",
+            "the numbers of this moment, and those under the cursor",
+            Copied::Readings,
+        ),
+        (
+            "scenario",
+            "the scenario that repeats this run, with all changes",
+            Copied::Scenario,
+        ),
+        (
+            "run command",
+            "the command that repeats this run without a screen",
+            Copied::Command,
+        ),
+    ];
+    let fitting = all.into_iter().filter(|(name, ..)| name.starts_with(typed));
+    let copy = |(name, help, what)| {
+        Completion::new(format!("copy {name}"), help).doing(move |on| on.copy(what))
+    };
+    fitting.map(copy).collect()
+}
+
+/// A panel by its title.
+pub fn focus(typed: &str, _: &Frame) -> Vec<Completion> {
+    let panels = Panel::ALL.into_iter().map(|panel| (panel, panel.recipe()));
+    let fitting = panels.filter(|(_, recipe)| recipe.title.contains(typed));
+    let focus = |(panel, recipe): (Panel, &Recipe)| {
+        let text = recipe.text.split_inclusive('.').next().unwrap_or_default();
+        Completion::new(format!("focus {}", recipe.title), text)
+            .doing(move |on| on.stage.focus_on(panel))
+    };
+    fitting.map(focus).collect()
 }
 
 /// A file to draw into.

@@ -19,6 +19,8 @@ pub enum Event {
     Frame(Arc<Slot>),
     /// There may be something new to see in what is shown beside.
     News,
+    /// A text for the clipboard, and what it is.
+    Copied(String, &'static str),
     /// A notice for the user.
     Notice(String),
     /// A file that was asked for could not be written, and why: a notice, and a failure of a script.

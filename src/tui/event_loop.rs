@@ -127,6 +127,9 @@ fn handle_events(
                         screen.flow.hurry(screen.now());
                     }
                     app.handle(event);
+                    if let Some(request) = app.explorer.to_clipboard.take() {
+                        screen.send(&request);
+                    }
                     match app.explorer.next {
                         Next::Stay => {}
                         Next::Suspend => (suspends, app.explorer.next) = (true, Next::Stay),

@@ -7,16 +7,16 @@ use std::sync::Arc;
 
 use ratatui::prelude::*;
 
+use super::cursor::{self, Abscissa, Cursor, abscissa};
 use super::frame::Frame;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
-use super::panels::StressMap;
+use super::panels::{Panel, StressMap, numbers};
 use super::present::SpeedUp;
-use super::readout::Cursor;
 use super::stage::Stage;
 use super::undo::Past;
 use super::worker::{Orders, Worker};
-use super::{layout, snapshot, timeline};
+use super::{clipboard, layout, readout, snapshot, timeline};
 use crate::plot::theme::Theme;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
@@ -36,6 +36,17 @@ pub enum Next {
     LeaveScreen,
 }
 
+/// What can be copied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Copied {
+    /// The numbers of the moment.
+    Readings,
+    /// The scenario that repeats the run.
+    Scenario,
+    /// The command that does.
+    Command,
+}
+
 /// What the overlays lie on.
 pub struct Explorer {
     /// The latest frame.
@@ -48,18 +59,22 @@ pub struct Explorer {
     pub charts: LiveCharts,
     /// The stress in the half-space.
     pub stress: StressMap,
-    /// The cursor over r.
+    /// The cursor.
     pub cursor: Cursor,
     /// How a lecture speeds up.
     speed_up: SpeedUp,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
+    /// What asks the terminal to take a text to its clipboard.
+    pub to_clipboard: Option<String>,
     /// Why a file that a script asked for could not be written: the first one.
     pub unwritten: Option<String>,
     /// True until the first key is pressed.
     pub is_new: bool,
     /// The theme.
     pub theme: Theme,
+    /// Whether the user has chosen it with the key.
+    pub has_chosen_theme: bool,
     /// Set to end the program, or to suspend it to its shell.
     pub next: Next,
     /// What the worker computes.
@@ -80,9 +95,11 @@ impl Explorer {
             cursor: Cursor::default(),
             speed_up: SpeedUp::default(),
             notice: None,
+            to_clipboard: None,
             unwritten: None,
             is_new: true,
             theme,
+            has_chosen_theme: false,
             next: Next::Stay,
             computed: Curves::all(),
             orders,
@@ -142,23 +159,24 @@ impl Explorer {
             let visit = move |past: &mut Past| past.visit(cycle);
             return self.order(move |run| run.travel(visit, "no state is stored"));
         }
+        let [area, _] = self.stage.with_list(area);
         let mut places = self.stage.places(area).into_iter();
         let Some((panel, place)) = places.find(|(_, place)| place.contains(at)) else {
             return;
         };
         let chart = self.charts.get(panel, &frame);
         let chart = chart.as_ref().as_ref().ok();
-        let radius = chart.and_then(|chart| panel.radius_at(chart, &self.theme, place, at));
-        let radius = radius.filter(|_| self.cursor.is_shown() && !is_second);
-        if let Some(radius) = radius {
-            self.cursor.put(&frame, radius);
+        let place = chart.and_then(|chart| panel.abscissa_at(chart, &self.theme, place, at));
+        let place = place.filter(|_| self.cursor.is_shown() && !is_second);
+        if let Some((place, whole)) = place.zip(self.charts.whole(panel)) {
+            self.cursor.put(abscissa(panel), whole, place);
         }
-        self.stage.click(panel, is_second, radius.is_some());
+        self.stage.click(panel, is_second, place.is_some());
         self.show();
     }
 
     pub(super) fn change_theme(&mut self) {
-        self.theme.follows_background = false;
+        (self.theme.follows_background, self.has_chosen_theme) = (false, true);
         self.theme.look = self.theme.look.next();
         self.notice = Some(format!("theme {}", self.theme.look));
     }
@@ -176,11 +194,92 @@ impl Explorer {
         self.notice = self.stage.continue_tour(&origin).map(str::to_owned);
     }
 
-    /// Moves the cursor by a hundredth of the domain, or the focus where there is no cursor.
+    /// The abscissa that the cursor moves on, and all of it: that of the focused panel.
+    fn focused_axis(&self) -> Option<(Abscissa, [f64; 2])> {
+        let of = abscissa(self.stage.focus);
+        let whole = match of {
+            cursor::RADIUS => Some([0.0, self.frame.run.edge()]),
+            _ => self.charts.whole(self.stage.focus),
+        };
+        Some((of, whole?))
+    }
+
+    /// The place of the cursor in a panel, if it has one there: on r in all panels, else in those like the focused one.
+    pub(super) fn cursor_in(&self, panel: Panel) -> Option<f64> {
+        let of = abscissa(panel);
+        match of {
+            cursor::RADIUS => self.cursor.place(of, [0.0, self.frame.run.edge()]),
+            _ => {
+                let (focused, whole) = self.focused_axis()?;
+                self.cursor.place(of, whole).filter(|_| of == focused)
+            }
+        }
+    }
+
+    /// Moves the cursor by a hundredth of what is shown, or the focus where there is no cursor.
     pub(super) fn move_sideways(&mut self, places: i16) {
-        match self.cursor.is_shown() {
-            true => self.cursor.shift(places),
-            false => self.stage.shift_focus(isize::from(places)),
+        match self.focused_axis().filter(|_| self.cursor.is_shown()) {
+            Some((of, whole)) => self.cursor.shift(of, whole, places),
+            None => self.stage.shift_focus(isize::from(places)),
+        }
+    }
+
+    /// Shows less or more around the cursor; moves the focus where there is no cursor.
+    pub(super) fn move_upwards(&mut self, is_up: bool) {
+        match self.focused_axis().filter(|_| self.cursor.is_shown()) {
+            Some((of, whole)) => self.cursor.zoom(of, whole, is_up),
+            None => self.stage.shift_focus(if is_up { -1 } else { 1 }),
+        }
+    }
+
+    /// Shows all of what was zoomed.
+    pub(super) fn show_all(&mut self) {
+        if !self.cursor.show_all() {
+            self.notice =
+                Some("all is shown; with a cursor (x) the arrows up and down zoom".into());
+        }
+    }
+
+    /// Zooms with the wheel about the cursor, which appears if there is none.
+    pub(super) fn wheel(&mut self, is_up: bool) {
+        self.begin_answer();
+        if !self.cursor.is_shown() {
+            self.cursor.toggle();
+        }
+        self.move_upwards(is_up);
+        self.show();
+    }
+
+    /// Copies something; the worker knows the run.
+    pub(super) fn copy(&mut self, what: Copied) {
+        if what != Copied::Readings {
+            return self.order(move |run| run.copy(what));
+        }
+        let mut text = numbers::text(&self.frame);
+        if let Some(place) = self.cursor_in(self.stage.focus) {
+            let (frame, focus) = (&self.frame, self.stage.focus);
+            text += &readout::line_at(frame, &self.charts, focus, place, usize::MAX, &self.theme);
+        }
+        self.take_to_clipboard(&text, "the readings are");
+    }
+
+    /// Has the terminal take a text to its clipboard, and tells `what` of it is copied.
+    pub(super) fn take_to_clipboard(&mut self, text: &str, what: &str) {
+        self.to_clipboard = clipboard::request(text);
+        self.notice = Some(match self.to_clipboard {
+            Some(_) => format!("{what} copied, if the terminal allows it"),
+            None => format!("{what} too long for the clipboard of a terminal; s writes files"),
+        });
+    }
+
+    /// Closes what is open, one thing at a time: the tour, the cursor, what is shown large, the closed forms.
+    pub(super) fn go_back(&mut self) {
+        if self.stage.tour.is_some() {
+            self.stage.go_back();
+        } else if self.cursor.is_shown() {
+            self.cursor.toggle();
+        } else if !self.stage.go_back() {
+            self.charts.with_theory = false;
         }
     }
 
@@ -213,7 +312,7 @@ impl Explorer {
     /// Has the worker show something else, for which the scales begin anew.
     pub(super) fn order_anew(&mut self, order: impl FnOnce(&mut Worker) + Send + 'static) {
         self.charts.forget_scales();
-        self.stress.bounds = None;
+        self.stress.forget_range();
         self.order(order);
     }
 
@@ -221,7 +320,7 @@ impl Explorer {
     pub(super) fn show(&mut self) {
         let visible = self.stage.visible();
         let shown = |panel| self.calm.shown(panel, &self.stage, &self.frame);
-        self.charts.make(&visible, &self.frame, shown);
+        self.charts.make(&visible, &self.frame, shown, &self.cursor);
         let needs = visible.iter().map(|panel| panel.recipe().needs);
         let mut needed = needs.fold(Curves::empty(), Curves::union);
         // A cursor reads all curves.

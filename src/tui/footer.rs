@@ -78,8 +78,10 @@ pub fn draw(app: &App, mut canvas: Canvas) {
     let hints = explorer.is_new && is_usual && HINT.len() < room;
     let told = notice.map(|text| (text, Role::Notice)).or(stopped);
     let told = told.or(hints.then_some((HINT, Role::Notice)));
-    if let (Some(r), None) = (explorer.cursor.radius(frame), told) {
-        let text = readout::line(frame, explorer.stage.focus, r, room, &canvas.theme);
+    let focus = explorer.stage.focus;
+    if let (Some(place), None) = (explorer.cursor_in(focus), told) {
+        let charts = &explorer.charts;
+        let text = readout::line_at(frame, charts, focus, place, room, &canvas.theme);
         return canvas.show(Line::raw(text));
     }
     let [keys, always] = [mode(explorer), ALWAYS].map(texts);

@@ -52,6 +52,14 @@ impl Source {
         Self::still(ghost(&name, run, Curves::all()))
     }
 
+    /// A run that goes on as it was before it was changed.
+    pub(super) fn before(session: Session) -> Self {
+        Self {
+            ghost: Arc::new(Ghost::new("before")),
+            beside: Some(Box::new(Beside::new(session, true))),
+        }
+    }
+
     /// Curves that do not change.
     fn still(ghost: Ghost) -> Self {
         Self {

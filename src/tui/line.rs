@@ -2,6 +2,8 @@
 
 use std::mem::take;
 
+use ratatui::text::Span;
+
 use super::keys::{Key, Named};
 
 /// The longest line, in characters: a path fits, and a pasted document does not.
@@ -15,6 +17,36 @@ pub fn one_line(text: &str) -> String {
         0 => first.to_owned(),
         more => format!("{first} (and {more} more)"),
     }
+}
+
+/// The width of a text, in cells.
+pub fn cells(text: &str) -> usize {
+    Span::raw(text).width()
+}
+
+/// The lines of a text broken at blanks so that none is wider than `width`, in cells; a longer word is cut.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let width = width.max(1);
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let mut now = String::new();
+        for word in line.split_whitespace() {
+            if !now.is_empty() && cells(&now) + 1 + cells(word) > width {
+                lines.push(take(&mut now));
+            }
+            if !now.is_empty() {
+                now.push(' ');
+            }
+            for sign in word.chars() {
+                if cells(&now) + cells(sign.encode_utf8(&mut [0; 4])) > width {
+                    lines.push(take(&mut now));
+                }
+                now.push(sign);
+            }
+        }
+        lines.push(now);
+    }
+    lines
 }
 
 /// The text before the cursor, and the text from it on.
@@ -54,6 +86,25 @@ impl LineEdit {
     /// The text before the cursor, and the text from it on.
     pub fn halves(&self) -> [&str; 2] {
         [&self.before, &self.after]
+    }
+
+    /// Takes a key as the filter of a list: characters at its end, Backspace, Ctrl-U and Ctrl-W. Returns false for
+    /// other keys, which move in the list.
+    pub fn filter(&mut self, key: Key) -> bool {
+        let is_filter = match key {
+            // A list is not filtered by blanks.
+            Key::Char(' ') => !self.is_empty(),
+            Key::Char(_) => true,
+            Key::Named(Named::Backspace) | Key::Ctrl('u' | 'w') => true,
+            _ => false,
+        };
+        is_filter && self.press(key)
+    }
+
+    /// Whether each of its words is in the text, in capitals or not.
+    pub fn fits(&self, text: &str) -> bool {
+        let (wanted, text) = (self.text().to_lowercase(), text.to_lowercase());
+        wanted.split_whitespace().all(|word| text.contains(word))
     }
 
     /// Takes a key as a shell's line does: characters, arrows, Home, End, Backspace, Delete, Ctrl-U
@@ -105,6 +156,14 @@ mod tests {
         line.press(Key::Char('y'));
         assert_eq!(line.text().len(), LONGEST);
         assert!(line.text().ends_with("xb"));
+    }
+
+    #[test]
+    fn lines_are_broken_at_blanks_and_words_only_if_they_must() {
+        assert_eq!(wrapped("one two  three", 8), ["one two", "three"]);
+        assert_eq!(wrapped("abcdefghij k", 4), ["abcd", "efgh", "ij k"]);
+        assert_eq!(wrapped("a\n\nb", 4), ["a", "", "b"]);
+        assert_eq!(wrapped("接触の摩耗", 5), ["接触", "の摩", "耗"]);
     }
 
     #[test]

@@ -6,12 +6,15 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use super::cursor::{Cursor, abscissa};
 use super::frame::{Activity, Frame};
+use super::held::Held;
 use super::panels::Panel;
 use super::stage::Stage;
 use super::tour;
 use crate::charts::View;
-use crate::plot::{Chart, Scale, sticky_bounds};
+use crate::math::scan::{range, value_at};
+use crate::plot::{Chart, Scale};
 
 /// A chart, or why there is none.
 pub(super) type Made = Result<Chart, &'static str>;
@@ -26,6 +29,10 @@ pub struct LiveCharts {
     logarithmic: HashSet<Panel>,
     /// The bounds of ordinates by their scale, and of abscissas.
     held: HashMap<(Panel, Option<Scale>), Held>,
+    /// What the curves of the charts that were made reach on their abscissas.
+    whole: HashMap<Panel, [f64; 2]>,
+    /// The parts of abscissas that are shown, and the bounds of ordinates over them.
+    parts: HashMap<Panel, ([f64; 2], Held)>,
     /// Whether the frame is one of another run than the next: scales do not follow it.
     is_outdated: bool,
     /// Whether closed forms are drawn over the charts.
@@ -79,11 +86,14 @@ impl LiveCharts {
     ) -> Option<[f64; 2]> {
         let tells = |range: &[f64; 2]| !self.is_outdated && *range != [0.0, 0.0];
         if let Some([low, high]) = range.filter(tells) {
-            let held = self.held.entry(axis).or_insert_with(|| Held {
-                bounds: sticky_bounds(None, low, high),
-                seen: [low, high],
-                since: cycle,
-            });
+            // The first cycle has hardly begun: its stresses become larger.
+            let room = if axis.0.recipe().has_spikes {
+                ROOM
+            } else {
+                1.0
+            };
+            let first = || Held::new([low, high].map(|end| room * end), cycle);
+            let held = self.held.entry(axis).or_insert_with(first);
             held.take([low, high], cycle);
         }
         self.held.get(&axis).map(|held| held.bounds)
@@ -110,6 +120,7 @@ impl LiveCharts {
         visible: &[Panel],
         newest: &'a Frame,
         shown: impl Fn(Panel) -> &'a Frame,
+        cursor: &Cursor,
     ) {
         self.charts.clear();
         if newest.comparison.is_some() {
@@ -127,51 +138,54 @@ impl LiveCharts {
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = along;
                 chart.x.bounds = across.or(chart.x.bounds);
+                let [data, _] = chart.extent(|curve| !curve.is_theory);
+                self.whole
+                    .insert(panel, chart.x.clone().unbounded().resolve(data, false));
+                match cursor.window(abscissa(panel)) {
+                    Some(window) => self.show_part(panel, chart, window, cycle),
+                    None => _ = self.parts.remove(&panel),
+                }
             }
             self.charts.insert(panel, chart);
         }
     }
-}
 
-/// Bounds, and what has been seen within them since they were last judged.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Held {
-    /// The bounds to draw with.
-    bounds: [f64; 2],
-    seen: [f64; 2],
-    /// The cycle from which on that was seen.
-    since: f64,
-}
+    /// The upper end of the ordinate of a panel's chart; 0 before it has one.
+    pub fn top_of(&self, panel: Panel) -> f64 {
+        self.bounds(panel).map_or(0.0, |[_, high]| high)
+    }
 
-impl Held {
-    /// Takes in the range of a frame at `cycle`. The bounds grow at once, and shrink only where a whole
-    /// period leaves half of them empty.
-    fn take(&mut self, [low, high]: [f64; 2], cycle: f64) {
-        if cycle < self.since {
-            (self.seen, self.since) = ([low, high], cycle);
+    /// What the curves of a panel's chart reach on its abscissa, if it has one.
+    pub(super) fn whole(&self, panel: Panel) -> Option<[f64; 2]> {
+        self.whole.get(&panel).copied()
+    }
+
+    /// Bounds a chart to a part of its abscissa, and its ordinate to the curves there, spikes included.
+    fn show_part(&mut self, panel: Panel, chart: &mut Chart, [low, high]: [f64; 2], cycle: f64) {
+        let scale = chart.y.scale;
+        let within = chart.curves.iter().filter(|curve| !curve.is_theory);
+        let values = within.flat_map(|curve| {
+            let drawn = |x| value_at(&curve.xs, &curve.ys, x);
+            let inner = curve.points().filter(|(x, _)| (low..=high).contains(x));
+            let inner = inner.map(|(_, y)| y);
+            inner.chain([low, high].into_iter().filter_map(drawn))
+        });
+        chart.x.bounds = Some([low, high]);
+        let Some(range) = range(values.filter(|value| scale.has(*value))) else {
+            return;
+        };
+        let part = (range, Held::new(range, cycle));
+        let (ends, held) = self.parts.entry(panel).or_insert(part);
+        if *ends != [low, high] {
+            (*ends, *held) = ([low, high], Held::new(range, cycle));
         }
-        let [lowest, highest] = self.seen;
-        self.seen = [lowest.min(low), highest.max(high)];
-        // What reaches as far on both sides of zero is drawn so, also where it was on one side at first.
-        if low == -high && high > 0.0 {
-            let most = self.bounds[1].max(-self.bounds[0]);
-            self.bounds = [-most, most];
-        }
-        let grows = low < self.bounds[0] || high > self.bounds[1];
-        let is_over = cycle - self.since >= 1.0;
-        if grows || is_over {
-            let [a, b] = match is_over {
-                true => self.seen,
-                // What is within them already stays within them.
-                false => [low.min(self.bounds[0]), high.max(self.bounds[1])],
-            };
-            self.bounds = sticky_bounds(Some(self.bounds), a, b);
-        }
-        if is_over {
-            (self.seen, self.since) = ([low, high], cycle);
-        }
+        held.take(range, cycle);
+        chart.y.bounds = Some(held.bounds);
     }
 }
+
+/// How much further than its first values an axis with spikes reaches.
+const ROOM: f64 = 1.2;
 
 /// For how many frames a frame is held.
 const LASTS: u32 = 3;
@@ -230,54 +244,5 @@ mod tests {
         assert_eq!(charts.hold(axis, Some([0.0, 0.0]), 0.0), None);
         assert_eq!(charts.hold(axis, Some([0.0, 2e-7]), 0.1), Some([0.0, 2e-7]));
         assert_eq!(charts.hold(axis, Some([0.0, 0.0]), 0.2), Some([0.0, 2e-7]));
-    }
-
-    /// A motion begins to one side, and swings to both.
-    #[test]
-    fn bounds_of_a_swing_are_symmetric() {
-        let mut held = Held {
-            bounds: sticky_bounds(None, 0.0, 7.0),
-            seen: [0.0, 7.0],
-            since: 0.0,
-        };
-        for step in 0..300 {
-            let most = 7.0 + 0.01 * f64::from(step);
-            held.take([-most, most], f64::from(step) / 100.0);
-            let [low, high] = held.bounds;
-            assert!(low == -high && high >= most && high < 16.0, "{held:?}");
-        }
-    }
-
-    #[test]
-    fn bounds_hold_for_a_period_and_follow_a_trend() {
-        let start = Held {
-            bounds: sticky_bounds(None, 0.0, 0.1),
-            seen: [0.0, 0.1],
-            since: 0.0,
-        };
-        // A stress that comes and goes within each cycle, and falls from cycle to cycle.
-        let (mut held, mut changes) = (start, Vec::new());
-        for step in 0..=2000 {
-            let cycle = f64::from(step) / 100.0;
-            let swing = (std::f64::consts::TAU * cycle).sin().abs();
-            let before = held.bounds;
-            held.take([0.0, swing * (-cycle / 5.0).exp()], cycle);
-            if held.bounds != before {
-                changes.push(cycle);
-            }
-        }
-        let early = changes.iter().filter(|&&cycle| cycle < 1.0).count();
-        assert!(early <= 6, "{changes:?}");
-        let late: Vec<f64> = changes
-            .iter()
-            .copied()
-            .filter(|&cycle| cycle > 1.0)
-            .collect();
-        assert!(
-            late.windows(2).all(|pair| pair[1] - pair[0] > 1.0),
-            "{late:?}"
-        );
-        assert!((2..=6).contains(&late.len()), "{late:?}");
-        assert!(held.bounds[1] < 0.1);
     }
 }

@@ -25,8 +25,10 @@ mod appearance;
 pub mod autosave;
 mod beside;
 mod canvas;
+mod clipboard;
 pub mod command;
 mod completion;
+pub mod cursor;
 pub mod event;
 mod event_loop;
 pub mod explorer;
@@ -35,6 +37,7 @@ pub mod flow;
 pub mod footer;
 pub mod frame;
 pub mod ghosts;
+mod held;
 mod input;
 pub mod keys;
 pub mod layout;
@@ -52,6 +55,7 @@ pub mod panels;
 mod present;
 pub mod reader;
 mod readout;
+mod remembered;
 pub mod screen;
 mod script;
 pub mod settings;
@@ -73,6 +77,7 @@ use autosave::ScreenAutosave;
 use event::Event;
 pub use event_loop::NoTerminal;
 use explorer::Next;
+use remembered::Remembered;
 pub use script::{Format, Script, Stroke, parse_size, press, text};
 use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
@@ -97,6 +102,8 @@ pub struct Options {
     pub map: Option<map::live::Live>,
     /// Whether it is for a projector.
     pub present: bool,
+    /// The panels that come first.
+    pub panels: Vec<panels::Panel>,
     /// Whether clicks and the wheel are for the explorer; else the terminal selects text with them.
     pub mouse: bool,
     /// Keys to press instead of reading the keyboard, and the screen to print.
@@ -128,11 +135,15 @@ pub fn run(options: Options) -> Result<Farewell> {
     let (events, from_threads) = channel();
     let interval = Duration::from_secs_f64(1.0 / f64::from(options.fps));
     let keep_in = options.keep_in.filter(|_| is_live);
+    let looks_in = keep_in
+        .clone()
+        .filter(|_| !options.present && options.map.is_none());
     let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
     let running = options.running && is_live;
     let mut worker = Worker::new(options.run, events.clone(), interval, running);
     worker.ghosts = options.ghosts;
     let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
+    app.explorer.stage.put_first(options.panels);
     if let Some(map) = options.map {
         let events = events.clone();
         map.watch(move || events.send(Event::News).is_ok());
@@ -142,6 +153,8 @@ pub fn run(options: Options) -> Result<Farewell> {
     } else if is_first && let Ok(size) = terminal::size() {
         app.explorer.resize(size);
         app.explorer.stage.welcome(&origin);
+    } else if let Some(directory) = &looks_in {
+        Remembered::read(directory).apply(&mut app.explorer);
     }
     crate::panics::capture();
     let worker = WorkerThread::start(worker, orders.clone(), to_worker, autosave)?;
@@ -150,6 +163,9 @@ pub fn run(options: Options) -> Result<Farewell> {
         None => {
             let end = || worker.end();
             let shown = event_loop::run(&mut app, options.mouse, &events, &from_threads, end);
+            if let Some(directory) = &looks_in {
+                Remembered::of(&app.explorer).write(directory);
+            }
             shown.and_then(|is_restored| left_behind(&app, is_restored))
         }
     };

@@ -1,11 +1,14 @@
-//! The cursor over r, and the values of the curves under it in a line; what the focused panel shows comes first where
+//! The values of the curves under the cursor in a line; what the focused panel shows comes first where
 //! there are ghosts, with the value of each and its difference.
 
+use super::cursor::{RADIUS, abscissa};
 use super::frame::Frame;
+use super::live_charts::LiveCharts;
 use super::panels::Panel;
 use crate::charts::Run;
 use crate::math::scan::value_at;
-use crate::plot::theme::Theme;
+use crate::plot::Chart;
+use crate::plot::theme::{Role, Theme};
 use crate::plot::units::format_value;
 use crate::studies::ghost::Ghost;
 use crate::traces::{Axes, Loop};
@@ -16,9 +19,25 @@ const DIGITS: usize = 4;
 /// The most characters of a ghost's name.
 const LONGEST_NAME: usize = 16;
 
+/// The values at a place of the focused panel's chart, as many as fit `width` cells.
+pub(super) fn line_at(
+    frame: &Frame,
+    charts: &LiveCharts,
+    focus: Panel,
+    place: f64,
+    width: usize,
+    theme: &Theme,
+) -> String {
+    match (abscissa(focus), &*charts.get(focus, frame)) {
+        (RADIUS, _) => line(frame, focus, place, width, theme),
+        (_, Ok(chart)) => line_of(chart, place, width, theme),
+        (_, Err(_)) => String::new(),
+    }
+}
+
 /// `r 52.0 µm  slip  f ...`: as many values at the radius `r` (m) as fit `width` cells. Curves that
 /// no panel shows are not computed, and so not here.
-pub(super) fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> String {
+fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> String {
     let value = |name: &str, value: f64, unit: &str| {
         format!(" {name} {} ", format_value(value, unit, DIGITS))
     };
@@ -124,41 +143,26 @@ fn compared(run: &Run, focus: Panel, r: f64) -> Vec<String> {
     parts
 }
 
-/// The number of its places over the domain, and the initial one.
-const PLACES: i16 = 100;
-const START: i16 = 33;
-
-/// Where it stands, in hundredths of the domain, if there is one.
-#[derive(Debug, Default)]
-pub struct Cursor(Option<i16>);
-
-impl Cursor {
-    /// Shows or hides it.
-    pub fn toggle(&mut self) {
-        self.0 = self.0.is_none().then_some(START);
-    }
-
-    /// Whether there is one.
-    pub fn is_shown(&self) -> bool {
-        self.0.is_some()
-    }
-
-    /// Moves it by hundredths of the domain.
-    pub fn shift(&mut self, places: i16) {
-        self.0 = self.0.map(|place| (place + places).clamp(0, PLACES));
-    }
-
-    /// Puts it to the place nearest to a radius, m.
-    pub fn put(&mut self, frame: &Frame, radius: f64) {
-        if let Some(edge) = frame.observation.radii.last() {
-            let place = (radius / edge * f64::from(PLACES)).round();
-            self.0 = Some((place as i16).clamp(0, PLACES));
+/// `cycles 12.00  c 41.6 µm …`: the values at a place of a chart that is not over r, as many as fit `width` cells. A
+/// loop has two at most places.
+fn line_of(chart: &Chart, x: f64, width: usize, theme: &Theme) -> String {
+    let value = |value: f64, unit| format_value(value, unit, DIGITS);
+    let mut line = format!(" {} {} ", chart.x.label, value(x, chart.x.unit));
+    for curve in chart
+        .curves
+        .iter()
+        .filter(|curve| curve.role != Role::Faint)
+    {
+        let name = match curve.name.as_str() {
+            "" => &chart.y.label,
+            name => name,
+        };
+        let values = curve.values_at(x);
+        let values: Vec<String> = values.map(|y| value(y, chart.y.unit)).collect();
+        let part = theme.printable(&format!(" {name} {} ", values.join(", ")));
+        if !values.is_empty() && line.chars().count() + part.chars().count() <= width {
+            line.push_str(&part);
         }
     }
-
-    /// The radius under it, m.
-    pub fn radius(&self, frame: &Frame) -> Option<f64> {
-        let edge = frame.observation.radii.last()?;
-        Some(edge * f64::from(self.0?) / f64::from(PLACES))
-    }
+    theme.printable(&line)
 }

@@ -29,8 +29,13 @@ use crate::reading::verdict;
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let (explorer, overlay) = (&app.explorer, app.overlays.last());
     let mut canvas = Canvas::new(&explorer.theme, area, buffer);
-    if let Some(study @ Overlay::Sweep(_)) = overlay {
-        return study.draw(explorer, canvas);
+    let is_study = |overlay: &&Overlay| matches!(overlay, Overlay::Sweep(_));
+    if let Some(study) = app.overlays.iter().find(is_study) {
+        study.draw(explorer, canvas.at(area));
+        if let Some(keys @ Overlay::MapKeys) = overlay {
+            keys.draw(explorer, canvas);
+        }
+        return;
     }
     let Some([top, line, middle, bottom]) = layout::bands(area) else {
         let (columns, rows) = layout::SMALLEST;
@@ -39,11 +44,13 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     status(&explorer.frame, canvas.at(top));
     timeline::draw(&explorer.frame, canvas.at(line));
-    panels(explorer, canvas.at(middle));
+    let [shown, list] = explorer.stage.with_list(middle);
+    panels(explorer, canvas.at(shown));
     footer::draw(app, canvas.at(bottom));
     // An explanation stands beside its panel; lists need every row.
     let under = match overlay {
-        Some(Overlay::Explain) => middle,
+        Some(Overlay::Explain) => shown,
+        Some(Overlay::Form(_)) if !list.is_empty() => list,
         _ => line.union(middle),
     };
     if let Some(overlay) = overlay {
@@ -54,7 +61,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 fn panels(explorer: &Explorer, mut canvas: Canvas) {
     let (frame, stage, area) = (&*explorer.frame, &explorer.stage, canvas.area);
     if let Some(comparison) = &frame.comparison {
-        return compare::draw(frame, comparison, explorer.cursor.radius(frame), canvas);
+        let cursor = explorer.cursor_in(Panel::Profile);
+        return compare::draw(frame, comparison, cursor, canvas);
     }
     for (panel, place) in stage.places(area) {
         draw_panel(panel, explorer, canvas.at(place));
@@ -87,8 +95,7 @@ fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
     }
     match &*charts.get(panel, frame) {
         Ok(chart) => {
-            let cursor = explorer.cursor.radius(frame);
-            canvas.plot(chart, role, cursor.filter(|_| recipe.is_over_r()));
+            canvas.plot(chart, role, explorer.cursor_in(panel));
         }
         Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
     }
@@ -142,11 +149,15 @@ fn shortened(mut text: String, room: usize) -> String {
 /// What the status line says, the state first.
 fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
-    let mut cycle = format!("cycle {:.2}", moment.cycle);
+    let planned = frame.facts.scenario.run().cycles;
+    // Of ten thousand cycles nobody reads hundredths.
+    let most = planned.unwrap_or(0.0).max(moment.cycle);
+    let decimals = if most < 1e4 { 2 } else { 0 };
+    let mut cycle = format!("cycle {:.decimals$}", moment.cycle);
     let mut widest = "cycle 0000.00".len();
-    if let Some(planned) = frame.facts.scenario.run().cycles {
+    if let Some(planned) = planned {
         cycle.push_str(&format!("/{planned}"));
-        widest = format!("cycle {planned:.2}/{planned}").len();
+        widest = format!("cycle {planned:.decimals$}/{planned}").len();
     }
     let mut pace = match frame.speed.unwrap_or(frame.pace) {
         pace if pace.is_finite() => format!("{} cycles/s", short(pace)),

@@ -55,17 +55,11 @@ impl Setting {
         has_unit.then(|| reading(value, self.unit, ascii))
     }
 
-    /// The unit that a number without one is typed in: the one that is shown.
+    /// What stands beside a value that is typed: the unit of a bare number, which is that of a scenario's file.
     pub fn typed_unit(&self) -> String {
-        let shown = self.reading(true).map(|(_, unit)| unit);
-        shown.unwrap_or_else(|| self.unit.to_owned())
-    }
-
-    /// A typed value: a bare number gets the unit that is shown.
-    pub fn in_shown_unit(&self, typed: &str) -> String {
-        match (typed.parse::<f64>(), self.reading(true)) {
-            (Ok(_), Some((_, unit))) if !unit.is_empty() => format!("{typed} {unit}"),
-            _ => typed.to_owned(),
+        match self.unit {
+            "" => String::new(),
+            unit => format!("{unit}, or with a unit"),
         }
     }
 

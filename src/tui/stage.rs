@@ -39,13 +39,34 @@ pub struct Stage {
     pub area: Rect,
     /// Whether the last click has zoomed, or the opposite.
     click_has_zoomed: bool,
+    /// Whether a list wants to stand beside the panels.
+    pub has_list: bool,
+    /// The panels that the user wants first; empty: as they are declared.
+    first: Vec<Panel>,
 }
+
+/// Columns from which on a list stands beside the panels.
+const WITH_LIST: u16 = 100;
+
+/// The columns that it takes.
+pub const LIST: u16 = 46;
 
 impl Stage {
     /// The panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
-        let places = self.places(layout::panels(self.area));
+        let places = self.places(self.panels());
         places.into_iter().map(|(panel, _)| panel).collect()
+    }
+
+    /// The area of the panels on the whole screen.
+    fn panels(&self) -> Rect {
+        self.with_list(layout::panels(self.area))[0]
+    }
+
+    /// The panels' part of an area, and that of a list beside them, which is empty if there is none.
+    pub fn with_list(&self, area: Rect) -> [Rect; 2] {
+        let taken = LIST * u16::from(self.has_list && area.width >= WITH_LIST);
+        Layout::horizontal([Min(0), Length(taken)]).areas(area)
     }
 
     /// The area of the panels, and that of a tour's caption below them, which is empty where there is none.
@@ -86,23 +107,59 @@ impl Stage {
         places
     }
 
+    /// Puts some panels before all others.
+    pub fn put_first(&mut self, panels: Vec<Panel>) {
+        self.focus = panels.first().copied().unwrap_or_default();
+        self.first = panels;
+    }
+
+    /// All panels, in the user's order.
+    fn order(&self) -> Vec<Panel> {
+        let others = Panel::ALL
+            .iter()
+            .filter(|panel| !self.first.contains(panel));
+        self.first.iter().chain(others).copied().collect()
+    }
+
+    /// The place of the focused panel among all.
+    fn place(&self) -> usize {
+        let mut order = self.order().into_iter();
+        order.position(|panel| panel == self.focus).unwrap_or(0)
+    }
+
     /// The panels beside the focused one where `room` of them fit.
-    pub fn page(&self, room: usize) -> &'static [Panel] {
-        let at = self.focus as usize / room.max(1) * room;
-        &Panel::ALL[at..(at + room).min(Panel::ALL.len())]
+    pub fn page(&self, room: usize) -> Vec<Panel> {
+        let (order, room) = (self.order(), room.max(1));
+        let at = self.place() / room * room;
+        order[at..(at + room).min(order.len())].to_vec()
     }
 
     /// The first panel of the next page gets the focus.
     pub fn turn_page(&mut self) {
-        let (across, down) = layout::grid(layout::panels(self.area));
-        let room = across * down;
-        let next = (self.focus as usize / room + 1) * room;
-        self.focus = Panel::ALL.get(next).copied().unwrap_or(Panel::ALL[0]);
+        let (across, down) = layout::grid(self.panels());
+        let (order, room) = (self.order(), across * down);
+        let next = (self.place() / room + 1) * room;
+        self.focus = order.get(next).copied().unwrap_or(order[0]);
     }
 
     /// The panel this many places on gets the focus.
     pub fn shift_focus(&mut self, places: isize) {
-        self.focus = shifted(&Panel::ALL, self.focus, places);
+        self.focus = shifted(&self.order(), self.focus, places);
+    }
+
+    /// A panel gets the focus.
+    pub fn focus_on(&mut self, panel: Panel) {
+        self.leave_contact();
+        self.focus = panel;
+    }
+
+    /// The panel at a place of the page gets the focus, counted from 0, where there is one.
+    pub fn focus_at(&mut self, place: usize) {
+        let (across, down) = layout::grid(self.panels());
+        let panel = self.page(across * down).get(place).copied();
+        if let Some(panel) = panel {
+            self.focus_on(panel);
+        }
     }
 
     /// A click on a panel gives it the focus, or else zooms unless it has `moved` the cursor; the second one of a
@@ -117,13 +174,13 @@ impl Stage {
         }
     }
 
-    /// Leaves the tour, the contact, or the zoomed panel.
-    pub fn go_back(&mut self) {
+    /// Leaves the tour, the contact, or the zoomed panel; returns whether there was one.
+    pub fn go_back(&mut self) -> bool {
         if self.tour.take().is_some() {
             self.return_from_tour();
-        } else if !self.leave_contact() {
-            self.zoomed = false;
+            return true;
         }
+        self.leave_contact() || std::mem::take(&mut self.zoomed)
     }
 
     /// Zooms the focused panel, or shows all panels.

@@ -96,6 +96,11 @@ impl Screen {
         self.opened.elapsed().as_secs_f64()
     }
 
+    /// Sends a request that draws nothing.
+    pub fn send(&self, request: &str) {
+        self.output.send(request);
+    }
+
     /// Starts from an empty screen of the present size. Between two drawings a terminal can have
     /// become smaller and large again, so that its size says nothing of what is left on it.
     pub fn start_afresh(&mut self) {

@@ -26,9 +26,7 @@ pub struct Caption {
 impl Caption {
     /// The panel that gets the focus.
     pub fn panel(&self) -> Option<Panel> {
-        let title = self.panel.as_deref()?;
-        let mut panels = Panel::ALL.into_iter();
-        panels.find(|panel| panel.recipe().title == title)
+        Panel::titled(self.panel.as_deref()?)
     }
 }
 

@@ -111,6 +111,7 @@ impl Past {
         while self.kept.len() > 2 && self.bytes() > budget {
             let least = self.least_missed().unwrap_or(0);
             self.kept.remove(least);
+            self.at = self.at.map(|at| at - usize::from(least < at));
         }
     }
 
@@ -140,7 +141,8 @@ impl Past {
             let [before, this, after] = [i - 1, i, i + 1].map(|i| &self.kept[i]);
             age += (after.cycle() - this.cycle()).max(0.0);
             let gap = (after.cycle() - before.cycle()) / (age + 1.0);
-            (before.stretch == after.stretch).then_some((gap, i))
+            let is_inner = before.stretch == after.stretch && Some(i) != self.at;
+            is_inner.then_some((gap, i))
         });
         let least = gaps.min_by(|(a, i), (b, k)| a.total_cmp(b).then(i.cmp(k)));
         least.map(|(_, i)| i)
@@ -166,6 +168,53 @@ impl Past {
         let latest_first = (0..self.kept.len()).rev();
         let of_run = latest_first.filter(|&at| self.kept[at].scenario == scenario);
         self.go_to(of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?)
+    }
+
+    /// Goes this many states forward, or back, but not beyond the ends; `None` where it is there already.
+    pub fn go(&mut self, places: isize) -> Option<Arc<Kept>> {
+        let last = self.kept.len().checked_sub(1)?;
+        let now = self.at.unwrap_or(last);
+        let next = now.saturating_add_signed(places).min(last);
+        (next != now).then(|| self.go_to(next)).flatten()
+    }
+
+    /// Goes to the present, which must have been stored.
+    pub fn visit_present(&mut self) -> Option<Arc<Kept>> {
+        self.go_to(self.kept.len().checked_sub(1)?)
+    }
+
+    /// Goes to the latest state at `cycle` or before it on the way that has led to the present, which must have been
+    /// stored.
+    pub fn visit_before(&mut self, cycle: f64) -> Option<Arc<Kept>> {
+        let scenario = self.kept.last()?.scenario;
+        // A stretch that was left goes on beyond the branch.
+        let mut limit = f64::INFINITY;
+        let mut latest_first = (0..self.kept.len()).rev().filter(|&at| {
+            let kept = &self.kept[at];
+            let is_on_the_way = kept.scenario == scenario && kept.cycle() <= limit;
+            if is_on_the_way {
+                limit = kept.cycle();
+            }
+            is_on_the_way
+        });
+        let at = latest_first.find(|&at| self.kept[at].cycle() <= cycle)?;
+        self.go_to(at)
+    }
+
+    /// Stores a state between the one on the screen and the next, and goes there.
+    pub fn insert(&mut self, run: Recorded) {
+        let Some((at, shown)) = self.at.and_then(|at| Some((at, self.kept.get(at)?))) else {
+            return;
+        };
+        let (stretch, scenario) = (shown.stretch, shown.scenario);
+        let kept = Kept {
+            run,
+            stretch,
+            scenario,
+        };
+        self.kept.insert(at + 1, Arc::new(kept));
+        self.at = Some(at + 1);
+        self.make_room(BUDGET);
     }
 
     /// Goes to a state, of which the last is the present.
@@ -314,6 +363,27 @@ mod tests {
             assert_eq!(at(past.visit(cycle)), Some(nearest));
             assert_eq!(past.present().is_none(), nearest == 3.0);
         }
+    }
+
+    #[test]
+    fn a_cycle_is_found_on_the_way_that_led_to_the_present() {
+        let (mut session, mut past) = run_to(3);
+        let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
+        past.visit(1.0);
+        past.branch();
+        keep(&mut past, &session);
+        session.advance_to(5.0).expect("a step");
+        keep(&mut past, &session);
+        assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0, 3.0, 5.0]);
+        // The second and third state belong to what was left.
+        assert_eq!(at(past.visit_before(2.9)), Some(1.0));
+        assert_eq!(past.at, Some(4));
+        past.insert(past.kept[2].run.clone());
+        assert_eq!((past.at, past.present()), (Some(5), Some(5.0)));
+        assert_eq!(at(past.visit_before(2.9)), Some(2.0));
+        assert_eq!(at(past.visit_before(0.5)), Some(0.0));
+        assert_eq!(at(past.visit_present()), Some(5.0));
+        assert_eq!(past.present(), None);
     }
 
     #[test]

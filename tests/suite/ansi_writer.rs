@@ -96,7 +96,7 @@ fn a_frame_of_the_figure_takes_few_bytes() {
         counted.frame("");
         let app = &counted.explorer.app;
         let has_stresses = app.explorer.stage.visible().contains(&Panel::Section)
-            && app.explorer.stress.bounds.is_some();
+            && app.explorer.stress.bounds().is_some();
         assert!(columns != 120 || has_stresses);
         take_few_bytes(&mut counted, budget, 60, |counted| counted.frame(",.."));
     }

@@ -80,6 +80,7 @@ mod sweep;
 #[cfg(unix)]
 mod terminal;
 mod trade;
+mod truth;
 mod two_at_once;
 mod verify;
 mod waveforms;

@@ -24,6 +24,7 @@ use crate::plot::units::{format_value, range_ends};
 use crate::plot::{Axis, Chart, Plot, Point, Scale};
 use crate::reading::Regime;
 use crate::tui::canvas::Canvas;
+use crate::tui::line::cells;
 
 /// The keys of the footer, as many as fit, and the one that is always there.
 const KEYS: [[&str; 2]; 7] = [
@@ -35,7 +36,23 @@ const KEYS: [[&str; 2]; 7] = [
     ["[ ]", "other axes"],
     ["t", "theory"],
 ];
-const QUIT: [&str; 2] = ["q", "quit"];
+const ALWAYS: [[&str; 2]; 2] = [["?", "help"], ["q", "quit"]];
+
+/// All keys, as the help explains them.
+pub const ALL_KEYS: [[&str; 2]; 12] = [
+    ["arrows, hjkl", "move the cursor, which reads the point"],
+    ["Home End", "to the first and the last point of the row"],
+    ["Enter", "open the point in the explorer; q leads back"],
+    ["Tab S-Tab", "next and previous column of the study"],
+    ["L", "logarithmic colours, or linear ones"],
+    ["x", "the next axis to the right"],
+    ["y", "the next axis upwards"],
+    ["[ ]", "move along the axes that are not shown"],
+    ["t", "borders in closed form and criteria, or none"],
+    ["?", "show or hide these keys"],
+    ["Ctrl-Z", "suspend to the shell"],
+    ["q", "leave the map"],
+];
 
 /// The sign of the base scenario.
 const HERE: char = '◆';
@@ -43,8 +60,8 @@ const HERE: char = '◆';
 /// Significant digits of what is read.
 const DIGITS: usize = 4;
 
-/// Draws the whole screen; what the user is `told` stands in place of the keys.
-pub fn draw(view: &View, told: Option<&str>, mut canvas: Canvas) {
+/// Draws the whole screen; a `notice` stands in place of the keys.
+pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     let (area, theme) = (canvas.area, &canvas.theme.clone());
     if area.width < 20 || area.height < 10 {
         return canvas.show(Line::raw("too small: needs 20x10 or more"));
@@ -64,30 +81,42 @@ pub fn draw(view: &View, told: Option<&str>, mut canvas: Canvas) {
     let mut names: Vec<String> = names.collect();
     let here = view.here();
     names.extend(here.map(|_| format!("{HERE} you are here")));
-    let (point, below) = (view.point(), area.height - 4);
+    let point = view.point();
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
     let count_place = Rect::new(area.x + behind, area.y, area.width - behind, 1);
-    for (place, text, role) in [
+    let told = [
+        (names, Role::Quiet),
+        (vec![place(view, point)], Role::Quiet),
+        (reading(view, point), Role::Notice),
+    ];
+    // Each in as many rows as it needs, and the map in what they leave.
+    let told = told.iter().flat_map(|(parts, role)| {
+        let lines = side_by_side(parts, usize::from(area.width)).into_iter();
+        lines.map(move |line| (line, *role))
+    });
+    let told: Vec<_> = told.take(usize::from(area.height / 3)).collect();
+    let below = area.height - 1 - told.len() as u16;
+    let rows = told.iter().zip(below..);
+    let rows = rows.map(|((text, role), k)| (row(k), text, *role));
+    let head = [
         (row(0), &view.name, Role::Title),
         (count_place, &count, Role::Quiet),
-        (row(below), &names.join("   "), Role::Quiet),
-        (row(below + 1), &place(view, point), Role::Quiet),
-        (row(below + 2), &reading(view, point), Role::Notice),
-    ] {
+    ];
+    for (place, text, role) in head.into_iter().chain(rows) {
         let text = canvas.printable(text);
         let style = canvas.style(role);
         canvas.at(place).show(Line::styled(text, style));
     }
     canvas.at(row(1)).show(legend(view, theme, &chart));
     signs(view, theme, &mut chart);
-    let body = Rect::new(area.x, area.y + 2, area.width, area.height - 6);
+    let body = Rect::new(area.x, area.y + 2, area.width, below - 2);
     let place = view.cursor()[0];
     let along = view.slice.x().number(place).unwrap_or(place as f64);
     let along = Some(along).filter(|_| chart.map.is_none());
     canvas.at(body).show(Plot::new(&chart, theme).cursor(along));
-    let told = told.map(|text| (text, Role::Notice));
+    let notice = notice.map(|text| (text, Role::Notice));
     let last = row(area.height - 1);
-    canvas.at(last).keys(told, &KEYS, &[QUIT]);
+    canvas.at(last).keys(notice, &KEYS, &ALWAYS);
 }
 
 /// Puts the signs on the chart that belong to a screen: the base scenario, and on a map points without a value, the
@@ -130,6 +159,23 @@ fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
     chart.points.extend(signs);
 }
 
+/// Texts side by side in lines of this width; at least one line.
+fn side_by_side(parts: &[String], width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for part in parts {
+        let last = lines.len() - 1;
+        match cells(&lines[last]) {
+            0 => lines[last].push_str(part),
+            taken if taken + 2 + cells(part) <= width => {
+                lines[last].push_str("  ");
+                lines[last].push_str(part);
+            }
+            _ => lines.push(part.clone()),
+        }
+    }
+    lines
+}
+
 /// A point in words: its number and its values.
 fn place(view: &View, point: usize) -> String {
     let study = &view.slice.study;
@@ -143,10 +189,10 @@ fn place(view: &View, point: usize) -> String {
 }
 
 /// The values of a point: the column that is shown, the others and the status.
-fn reading(view: &View, point: usize) -> String {
+fn reading(view: &View, point: usize) -> Vec<String> {
     let study = &view.slice.study;
     let Some(fields) = view.slice.row(point) else {
-        return "not there yet".to_owned();
+        return vec!["not there yet".to_owned()];
     };
     let columns = study.columns();
     let read = columns.iter().zip(fields).skip(study.axes.len());
@@ -156,7 +202,7 @@ fn reading(view: &View, point: usize) -> String {
         Ok(number) => in_words(&study::quantity(name, &[]), number),
         Err(_) => format!("{name} {field}"),
     });
-    read.collect::<Vec<_>>().join("  ")
+    read.collect()
 }
 
 /// A number with the name and the unit of what it is.

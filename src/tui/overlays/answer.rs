@@ -19,18 +19,14 @@ pub enum Answer {
     Run(Command),
 }
 
-/// Closes for a command; stays if there is none.
-pub(super) fn leave_for(command: Option<Command>) -> Answer {
-    command.map_or(Answer::Stay, Answer::Run)
-}
-
-/// Answers a command beside which the run can be watched: those that close do nothing else, and those that are
-/// `watched` leave open what is open.
-pub(super) fn watch(command: Option<Command>, closing: &[Command], watched: &[Command]) -> Answer {
-    match command {
+/// Answers a key beside which the run can be watched: those of commands that close do nothing else, those of `watched`
+/// ones leave open what is open, and no other key does anything.
+pub(super) fn watch(key: Key, closing: &[Command], watched: &[Command]) -> Answer {
+    match command::of_key(key) {
+        Some(Command::Quit) => Answer::Close,
         Some(command) if closing.contains(&command) => Answer::Close,
         Some(command) if watched.contains(&command) => Answer::Watch(command),
-        command => leave_for(command),
+        _ => Answer::Stay,
     }
 }
 
@@ -40,17 +36,16 @@ pub(super) const PAGE: usize = 10;
 /// Selects another one of `count` entries by a key that moves in lists; false for other keys.
 pub(super) fn select(at: &mut usize, count: usize, key: Key) -> bool {
     let last = count.saturating_sub(1);
-    *at = match (key, command::of_key(key)) {
-        (Key::Named(Named::Home), _) => 0,
-        (Key::Named(Named::End), _) => last,
-        (Key::Named(Named::PageUp), _) => at.saturating_sub(PAGE),
-        (Key::Named(Named::PageDown), _) => (*at + PAGE).min(last),
-        (Key::Named(Named::Up), _) | (_, Some(Command::Up | Command::PreviousPanel)) => {
-            at.checked_sub(1).unwrap_or(last)
-        }
-        (Key::Named(Named::Down), _) | (_, Some(Command::Down | Command::NextPanel)) => {
-            (*at + 1) % (last + 1)
-        }
+    let Key::Named(key) = key else {
+        return false;
+    };
+    *at = match key {
+        Named::Home => 0,
+        Named::End => last,
+        Named::PageUp => at.saturating_sub(PAGE),
+        Named::PageDown => (*at + PAGE).min(last),
+        Named::Up | Named::BackTab => at.checked_sub(1).unwrap_or(last),
+        Named::Down | Named::Tab => (*at + 1) % (last + 1),
         _ => return false,
     };
     true

@@ -4,11 +4,16 @@ use std::sync::Arc;
 
 use super::*;
 use crate::plot::theme::Theme;
+use crate::tui::stage::LIST;
 
-/// The selected parameter, and its value while that is typed.
+/// The list, and the value of the selected parameter while that is typed.
 #[derive(Debug, Default)]
 pub struct Form {
+    /// Which of those that fit the filter is selected.
     at: usize,
+    /// What was typed to find a parameter.
+    pub(super) filter: LineEdit,
+    /// The value that is typed, if there is one.
     pub(super) typed: Option<LineEdit>,
     /// The value before the change that was asked for, until the answer is seen: a refused text stays.
     sent: Option<Option<String>>,
@@ -22,30 +27,48 @@ const WATCHED: &[Command] = &[
     Command::TimeForth,
 ];
 
-/// Where the values begin, in cells.
-const VALUES: usize = 38;
+/// The room of a key, in cells, and that beside the panels.
+const KEYS: usize = 38;
+const BRIEF: usize = 30;
+
+/// The rows of what is told of a parameter below the list, and in a narrow one.
+const BELOW: u16 = 4;
+const BESIDE: u16 = 6;
 
 impl Form {
-    /// The form as it is seen with these settings: which one is selected, and its value while that is typed.
-    fn seen<'a>(&self, settings: &'a [Setting]) -> (usize, &'a Setting, Option<LineEdit>) {
+    /// The settings that fit the filter.
+    fn fitting<'a>(&self, settings: &'a [Setting]) -> Vec<&'a Setting> {
+        let fits = |of: &&Setting| {
+            let known = of.parameter;
+            self.filter
+                .fits(&[known.path, known.meaning, known.effect].join(" "))
+        };
+        settings.iter().filter(fits).collect()
+    }
+
+    /// The selected one of these settings and its value while that is typed; `None` if there is none.
+    fn seen<'a>(&self, settings: &[&'a Setting]) -> Option<(usize, &'a Setting, Option<LineEdit>)> {
         // Another shape has other keys: the list can have become shorter.
-        let at = self.at.min(settings.len() - 1);
-        let setting = &settings[at];
+        let at = self.at.min(settings.len().checked_sub(1)?);
+        let setting = settings[at];
         // The change that was asked for has been made.
         let sent = self.sent.as_ref();
         let is_taken = sent.is_some_and(|before| *before != setting.value);
-        (at, setting, self.typed.clone().filter(|_| !is_taken))
+        Some((at, setting, self.typed.clone().filter(|_| !is_taken)))
     }
 
     pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
         let facts = Arc::clone(&explorer.frame.facts);
-        let (at, setting, typed) = self.seen(&facts.settings);
+        let settings = self.fitting(&facts.settings);
+        let Some((at, setting, typed)) = self.seen(&settings) else {
+            return self.find(key);
+        };
         (self.at, self.typed) = (at, typed);
         match (&mut self.typed, key) {
-            (None, key) => return self.choose(key, setting, facts.settings.len(), explorer),
+            (None, key) => return self.choose(key, setting, settings.len(), explorer),
             (_, Key::Named(Named::Esc)) => (self.typed, self.sent) = (None, None),
             (Some(line), Key::Named(Named::Enter)) => {
-                let value = setting.in_shown_unit(line.text().trim());
+                let value = line.text().trim().to_owned();
                 let is_same =
                     setting.value.as_ref() == Some(&value) || setting.shown(true) == value;
                 if value.is_empty() || is_same {
@@ -60,7 +83,19 @@ impl Form {
         Answer::Stay
     }
 
-    /// Selects another parameter of `count`, or begins to give the value of the one that is selected.
+    /// Takes a key that finds parameters, or closes the list.
+    fn find(&mut self, key: Key) -> Answer {
+        if command::of_key(key) == Some(Command::Back) {
+            return Answer::Close;
+        }
+        if self.filter.filter(key) {
+            self.at = 0;
+        }
+        Answer::Stay
+    }
+
+    /// Selects another parameter of `count`, changes or begins to give the value of the one that is selected. Signs
+    /// act while nothing has been typed.
     fn choose(
         &mut self,
         key: Key,
@@ -72,91 +107,115 @@ impl Form {
         if select(&mut self.at, count, key) {
             return Answer::Stay;
         }
+        let is_free = self.filter.is_empty();
         match (key, command::of_key(key)) {
-            (Key::Char('+' | '-' | '=') | Key::Named(Named::Left | Named::Right), Some(step)) => {
-                let up = matches!(step, Command::Faster | Command::Right);
-                let next = setting.next(up).filter(|_| setting.fixed().is_none());
-                let Some(next) = next.filter(|next| setting.value.as_ref() != Some(next)) else {
-                    // Where there is no next value, the key is the first of a text.
-                    let sign = Some('-').filter(|_| key == Key::Char('-'));
-                    return self.edit(setting, sign, explorer);
-                };
-                change(setting, next, explorer);
-                Answer::Stay
+            (Key::Named(Named::Right), _) => step(setting, true, explorer),
+            (Key::Named(Named::Left), _) => step(setting, false, explorer),
+            (Key::Char('+' | '='), _) if is_free => step(setting, true, explorer),
+            (Key::Char('-'), _) if is_free => step(setting, false, explorer),
+            (Key::Named(Named::Enter), _) => return self.edit(setting, explorer),
+            (_, Some(watched)) if is_free && WATCHED.contains(&watched) => {
+                return Answer::Watch(watched);
             }
-            (_, Some(Command::Back)) => Answer::Close,
-            (Key::Char(' ' | ',' | '[' | ']'), Some(watched)) if WATCHED.contains(&watched) => {
-                Answer::Watch(watched)
-            }
-            (Key::Char('?' | ':'), other) => leave_for(other),
-            (Key::Char(character), _) => self.edit(setting, Some(character), explorer),
-            (_, Some(Command::Accept)) => self.edit(setting, None, explorer),
-            (_, other) => leave_for(other),
+            _ => return self.find(key),
         }
+        Answer::Stay
     }
 
-    /// Begins to give the value: one of its words in the palette, else the text as it stands, or what was typed in its
-    /// place.
-    fn edit(&mut self, setting: &Setting, typed: Option<char>, explorer: &mut Explorer) -> Answer {
+    /// Begins to give the value: one of its words in the palette, else the text as it stands.
+    fn edit(&mut self, setting: &Setting, explorer: &mut Explorer) -> Answer {
         explorer.notice = setting.fixed();
         if explorer.notice.is_some() {
             return Answer::Stay;
         }
         if setting.words().is_some() {
-            return Answer::Open(Overlay::Palette(Palette::choosing(setting, typed)));
+            return Answer::Open(Overlay::Palette(Palette::choosing(setting)));
         }
         let now = setting.value.as_ref().map(|_| setting.shown(true));
-        let text = typed.map(String::from).or(now);
-        self.typed = Some(LineEdit::new(&text.unwrap_or_default()));
+        self.typed = Some(LineEdit::new(&now.unwrap_or_default()));
         Answer::Stay
     }
 
     pub(super) fn draw(&self, explorer: &Explorer, mut canvas: Canvas) {
-        let settings = &explorer.frame.facts.settings;
-        let (at, setting, line) = self.seen(settings);
-        let rows = (canvas.area.height / 2).clamp(8, 20);
-        let title = match &line {
-            Some(_) => "parameters (Enter applies, Esc cancels)",
-            None => "parameters (type or Enter: edit, + -: step, [: undo, Esc: close)",
+        let settings = self.fitting(&explorer.frame.facts.settings);
+        let seen = self.seen(&settings);
+        let filter = self.filter.text();
+        let is_typed = matches!(seen, Some((.., Some(_))));
+        let is_beside = canvas.area.width <= LIST;
+        let title = match filter.as_str() {
+            _ if is_typed => "parameters (Enter applies, Esc cancels)".to_owned(),
+            "" if is_beside => "parameters (type: find, + -: step)".to_owned(),
+            "" => "parameters (type: find, Enter: edit, + -: step, [: undo, Esc: close)".to_owned(),
+            filter => format!("parameters: {filter} (Enter: edit, arrows: step)"),
         };
-        let mut inside = canvas.docked(title, rows + 3);
+        let rows = (canvas.area.height / 2).clamp(8, 20);
+        let (mut inside, told) = match is_beside {
+            true => (canvas.popup(&title, (LIST, u16::MAX)), BESIDE),
+            false => (canvas.docked(&title, rows + BELOW), BELOW),
+        };
+        let Some((at, setting, line)) = seen else {
+            return inside.say("no parameter has that", Role::Quiet);
+        };
         let theme = inside.theme;
-        let rows = [Fill(1), Length(3.min(inside.area.height))];
+        let rows = [Fill(1), Length(told.min(inside.area.height))];
         let [above, below] = Layout::vertical(rows).areas(inside.area);
-        let mut lines: Vec<Line> = settings.iter().map(|of| value(of, &theme)).collect();
+        let room = if is_beside { BRIEF } else { KEYS };
+        let key = |setting: &Setting| key(setting.parameter.path, room);
+        let mut lines: Vec<Line> = settings
+            .iter()
+            .map(|of| value(key(of), of, &theme))
+            .collect();
         let mut style = inside.style(Role::Focus);
         if let Some(line) = &line {
-            lines[at] = typed(setting, line, above.width, &theme);
+            lines[at] = typed(&key(setting), setting, line, above.width, &theme);
             style = Style::new();
         }
         inside.at(above).list(lines, at, style);
         let about = about_it(setting, explorer.notice.as_deref(), &theme);
-        inside.at(below).show(Paragraph::new(about));
+        inside.at(below).indented().write(about);
     }
 }
 
-/// The key of a setting as far as its value.
-fn key(setting: &Setting) -> String {
-    format!(" {:1$}", setting.parameter.path, VALUES - 1)
+/// Takes the next value up or down, where there is one.
+fn step(setting: &Setting, up: bool, explorer: &mut Explorer) {
+    explorer.notice = setting.fixed();
+    let next = setting.next(up).filter(|_| setting.fixed().is_none());
+    if let Some(next) = next.filter(|next| setting.value.as_ref() != Some(next)) {
+        change(setting, next, explorer);
+    }
+}
+
+/// A key as far as its value in this room: of a longer one, the end tells most.
+fn key(path: &str, room: usize) -> String {
+    let mut path = path;
+    while path.len() + 2 > room
+        && let Some((_, rest)) = path.split_once('.')
+    {
+        path = rest;
+    }
+    format!(" {:1$}", path, room - 1)
 }
 
 /// A row of the list.
-fn value(setting: &Setting, theme: &Theme) -> Line<'static> {
+fn value(key: String, setting: &Setting, theme: &Theme) -> Line<'static> {
     let style = match setting.fixed() {
         Some(_) => theme.style(Role::Faint),
         None => Style::new(),
     };
     let shown = setting.shown(theme.ascii());
-    Line::styled(key(setting) + &shown, style)
+    Line::styled(key + &shown, style)
 }
 
 /// The row of a value that is typed, with the unit that it is in.
-fn typed(setting: &Setting, line: &LineEdit, width: u16, theme: &Theme) -> Line<'static> {
-    let mut row = typing(&key(setting), line, theme.style(Role::Title));
-    let unit = match setting.typed_unit() {
-        unit if unit.is_empty() => unit,
-        unit => theme.printable(&format!("{unit}, or with a unit ")),
-    };
+fn typed(
+    key: &str,
+    setting: &Setting,
+    line: &LineEdit,
+    width: u16,
+    theme: &Theme,
+) -> Line<'static> {
+    let mut row = typing(key, line, theme.style(Role::Title));
+    let unit = theme.printable(&format!("{} ", setting.typed_unit()));
     let room = usize::from(width).saturating_sub(row.width());
     row.push_span(format!("{unit:>room$}"));
     row
@@ -174,13 +233,13 @@ fn about_it(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'s
         }
     };
     vec![
-        Line::raw(format!(" {}", setting.parameter.meaning)),
-        Line::styled(format!(" {}", setting.parameter.effect), quiet),
-        Line::from(vec![Span::raw(" "), told]),
+        Line::raw(setting.parameter.meaning),
+        Line::from(told),
+        Line::styled(setting.parameter.effect, quiet),
     ]
 }
 
 fn change(setting: &Setting, value: String, explorer: &mut Explorer) {
     let key = setting.parameter.path;
-    explorer.order(move |run| run.change(key, &value));
+    explorer.order(move |run| run.change_beside(key, &value));
 }

@@ -6,6 +6,9 @@ use super::*;
 use crate::tui::command::Row;
 use crate::tui::manual::groups;
 
+/// What closes it.
+const CLOSING: &[Command] = &[Command::Back, Command::Help, Command::Accept];
+
 /// The help, scrolled down by some lines: by no more than there are, which it learns as it is drawn.
 #[derive(Debug, Default)]
 pub struct Help {
@@ -22,9 +25,7 @@ impl Help {
             (Key::Named(Named::End), _) => u16::MAX,
             (_, Some(Command::Up)) => first.saturating_sub(1),
             (_, Some(Command::Down)) => first.saturating_add(1),
-            (_, Some(Command::Back | Command::Help | Command::Accept)) => return Answer::Close,
-            (_, Some(Command::Search)) => return Answer::Watch(Command::Search),
-            (_, other) => return leave_for(other),
+            _ => return watch(key, CLOSING, &[Command::Search]),
         };
         self.first.set(first);
         Answer::Stay
@@ -41,6 +42,8 @@ impl Help {
             lines.push(Line::styled(format!(" {group}"), style));
             lines.extend(rows.iter().map(|row| line(row, style)));
         }
+        lines.extend([Line::default(), Line::styled(" mouse", style)]);
+        lines.extend(MOUSE.map(|text| Line::raw(format!(" {:KEYS$}  {text}", ""))));
         let count = lines.len();
         let height = usize::from(area.height);
         let columns = 1 + usize::from(area.width >= 2 * WIDTH && count + 2 > height);
@@ -61,6 +64,13 @@ impl Help {
         }
     }
 }
+
+/// What the mouse does.
+const MOUSE: [&str; 3] = [
+    "with --mouse, or mouse = true in the configuration:",
+    "a click focuses, moves the cursor or travels in time;",
+    "a second one zooms; the wheel zooms about the cursor",
+];
 
 /// The width of a column, and that of the keys in it.
 const WIDTH: u16 = 80;

@@ -17,7 +17,10 @@ const WORDS: u16 = 4;
 /// The list: presets first, then what is in a directory.
 #[derive(Debug, Default)]
 pub struct Library {
+    /// Which of those that fit the filter is selected.
     at: usize,
+    /// What was typed to find an entry.
+    pub(super) filter: LineEdit,
     entries: Vec<Entry>,
     /// What is said of the selected entry.
     about: String,
@@ -141,32 +144,44 @@ impl Library {
         self.entries.extend(files(&directory));
     }
 
+    /// The entries that fit the filter.
+    fn fitting(&self) -> Vec<&Entry> {
+        let fits = |of: &&Entry| self.filter.fits(&format!("{} {}", of.name, of.title()));
+        self.entries.iter().filter(fits).collect()
+    }
+
     fn select(&mut self, at: usize) {
-        self.at = at.min(self.entries.len() - 1);
-        self.about = self.entries[self.at].about();
+        let fitting = self.fitting();
+        let at = at.min(fitting.len().saturating_sub(1));
+        let about = fitting.get(at).map(|entry| entry.about());
+        (self.at, self.about) = (at, about.unwrap_or_else(|| "nothing has that".into()));
     }
 
     pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
         let mut at = self.at;
-        if select(&mut at, self.entries.len(), key) {
-            self.select(at);
-            return Answer::Stay;
+        match (key, command::of_key(key)) {
+            _ if select(&mut at, self.fitting().len(), key) => self.select(at),
+            (Key::Named(Named::Enter), _) => return self.take(explorer),
+            (_, Some(Command::Back)) => return Answer::Close,
+            _ if self.filter.filter(key) => self.select(0),
+            _ => {}
         }
-        match command::of_key(key) {
-            Some(Command::Back | Command::Presets) => Answer::Close,
-            Some(Command::Accept | Command::RunPause) => self.take(explorer),
-            other => leave_for(other),
-        }
+        Answer::Stay
     }
 
     /// Loads the selected scenario, or opens the selected directory.
     fn take(&mut self, explorer: &mut Explorer) -> Answer {
-        let entry = &self.entries[self.at];
+        let fitting = self.fitting();
+        let Some(entry) = fitting.get(self.at) else {
+            return Answer::Stay;
+        };
+        let path = entry.path.clone();
         if !matches!(entry.kind, Kind::Directory) {
-            explorer.load(&entry.path);
+            explorer.load(&path);
             return Answer::Close;
         }
-        self.enter(entry.path.clone());
+        self.filter = LineEdit::default();
+        self.enter(path);
         self.select(preset::ALL.len());
         Answer::Stay
     }
@@ -175,8 +190,12 @@ impl Library {
         let names = preset::ALL.iter().map(|preset| preset.name.len());
         let width = names.max().unwrap_or(0);
         let height = self.entries.len() as u16 + WORDS + 2;
-        let title = "presets and your own files (Enter starts, Esc closes)";
-        let mut inside = canvas.popup(title, (80, height));
+        let filter = self.filter.text();
+        let title = match filter.is_empty() {
+            true => "presets and your own files (type: find, Enter: start, Esc: close)".to_owned(),
+            false => format!("presets and files: {filter} (Enter: start, Esc: close)"),
+        };
+        let mut inside = canvas.popup(&title, (80, height));
         let (theme, shown) = (inside.theme, inside.area.height.saturating_sub(WORDS));
         let rows = Layout::vertical([Length(shown), Length(1), Fill(1)]);
         let [above, _, below] = rows.areas(inside.area);
@@ -185,7 +204,7 @@ impl Library {
             Line::raw(format!(" {name:width$}  {title} "))
         };
         let focus = inside.style(Role::Focus);
-        let entries = self.entries.iter().map(line);
+        let entries = self.fitting().into_iter().map(line);
         inside.at(above).list(entries, self.at, focus);
         let about = theme.printable(&self.about);
         inside.at(below).indented().write(about);

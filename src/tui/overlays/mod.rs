@@ -14,7 +14,7 @@ use super::line::LineEdit;
 use super::map::live::Live;
 use super::settings::Setting;
 use crate::plot::theme::Role;
-use answer::{PAGE, leave_for, select, typing, watch};
+use answer::{PAGE, select, typing, watch};
 
 mod accuracy;
 mod answer;
@@ -52,26 +52,28 @@ pub enum Overlay {
     Form(Form),
     /// A study, on the whole screen.
     Sweep(Live),
+    /// The keys of a study.
+    MapKeys,
 }
 
 impl Overlay {
     /// Answers a key.
     pub fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
-        let command = command::of_key(key);
         match self {
             Self::Help(help) => help.press(key),
             Self::Library(library) => library.press(key, explorer),
-            Self::Explain => watch(command, explain::CLOSING, explain::WATCHED),
-            Self::Accuracy { explains } => match command {
-                Some(Command::NextPanel | Command::PreviousPanel) => {
+            Self::Explain => watch(key, explain::CLOSING, explain::WATCHED),
+            Self::Accuracy { explains } => match key {
+                Key::Named(Named::Tab | Named::BackTab) => {
                     *explains ^= true;
                     Answer::Stay
                 }
-                _ => watch(command, accuracy::CLOSING, accuracy::WATCHED),
+                _ => watch(key, accuracy::CLOSING, accuracy::WATCHED),
             },
             Self::Palette(palette) => palette.press(key, explorer),
             Self::Form(form) => form.press(key, explorer),
             Self::Sweep(live) => sweep::press(live, key, explorer),
+            Self::MapKeys => watch(key, &[Command::Back, Command::Help, Command::Accept], &[]),
         }
     }
 
@@ -79,7 +81,8 @@ impl Overlay {
     pub fn line(&mut self) -> Option<&mut LineEdit> {
         match self {
             Self::Palette(palette) => Some(&mut palette.line),
-            Self::Form(form) => form.typed.as_mut(),
+            Self::Form(form) => form.typed.as_mut().or(Some(&mut form.filter)),
+            Self::Library(library) => Some(&mut library.filter),
             _ => None,
         }
     }
@@ -97,6 +100,7 @@ impl Overlay {
             Self::Palette(palette) => palette.draw(&explorer.frame, canvas),
             Self::Form(form) => form.draw(explorer, canvas),
             Self::Sweep(live) => sweep::draw(live, explorer.notice.as_deref(), canvas),
+            Self::MapKeys => sweep::draw_keys(canvas),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
 use super::*;
+use crate::scenario::nearest::nearest;
 use crate::tui::command::{Act, COMMANDS, Row};
 use crate::tui::completion::{self, Completion};
 
@@ -74,14 +75,13 @@ impl Palette {
         }
     }
 
-    /// The words of a setting, the present one selected, or those that begin with what was typed.
-    pub fn choosing(setting: &Setting, typed: Option<char>) -> Self {
-        let begun = String::from_iter(typed);
+    /// The words of a setting, the present one selected.
+    pub fn choosing(setting: &Setting) -> Self {
         let mut words = setting.words().unwrap_or_default().into_iter();
         let now = words.position(|word| setting.value.as_deref() == Some(word));
         Self {
-            at: now.filter(|_| typed.is_none()).unwrap_or(0),
-            ..Self::begun(&format!("set {}={begun}", setting.parameter.path))
+            at: now.unwrap_or(0),
+            ..Self::begun(&format!("set {}=", setting.parameter.path))
         }
     }
 
@@ -111,7 +111,12 @@ impl Palette {
             }
             (Key::Named(Named::Enter), None) => {
                 let typed = self.line.text();
-                explorer.notice = Some(format!("no such command: {}", typed.trim()));
+                let typed = typed.trim();
+                let word = typed.split_whitespace().next().unwrap_or_default();
+                let near = nearest(word, COMMANDS.iter().map(|row| row.name));
+                let near = near.map(|name| format!("; did you mean {name}?"));
+                let near = near.unwrap_or_default();
+                explorer.notice = Some(format!("no such command: {typed}{near}"));
             }
             _ if self.line.press(key) => self.at = 0,
             _ => {}
@@ -126,7 +131,21 @@ impl Palette {
         let mut inside = canvas.docked(title, rows + 3);
         let roles = [Role::Quiet, Role::Focus, Role::Title];
         let [quiet, focus, title] = roles.map(|role| inside.style(role));
-        inside.show(typing(" :", &self.line, title));
+        let mut line = typing(" :", &self.line, title);
+        let text = self.line.text();
+        let key = text.trim_start().strip_prefix("set ");
+        let key = key.and_then(|rest| rest.split_once('='));
+        let mut settings = frame.facts.settings.iter();
+        let of_key =
+            settings.find(|of| key.is_some_and(|(key, _)| of.parameter.path == key.trim()));
+        if let Some(unit) = of_key.map(Setting::typed_unit) {
+            let room = usize::from(inside.area.width).saturating_sub(line.width() + 1);
+            line.push_span(Span::styled(
+                format!("{:>room$}", inside.printable(&unit)),
+                quiet,
+            ));
+        }
+        inside.show(line);
         let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside.area);
         let mut below_line = inside.at(below);
         if found.is_empty() {

@@ -10,10 +10,10 @@ pub const OPENING: &str = "opening the point ...";
 /// Answers a key; leaving ends the study, or the explorer that was opened for it.
 pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
     match (key, command::of_key(key)) {
-        (_, Some(Command::Suspend)) => return Answer::Watch(Command::Suspend),
-        (Key::Char('q') | Key::Named(Named::Esc), _) if live.is_of_file() => {
-            explorer.next = Next::Leave;
-        }
+        (Key::Char('?'), _) => return Answer::Open(Overlay::MapKeys),
+        (Key::Char('q'), _) if live.is_of_file() => explorer.next = Next::Leave,
+        // Nothing is open that it could close.
+        (Key::Named(Named::Esc), _) if live.is_of_file() => {}
         (Key::Char('q') | Key::Named(Named::Esc), _) => {
             live.halt();
             return Answer::Close;
@@ -31,6 +31,13 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
         _ => live.with(|view| view.press(key)),
     }
     Answer::Stay
+}
+
+/// Draws the keys of a study.
+pub(super) fn draw_keys(mut canvas: Canvas) {
+    let lines = draw::ALL_KEYS.map(|[keys, help]| format!("{keys:>12}  {help}"));
+    let mut inside = canvas.popup("keys of the map (Esc closes)", (72, lines.len() as u16 + 2));
+    inside.say(&lines.join("\n"), Role::Quiet);
 }
 
 /// Draws the study, and what the user is told.

@@ -156,7 +156,14 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
             on(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
-        let scale = stress_key(section, area.width).style(Style::reset());
+        // A wide picture has room for all that colours mean.
+        let mut key = match area.width >= ROOMY[0] {
+            true => body_key(&canvas.theme),
+            false => Line::default(),
+        };
+        let room = area.width.saturating_sub(key.width() as u16);
+        key.extend(stress_key(section, room));
+        let scale = key.style(Style::reset());
         let width = scale.width() as u16;
         let left = area.x + area.width.saturating_sub(width) / 2;
         let place = Rect::new(left, area.bottom() - 1, width, 1);
@@ -208,13 +215,13 @@ fn radii(section: &Section, canvas: &mut Canvas) {
 
 /// What the colours of the bodies mean.
 fn body_key(theme: &Theme) -> Line<'static> {
+    let [blocks, lines] = [has_blocks(theme), !theme.ascii()].map(usize::from);
     let parts = [
-        (["▀▀", "s"], Role::Stick, "sticks"),
-        (["▀▀", "~"], Role::Slip, "slips"),
-        (["╱╱", "/"], Role::Profile, "worn away"),
+        (["s", "▀▀"][blocks], Role::Stick, "sticks"),
+        (["~", "▀▀"][blocks], Role::Slip, "slips"),
+        (["/", "╱╱"][lines], Role::Profile, "worn away"),
     ];
-    let spans = parts.into_iter().flat_map(|(signs, role, name)| {
-        let sign = signs[usize::from(theme.ascii())];
+    let spans = parts.into_iter().flat_map(|(sign, role, name)| {
         let sign = Span::styled(format!(" {sign}"), theme.style(role));
         [sign, format!(" {name} ").into()]
     });
@@ -225,11 +232,12 @@ fn body_key(theme: &Theme) -> Line<'static> {
 fn stress_key(section: &Section, width: u16) -> Line<'static> {
     let (theme, stress) = (&section.theme, section.of.stress);
     // Nothing is loaded yet where the scale is that of no stress.
-    let Some(bounds) = stress.bounds.filter(|bounds| bounds[1] > 1.0) else {
+    let Some(bounds) = stress.bounds().filter(|bounds| bounds[1] > 1.0) else {
         return Line::default();
     };
     let name = format!(" {} ", stress.names()[1]);
-    let [low, high] = bounds.map(|end| theme.printable(&format_value(end, "Pa", 3)));
+    let ends = stress.ends().unwrap_or_default();
+    let [low, high] = ends.map(|end| theme.printable(&end));
     // With little room the number of the other end stands for both.
     let short = match bounds {
         [0.0, _] => "0 ",

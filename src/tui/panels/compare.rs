@@ -4,7 +4,7 @@
 use super::*;
 use crate::charts::{A, C, Live, ghosts};
 use crate::math::scan::rms;
-use crate::plot::{Axis, Curve, nice_bounds};
+use crate::plot::{Axis, nice_bounds};
 use crate::traces::Axes;
 use crate::tui::beside::{Comparison, name_of};
 
@@ -69,15 +69,13 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
         .curves(pair(&other.profile, &seen.profile, Role::Profile));
     profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
     render(&profiles, left);
-    // A spike at a border of stick must not flatten all the rest.
-    let mut values = [&seen.pressure[..], &other.pressure].concat();
-    clip_spikes(&mut values);
-    let highest = largest(&values);
+    let pair_of_pressures = pair(&other.pressure, &seen.pressure, Role::Pressure);
+    let highest = pair_of_pressures.iter().map(spread_top).fold(0.0, f64::max);
     let mut ordinate = Axis::new("p", "Pa");
     ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
     let pressures = Chart::new("pressure", Axis::new("r", "m"), ordinate)
         .curves(ghosts::on(run, Axes::PRESSURE))
-        .curves(pair(&other.pressure, &seen.pressure, Role::Pressure));
+        .curves(pair_of_pressures);
     render(&pressures, right);
     let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
     if highest == 0.0 {

@@ -13,13 +13,13 @@ use crate::plot::colormap::ColorMap;
 use crate::plot::shades::{self, has_blocks};
 use crate::plot::theme::{Depth, Look, Role, Theme};
 use crate::plot::units::{format_number, format_value};
-use crate::plot::{Chart, Plot, Scale};
+use crate::plot::{Chart, Curve, Plot, Scale};
 use crate::reading::{Curves, Moment};
 
 mod caption;
 pub mod compare;
 mod cut;
-mod numbers;
+pub(super) mod numbers;
 mod scar;
 mod section;
 mod stress_map;
@@ -102,6 +102,12 @@ panels! {
 }
 
 impl Panel {
+    /// The one with a title.
+    pub fn titled(title: &str) -> Option<Self> {
+        let mut panels = Self::ALL.into_iter();
+        panels.find(|panel| panel.recipe().title == title)
+    }
+
     /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
     pub fn extent(self, frame: &Frame, chart: Option<&Chart>) -> Option<[f64; 2]> {
         match self.picture() {
@@ -110,9 +116,14 @@ impl Panel {
         }
     }
 
-    /// The radius under a place of the screen, m, where the panel in `area` has a chart over r there.
-    pub fn radius_at(self, chart: &Chart, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
-        let chart = Some(chart).filter(|_| self.recipe().is_over_r())?;
+    /// The abscissa under a place of the screen, where the panel in `area` has its chart there.
+    pub fn abscissa_at(
+        self,
+        chart: &Chart,
+        theme: &Theme,
+        area: Rect,
+        at: Position,
+    ) -> Option<f64> {
         // The first row is the title's.
         let [_, inner] = Layout::vertical([Length(1), Fill(1)]).areas(area);
         Plot::new(chart, theme).abscissa_at(inner, at)
@@ -132,31 +143,24 @@ fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
         Scale::Log => Some([low.max(1e-5 * high), high]),
         Scale::Linear if has_spikes => {
             let curves = chart.curves.iter().filter(|curve| !curve.is_theory);
-            let values = curves.flat_map(|curve| &curve.ys).chain(&chart.y.holds);
-            let mut values: Vec<f64> = values.copied().filter(|value| value.is_finite()).collect();
-            clip_spikes(&mut values);
-            scan::range(values)
+            let top = curves.map(spread_top).fold(0.0, f64::max);
+            match chart.y.is_symmetric {
+                true => Some([-top, top]),
+                false => Some([low.max(-top), high.min(top)]),
+            }
         }
         Scale::Linear => Some([low, high]),
     }
 }
 
-/// Values beyond three times the 95 % quantile of the sizes are spikes: they do not count for the bounds,
-/// and the plot marks where they are clipped.
-fn clip_spikes(values: &mut [f64]) {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sizes.retain(|size| *size > 0.0);
-    if sizes.len() < 20 {
-        return;
-    }
-    let at = sizes.len() * 95 / 100;
-    let (_, quantile, _) = sizes.select_nth_unstable_by(at, f64::total_cmp);
-    let most = 3.0 * *quantile;
-    for value in values {
-        if value.abs() > most {
-            *value = 0.5 * most.copysign(*value);
-        }
-    }
+/// How far the axis must reach for a curve, by the width that its values take on the abscissa: what stands above
+/// that in a narrow place is clipped, and marked in the plot.
+pub fn spread_top(curve: &Curve) -> f64 {
+    let xs = &curve.xs;
+    let x = |k: usize| xs[k.min(xs.len() - 1)];
+    let sizes = curve.ys.iter().take(xs.len()).enumerate();
+    let sizes = sizes.map(|(k, y)| [y.abs(), (x(k + 1) - x(k.saturating_sub(1))).abs()]);
+    scan::robust_top(sizes)
 }
 
 #[cfg(test)]
@@ -165,15 +169,24 @@ mod tests {
 
     #[test]
     fn a_spike_does_not_flatten_the_rest_and_a_smooth_curve_is_whole() {
-        let mut smooth: Vec<f64> = (0..100).map(|i| f64::from(i).sqrt()).collect();
-        let whole = smooth.clone();
-        clip_spikes(&mut smooth);
-        assert_eq!(smooth, whole);
-        let mut spiked = whole.clone();
-        spiked[50] = 1e6;
-        clip_spikes(&mut spiked);
-        let high = spiked.iter().copied().fold(0.0, f64::max);
-        assert!((10.0..30.0).contains(&high), "{high}");
+        let radii: Vec<f64> = (0..100).map(f64::from).collect();
+        let mut values: Vec<f64> = radii.iter().map(|r| r.sqrt()).collect();
+        let top = |radii: &[f64], values: &[f64]| {
+            spread_top(&Curve::new("", radii, values, Role::Pressure))
+        };
+        assert_eq!(top(&radii, &values), values[99]);
+        values[50] = 1e6;
+        let high = top(&radii, &values);
+        assert!((10.0..20.0).contains(&high), "{high}");
+        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, half of them in its last thousandth.
+        let outer = (1..100).map(|k| 1.0 - 1e-3 * 0.9_f64.powi(k));
+        let radii: Vec<f64> = (0..100)
+            .map(|k| 0.00999 * f64::from(k))
+            .chain(outer)
+            .collect();
+        let values: Vec<f64> = radii.iter().map(|r| (1.0 - r * r).powf(-0.5)).collect();
+        let high = top(&radii, &values);
+        assert!((4.0..8.0).contains(&high), "{high}");
     }
 
     #[test]

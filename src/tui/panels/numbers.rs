@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::reading::CycleFigures;
+use crate::scenario::units::shown_in;
 
 /// The panel.
 pub static PICTURE: Picture = Picture {
@@ -32,7 +33,11 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
     let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
-    for ((name, value), i) in rows(shown.frame).zip(0..columns * area.height) {
+    let rows: Vec<_> = rows(shown.frame).collect();
+    let below = rows
+        .len()
+        .saturating_sub(usize::from(columns * area.height));
+    for ((name, value), i) in rows.into_iter().zip(0..columns * area.height) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
@@ -50,6 +55,17 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let name = Span::styled(name, canvas.style(Role::Quiet));
         canvas.at(cell).show(Line::from(vec![name, value.into()]));
     }
+    // In the rule: each row is needed.
+    let rule = Rect::new(area.x, area.y.saturating_sub(1), area.width, 1);
+    canvas.at(rule).more(below);
+}
+
+/// All of them, one a line.
+pub fn text(frame: &Frame) -> String {
+    let moment = format!("cycle {}\n", frame.observation.moment.cycle);
+    rows(frame).fold(moment, |text, (name, value)| {
+        text + &format!("{}: {value}\n", name.trim())
+    })
 }
 
 /// The numbers that there are at the moment: names and values.
@@ -66,9 +82,13 @@ fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
     let always = |number, unit| value(Some(number), unit);
     let plain = |value: Option<f64>, digits| Some(format_number(value?, digits));
     let with_unit = |number: Option<String>, unit| Some(format!("{} {unit}", number?));
+    // In the unit that the list of parameters has for it.
+    let in_words = |value: Option<f64>, unit| {
+        let (of, factor) = shown_in(unit)?;
+        with_unit(plain(value.map(|value| value / factor), 4), of)
+    };
     let ratio = |of: fn(&CycleFigures) -> Option<f64>| Some(format!("{:.3}", of(figures?)?));
-    let per_energy = |k: Option<f64>| with_unit(plain(k.map(|k| k * 1e18), 3), "µm³/J");
-    let per_load = k.map(|k| k * setup.material.friction() * 1e9);
+    let per_load = k.map(|k| k * setup.material.friction());
     let place = |x: Option<f64>| with_unit(plain(x.map(|x| x / moment.contact_radius), 3), "a");
     let rows = [
         ("regime", figures.map(|of| of.regime.title().to_owned())),
@@ -88,9 +108,9 @@ fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
         ("energy ratio B", ratio(|of| of.energy_ratio_b)),
         ("wear volume V", always(moment.wear_volume, "m³")),
         ("friction work E_d", always(moment.dissipated_energy, "J")),
-        ("V/E_d", per_energy(moment.wear_per_energy())),
-        ("k per friction work", per_energy(k)),
-        ("k per load", with_unit(plain(per_load, 3), "mm³/(N·m)")),
+        ("V/E_d", in_words(moment.wear_per_energy(), "1/Pa")),
+        ("k per friction work", in_words(k, "1/Pa")),
+        ("k per load", in_words(per_load, "m^3/(N*m)")),
         ("1 - V/(k E_d)", plain(moment.energy_residual, 2)),
         ("stability margin", plain(moment.stability_margin, 2)),
         ("time per step", value(frame.step_cost, "s")),

@@ -56,7 +56,7 @@ impl Matter {
     /// Its colour, and a whole cell of it, in Unicode and in ASCII.
     fn look(self) -> (Role, [char; 2]) {
         match self {
-            Self::Contact(zone) => (look_of(zone).0, ['▀', look_of(zone).1]),
+            Self::Contact(zone) => (look_of(zone).0, [look_of(zone).1; 2]),
             Self::Air => (Role::Quiet, [' ', ' ']),
             Self::Indenter => (Role::Profile, ['█', '#']),
             Self::Worn => (Role::Notice, ['╱', '/']),
@@ -192,14 +192,14 @@ impl Section<'_> {
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         let (theme, half) = (&self.theme, self.half);
         let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
-        let shown = match lower {
-            Matter::Contact(_) if theme.ascii() => lower,
-            _ => upper,
-        };
+        let [is_contact, is_above] =
+            [lower, upper].map(|matter| matches!(matter, Matter::Contact(_)));
+        let shown = if is_contact { lower } else { upper };
         if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
             return (shades::SIGNS[shade], Style::new());
         }
-        if theme.ascii() || upper == lower {
+        // Letters tell what sticks from what slips: half blocks of one colour would not.
+        if theme.ascii() || is_contact || is_above || upper == lower {
             let (role, signs) = shown.look();
             return (signs[usize::from(theme.ascii())], theme.style(role));
         }

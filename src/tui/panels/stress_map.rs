@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::plot::{shades, sticky_bounds};
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
+use crate::tui::held::Held;
 
-/// Places below the contact, and their depth in contact radii, that set the range of SWT.
-const SPANS: u32 = 24;
-const SKIN: f64 = 0.03;
+/// Places across and down that set the range of the colours, over this many contact radii.
+const PLACES: u32 = 14;
+const REACH: f64 = 1.2;
 
 /// Where a shown quantity comes from.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +36,16 @@ const QUANTITIES: [([&str; 2], ColorMap, Origin); 6] = [
 /// Values at (r, z) and at (−r, z), Pa.
 type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
 
+/// The largest value under several loads.
+fn values_of(loads: Vec<Arc<SpringLoad>>, of: fn(&Stress) -> f64) -> Values {
+    Box::new(move |r, z| {
+        let each = loads.iter().map(|load| load.mirrored(r, z));
+        each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
+            [a.max(of(&c)), b.max(of(&d))]
+        })
+    })
+}
+
 /// What the half-space shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StressMap {
@@ -44,27 +54,61 @@ pub struct StressMap {
     /// Its largest value in the last cycle instead of the present one.
     over_cycle: bool,
     /// The range of the colours, Pa; `None` where nothing is shown.
-    pub bounds: Option<[f64; 2]>,
+    held: Option<Held>,
+    /// Whether a stress was below or above that range since it was last judged.
+    beyond: [bool; 2],
 }
 
 impl StressMap {
     /// Shows the next stress.
     pub fn next(&mut self) {
-        (self.shown, self.bounds) = ((self.shown + 1) % QUANTITIES.len(), None);
+        self.shown = (self.shown + 1) % QUANTITIES.len();
+        self.forget_range();
     }
 
     /// Shows the largest stress of a cycle, or that of the moment.
     pub fn toggle_cycle(&mut self) {
-        (self.over_cycle, self.bounds) = (!self.over_cycle, None);
+        self.over_cycle ^= true;
+        self.forget_range();
+    }
+
+    /// Another stress or another run is to come.
+    pub fn forget_range(&mut self) {
+        self.held = None;
+    }
+
+    /// The range of the colours, Pa; `None` where nothing is shown.
+    pub fn bounds(self) -> Option<[f64; 2]> {
+        Some(self.colors().range(self.held?.bounds))
+    }
+
+    /// The ends of the range in words, marked where stresses lie beyond them.
+    pub fn ends(self) -> Option<[String; 2]> {
+        let [low, high] = self.bounds()?.map(|end| format_value(end, "Pa", 3));
+        let mark = |is_beyond, sign: &str, end| match is_beyond {
+            true => format!("{sign} {end}"),
+            false => end,
+        };
+        let [below, above] = self.beyond;
+        Some([mark(below, "≤", low), mark(above, "≥", high)])
     }
 
     /// The colours follow the stress as the scales of the plots follow their data.
     pub fn follow(&mut self, frame: &Frame) {
-        let colors = self.colors();
-        self.bounds = self.extent(frame).map(|extent| {
-            let [low, high] = colors.range(extent);
-            colors.range(sticky_bounds(self.bounds, low, high))
-        });
+        let (cycle, before) = (frame.observation.moment.cycle, self.held);
+        // Without contact, the range is that of the contact before.
+        let Some(([low, high], range)) = self.extent(frame) else {
+            return;
+        };
+        let held = self.held.get_or_insert_with(|| Held::new(range, cycle));
+        held.take(range, cycle);
+        if before.is_none_or(|before| before.since != held.since || before.bounds != held.bounds) {
+            self.beyond = [false; 2];
+        }
+        if let Some(bounds) = self.bounds() {
+            self.beyond[0] |= low < bounds[0] && self.colors() == ColorMap::Diverging;
+            self.beyond[1] |= high > bounds[1];
+        }
     }
 
     /// Its colours.
@@ -90,12 +134,7 @@ impl StressMap {
         let loads: Vec<Arc<SpringLoad>> = earlier.chain(&frame.load).cloned().collect();
         match origin {
             _ if loads.is_empty() => None,
-            Origin::Moment(of) => Some(Box::new(move |r, z| {
-                let each = loads.iter().map(|load| load.mirrored(r, z));
-                each.fold([f64::NEG_INFINITY; 2], |[a, b], [c, d]| {
-                    [a.max(of(&c)), b.max(of(&d))]
-                })
-            })),
+            Origin::Moment(of) => Some(values_of(loads, of)),
             Origin::Cycle => {
                 let cycle = StressCycle::new(loads);
                 Some(Box::new(move |r, z| cycle.mirrored(r, z).map(|at| at.swt)))
@@ -104,28 +143,39 @@ impl StressMap {
         }
     }
 
-    /// What the colours must reach, Pa: the largest present value, and for signed stresses that of the
-    /// other sign on the axis.
-    fn extent(self, frame: &Frame) -> Option<[f64; 2]> {
+    /// The smallest and the largest stress, Pa, and the range that the colours must have: what is larger in a small part
+    /// of the picture, under an edge or at a border of stick, does not count.
+    fn extent(self, frame: &Frame) -> Option<([f64; 2], [f64; 2])> {
         let load = frame.load.as_deref()?;
-        let a = load.contact_radius();
-        if let (_, _, Origin::Moment(of)) = QUANTITIES[self.shown] {
-            let (peak, top) = (load.largest(of).value, of(&load.stress(0.0, 0.05 * a)));
-            return Some([top.min(0.0), peak.max(top.abs())]);
-        }
-        // The largest value is a spike at the surface; colours are for what lies below it.
-        let values = self.values(frame)?;
-        let below = (0..=SPANS).map(|k| 1.2 * a * f64::from(k) / f64::from(SPANS));
-        let top = below.flat_map(|r| values(r, SKIN * a)).fold(0.0, f64::max);
+        let (values, mut largest) = match QUANTITIES[self.shown].2 {
+            Origin::Nowhere => return None,
+            Origin::Cycle => (self.values(frame)?, 0.0),
+            Origin::Moment(of) => (
+                values_of(vec![frame.load.clone()?], of),
+                load.largest(of).value,
+            ),
+        };
+        let step = REACH * load.contact_radius() / f64::from(PLACES);
+        let places = (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES]);
+        let places = places.map(|place| place.map(|at| (f64::from(at) + 0.5) * step));
+        let seen: Vec<f64> = places.flat_map(|[r, z]| values(r, z)).collect();
+        let lowest = seen.iter().copied().fold(0.0, f64::min);
+        largest = seen.iter().copied().fold(largest, f64::max);
+        let sizes = seen.iter().map(|value| [value.abs(), 1.0]);
+        let top = scan::robust_top(sizes.chain([[largest, 0.1]]));
         // Nothing is in tension, or no cycle has been seen yet.
-        (top > 0.0).then_some([0.0, top])
+        let low = match self.colors() {
+            ColorMap::Diverging => -top,
+            ColorMap::Sequential => 0.0,
+        };
+        (top > 0.0).then_some(([lowest, largest], [low, top]))
     }
 
     /// Returns the shades on samples: `columns` over x symmetrical about the axis, `rows` downwards from the surface,
     /// both `size` apart (m). `None` without contact, and where no stress is shown.
     pub fn samples(self, frame: &Frame, columns: usize, rows: usize, size: f64) -> Option<Shades> {
         let of = self.values(frame).filter(|_| columns > 0)?;
-        let range = self.bounds?;
+        let range = self.bounds()?;
         let mut shades = vec![0; columns * rows];
         for (row, shades) in shades.chunks_mut(columns).enumerate() {
             let z = (row as f64 + 0.5) * size;

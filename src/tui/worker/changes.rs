@@ -68,6 +68,21 @@ impl Worker {
         self.change_all(&assignments(key, value), &done);
     }
 
+    /// Changes a key from here on; the run as it was before the first such change goes on as a ghost.
+    pub(in crate::tui) fn change_beside(&mut self, key: &str, value: &str) {
+        let before = self.before.is_none().then(|| self.run.session.clone());
+        let made = self.run.session.changes().len();
+        self.change(key, value);
+        if self.run.session.changes().len() != made {
+            self.before = before.map(Source::before).or(self.before.take());
+        }
+    }
+
+    /// Drops the ghost of the run before the changes.
+    pub(in crate::tui) fn end_changes(&mut self) {
+        self.before = None;
+    }
+
     /// Changes keys from here on, and tells the user what was `done`.
     fn change_all(&mut self, changes: &[(impl AsRef<str>, impl AsRef<str>)], done: &str) {
         self.keep();
@@ -130,7 +145,7 @@ impl Worker {
         self.past.leave();
         self.snapshots.clear();
         self.run = run;
-        self.comparison = None;
+        (self.stop_at, self.comparison, self.before) = (None, None, None);
         self.renew();
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

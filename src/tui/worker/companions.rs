@@ -11,7 +11,7 @@ pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 impl Worker {
     /// The runs beside it that are seen.
     fn seen(&mut self) -> impl Iterator<Item = &mut Beside> {
-        let ghosts = self.ghosts.iter_mut();
+        let ghosts = self.ghosts.iter_mut().chain(&mut self.before);
         let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
         let comparison = self.comparison.iter_mut();
         comparison.map(|run| &mut run.beside).chain(ghosts)

@@ -1,6 +1,8 @@
 //! What the user asks for beside the run: files, and a study.
 
 use super::*;
+use crate::scenario::Scenario;
+use crate::tui::explorer::Copied;
 use crate::tui::map::live::Live;
 use crate::tui::map::range::Range;
 use crate::tui::{figure, snapshot};
@@ -28,6 +30,31 @@ impl Worker {
         let cycle = written.is_ok().then(|| self.run.cycle());
         self.snapshots.extend(cycle);
         self.screen.written("snapshot", written);
+    }
+
+    /// Gives the screen what repeats the run, for the clipboard.
+    pub(in crate::tui) fn copy(&self, what: Copied) {
+        let session = &self.run.session;
+        let scenario = session.as_run(Vec::new()).to_toml();
+        let (text, told) = match what {
+            Copied::Command => (self.run_command(scenario), "the command is"),
+            _ => (scenario, "the scenario is"),
+        };
+        self.screen.send(Event::Copied(text, told));
+    }
+
+    /// The command that repeats the run; a run that no options tell of comes with its whole scenario.
+    fn run_command(&self, scenario: String) -> String {
+        let (session, cycle) = (&self.run.session, self.run.cycle());
+        let loaded = session.loaded();
+        let is_as_named = Scenario::load(loaded.origin(), &[]).is_ok_and(|named| named == *loaded);
+        match is_as_named && session.changes().is_empty() && !loaded.origin().contains('\'') {
+            true => format!(
+                "mdr-tui run '{}' --cycles {cycle} --out again\n",
+                loaded.origin()
+            ),
+            false => format!("mdr-tui run - --out again <<'END'\n{scenario}END\n"),
+        }
     }
 
     /// Draws a figure of the state into a file, its data beside it.

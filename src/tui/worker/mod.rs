@@ -82,6 +82,10 @@ pub struct Worker {
     /// The coarser run that tells the errors of this one.
     twin: Option<Twin>,
     activity: Activity,
+    /// The cycle that the run is on its way to at full speed, to pause there.
+    stop_at: Option<f64>,
+    /// The run as it was before the first change in the list of parameters, while that is open.
+    before: Option<Source>,
     /// Whether the user has been told that the planned end is reached.
     told_of_end: bool,
     clock: Clock,
@@ -122,6 +126,8 @@ impl Worker {
                 true => Activity::Running,
                 false => Activity::Paused,
             },
+            stop_at: None,
+            before: None,
             told_of_end: false,
             clock: Clock::default(),
             curves: Curves::all(),

@@ -81,8 +81,11 @@ impl Worker {
 
     /// The present frame, when all that runs beside has come to it.
     pub(super) fn settled_frame(&mut self) -> Arc<Frame> {
-        while self.is_awaited() && !self.is_over() {
-            self.catch_up();
+        while (self.is_awaited() || self.stop_at.is_some()) && !self.is_over() {
+            match self.stop_at {
+                Some(_) => self.step(),
+                None => self.catch_up(),
+            }
         }
         Arc::new(self.frame())
     }
@@ -137,7 +140,7 @@ impl Worker {
         let (moment, load) = (seen.moment, &seen.normal_load);
         let setup = self.run.simulation().setup();
         let material = &setup.material;
-        let ghosts = self.ghosts.iter();
+        let ghosts = self.ghosts.iter().chain(&self.before);
         Run {
             ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
             theory: Some(Arc::clone(&facts.theory)),

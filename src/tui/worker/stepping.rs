@@ -19,11 +19,12 @@ const AT_LEAST: Duration = Duration::from_secs(1);
 const SHORTEST_PLAN: f64 = 1000.0;
 
 /// The notice when a failed run is asked to continue.
-const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
+pub(super) const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
 
 impl Worker {
     /// Runs, or pauses.
     pub fn run_or_pause(&mut self) {
+        self.stop_at = None;
         match self.activity {
             Activity::Running => self.activity = Activity::Paused,
             Activity::Done if !self.told_of_end => {
@@ -49,7 +50,10 @@ impl Worker {
     /// How long to wait for orders before the next step or checkpoint is due: without end if none is.
     pub(super) fn until_next_step(&self) -> Duration {
         if self.activity == Activity::Running {
-            let ahead = self.clock.ahead(self.run.simulation());
+            let ahead = match self.stop_at {
+                Some(_) => 0.0,
+                None => self.clock.ahead(self.run.simulation()),
+            };
             return Duration::from_secs_f64(ahead.clamp(0.0, 0.1));
         }
         let wait = locked(&self.autosave).wait(&self.past.line(&self.run).session);
@@ -61,7 +65,7 @@ impl Worker {
         let start = Instant::now();
         while self.activity == Activity::Running && start.elapsed() < STINT {
             let simulation = self.run.simulation();
-            if self.clock.ahead(simulation) > 0.0 {
+            if self.stop_at.is_none() && self.clock.ahead(simulation) > 0.0 {
                 break;
             }
             let before = simulation.cycle();
@@ -86,7 +90,7 @@ impl Worker {
         }
     }
 
-    fn step(&mut self) {
+    pub(super) fn step(&mut self) {
         if let Some(word) = self.branch() {
             self.renew();
             self.screen.notice(&word);
@@ -115,8 +119,15 @@ impl Worker {
         if ends_cycle && self.kept_at.elapsed() > APART {
             self.keep();
         }
-        if is_end && is_running {
+        let goes_on = self.stop_at.is_some_and(|stop| stop > cycle);
+        if is_end && is_running && !goes_on {
             (self.activity, self.told_of_end) = (Activity::Done, false);
+        }
+        if self.stop_at.take_if(|stop| *stop <= cycle).is_some() {
+            if self.activity == Activity::Running {
+                self.activity = Activity::Paused;
+            }
+            self.keep();
         }
     }
 
@@ -126,11 +137,12 @@ impl Worker {
     fn goal(&self) -> f64 {
         let simulation = self.run.simulation();
         let now = simulation.cycle();
-        match self.run.session.loaded().run().cycles {
+        let goal = match self.run.session.loaded().run().cycles {
             Some(end) if now < end => self.run.session.heading(end),
             Some(end) if simulation.may_jump() => now + end.max(SHORTEST_PLAN).ceil(),
             _ => f64::INFINITY,
-        }
+        };
+        self.stop_at.map_or(goal, |stop| goal.min(stop))
     }
 
     /// Whether the planned end lies between the cycle `before` and now.
@@ -146,7 +158,7 @@ impl Worker {
         if matches!(self.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);
         }
-        self.activity = Activity::Paused;
+        (self.activity, self.stop_at) = (Activity::Paused, None);
         let before = self.run.cycle();
         loop {
             self.step();

@@ -1,6 +1,8 @@
 //! Time travel: back to earlier states, and on from there.
 
+use super::stepping::BROKEN_DOWN;
 use super::*;
+use crate::scenario::Change;
 use crate::tui::undo::Kept;
 
 impl Worker {
@@ -34,9 +36,80 @@ impl Worker {
             return self.screen.notice(end);
         };
         self.run = kept.run.clone();
+        self.stop_at = None;
         self.comparison = None;
         self.activity = Activity::Paused;
         self.facts = Facts::of(&self.run.session);
+    }
+}
+
+impl Worker {
+    /// Shows the run at `cycle`: a past state is stepped to from the one that is stored before it, and the present run
+    /// goes on to a later one at full speed.
+    pub(in crate::tui) fn go_to(&mut self, cycle: f64) {
+        let end = self.past.line(&self.run).cycle();
+        if cycle <= end {
+            self.travel(|past| past.visit_before(cycle), "no state is stored");
+            return self.step_within_past(cycle);
+        }
+        if self.past.present().is_some() {
+            self.travel(Past::visit_present, "no state is stored");
+        }
+        if matches!(self.activity, Activity::Stopped(_)) {
+            return self.screen.notice(BROKEN_DOWN);
+        }
+        (self.activity, self.stop_at) = (Activity::Running, Some(cycle));
+        let told = format!("on the way to cycle {cycle}; Space stops");
+        self.screen.notice(&told);
+    }
+
+    /// Steps from the state of the past on the screen to `cycle`: the same steps and changes as those of the run.
+    fn step_within_past(&mut self, cycle: f64) {
+        let (mut run, before) = (self.run.clone(), self.run.cycle());
+        let made = run.session.changes().len();
+        let changes = self
+            .past
+            .line(&self.run)
+            .session
+            .changes()
+            .iter()
+            .skip(made);
+        let due = changes.take_while(|change| change.at_cycle <= cycle);
+        let due: Vec<Change> = due.cloned().collect();
+        let ends = due.iter().map(|change| (change.at_cycle, Some(change)));
+        for (end, change) in ends.chain([(cycle, None)]) {
+            while run.cycle() < end && !self.is_over() {
+                let stepped = run.step_until(end);
+                if self.screen.or_notice(stepped).is_none() {
+                    return;
+                }
+            }
+            let changed = change.map(|change| run.session.change(change.key(), change.value()));
+            if self.screen.or_notice(changed.unwrap_or(Ok(()))).is_none() {
+                return;
+            }
+        }
+        if run.cycle() > before || !due.is_empty() {
+            self.past.insert(run.clone());
+            self.run = run;
+            self.facts = Facts::of(&self.run.session);
+        }
+    }
+
+    /// The next of the cycles that the scenario writes states of, or the one before, from what is on the screen.
+    pub(in crate::tui) fn go_to_planned(&mut self, forward: bool) {
+        let (now, plan) = (self.run.cycle(), self.run.session.loaded().run());
+        let planned = plan.snapshot_at.iter().chain(&plan.cycles).copied();
+        let next = match forward {
+            true => planned.filter(|cycle| *cycle > now + 1e-9).reduce(f64::min),
+            false => planned.filter(|cycle| *cycle < now - 1e-9).reduce(f64::max),
+        };
+        match next {
+            Some(cycle) => self.go_to(cycle),
+            None => self
+                .screen
+                .notice("no further cycle is planned to be written (run.snapshot_at)"),
+        }
     }
 }
 

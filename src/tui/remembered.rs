@@ -1,0 +1,79 @@
+//! What the screen looked like when the explorer was left, for the next time: focus and page, zoom, theme.
+
+use std::io::{Read, Write};
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::explorer::Explorer;
+use super::panels::Panel;
+use crate::export::own;
+use crate::plot::theme::{Look, Theme};
+
+/// The file in the program's own directory, and the most of it that is read.
+const FILE: &str = "look.toml";
+const LARGEST: u64 = 4096;
+
+/// The look of the screen.
+#[derive(Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub struct Remembered {
+    panel: String,
+    zoomed: bool,
+    /// The theme, if the user chose one with the key.
+    theme: Option<Look>,
+}
+
+impl Remembered {
+    /// Reads it; as it is at first where there is nothing that can be read.
+    pub fn read(directory: &Path) -> Self {
+        let mut text = String::new();
+        let file = own::read(&directory.join(FILE)).ok();
+        let read = file.and_then(|file| file.take(LARGEST).read_to_string(&mut text).ok());
+        read.and_then(|_| toml::from_str(&text).ok())
+            .unwrap_or_default()
+    }
+
+    /// Of an explorer that is left; the theme if it is another one than the terminal has asked for.
+    pub fn of(explorer: &Explorer) -> Self {
+        let (stage, theme) = (&explorer.stage, &explorer.theme);
+        Self {
+            panel: stage.focus.recipe().title.to_owned(),
+            zoomed: stage.zoomed,
+            theme: explorer.has_chosen_theme.then_some(theme.look),
+        }
+    }
+
+    /// Writes it. Nobody is told if that fails: the next time it looks as at first.
+    pub fn write(&self, directory: &Path) {
+        let theme = self
+            .theme
+            .map_or_else(String::new, |look| format!("theme = \"{look}\"\n"));
+        let text = format!(
+            "panel = {:?}\nzoomed = {}\n{theme}",
+            self.panel, self.zoomed
+        );
+        if let Ok(mut file) = own::open_or_make(&directory.join(FILE)) {
+            let _ = file
+                .set_len(0)
+                .and_then(|()| file.write_all(text.as_bytes()));
+        }
+    }
+
+    /// Shows the screen as it was. A theme that an option, the configuration or the environment has chosen stays.
+    pub fn apply(&self, explorer: &mut Explorer) {
+        if let Some(panel) = Panel::titled(&self.panel) {
+            (explorer.stage.focus, explorer.stage.zoomed) = (panel, self.zoomed);
+        }
+        let theme = explorer.theme;
+        if let Some(look) = self.theme.filter(|_| theme.follows_background) {
+            explorer.theme = Theme {
+                look,
+                follows_background: false,
+                ..theme
+            };
+            explorer.has_chosen_theme = true;
+        }
+        explorer.show();
+    }
+}

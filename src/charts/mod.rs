@@ -291,8 +291,7 @@ pub fn round_end(end: f64) -> f64 {
 }
 
 impl Live {
-    /// Marks at the contact radius a and at the permanent stick radius c; where more sticks at the moment, a
-    /// faint one there, `now`.
+    /// Marks at the contact radius a and at the permanent stick radius c.
     pub fn edge_marks(&self) -> Vec<Mark> {
         let moment = &self.moment;
         let mark = |x, label, role| Mark { x, label, role };
@@ -302,9 +301,6 @@ impl Live {
         }
         let within = |c: &f64| *c > 0.0 && *c < moment.contact_radius;
         let permanent = moment.permanent_stick_radius.filter(within);
-        let now = moment.stick_radius.filter(within);
-        let is_more = |now: &f64| permanent.is_none_or(|c| *now > c * (1.0 + 1e-9));
-        marks.extend(now.filter(is_more).map(|now| mark(now, "now", Role::Faint)));
         marks.extend(permanent.map(|c| mark(c, "c", Role::Stick)));
         marks
     }

@@ -13,7 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     overlays: &[Axes::WEAR, Axes::PROFILE],
     text: "The shape of the indenter against the radius, unworn and worn. Wear thinner than a line is drawn \
            magnified, by one factor for the whole run that the legend tells. It begins where surfaces slide \
-           under pressure: in the ring between c and a. A faint line, now, ends what sticks at the moment: all, \
+           under pressure: in the ring between c and a. The band below tells what sticks at the moment: all, \
            whenever the motion reverses.",
     symbols: &[("f", "height of the profile over its tip"), A, C, BAND],
     ..Recipe::new(make)

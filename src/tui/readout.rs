@@ -30,7 +30,10 @@ pub(super) fn line_at(
 ) -> String {
     match (abscissa(focus), &*charts.get(focus, frame)) {
         (RADIUS, _) => line(frame, focus, place, width, theme),
-        (_, Ok(chart)) => line_of(chart, place, width, theme),
+        (_, Ok(chart)) => match &compared(&frame.run, focus, place)[..] {
+            [] => line_of(chart, place, width, theme),
+            now => theme.printable(&format!(" now {}", now.concat())),
+        },
         (_, Err(_)) => String::new(),
     }
 }

@@ -237,7 +237,8 @@ fn the_keys_of_the_explorer_are_those_of_its_table() {
     let mut keys = "| | key | does |\n|---|---|---|\n".to_owned();
     for (group, rows) in manual::groups() {
         for (i, row) in rows.iter().enumerate() {
-            let names: Vec<String> = row.keys.iter().map(|key| format!("`{key}`")).collect();
+            let names = row.key_names().into_iter();
+            let names: Vec<String> = names.map(|key| format!("`{key}`")).collect();
             let group = if i == 0 { group } else { "" };
             keys += &format!("| {group} | {} | {} |\n", names.join(" "), row.help);
         }

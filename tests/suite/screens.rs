@@ -203,7 +203,7 @@ fn line_with<'a>(text: &'a str, word: &str) -> &'a str {
 fn the_help_has_one_key_a_row_by_groups() {
     // On a large screen all of it, on a small one by scrolling.
     let large = shot("li2019-fig3", "?", (200, 50));
-    let pages = [0, 15, 30, 45]
+    let pages = [0, 15, 30, 45, 60]
         .map(|rows| shot("li2019-fig3", &format!("?{}", "j".repeat(rows)), (80, 24)));
     for text in [large, pages.concat()] {
         for (group, rows) in manual::groups() {

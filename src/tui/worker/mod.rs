@@ -37,6 +37,9 @@ mod travel;
 pub(super) use thread::WorkerThread;
 pub(super) use travel::ends_cycle;
 
+/// The notice when a failed run is asked to continue.
+const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
+
 /// What the worker is to do next.
 pub type Order = Box<dyn FnOnce(&mut Worker) + Send>;
 

@@ -18,9 +18,6 @@ const AT_LEAST: Duration = Duration::from_secs(1);
 /// Cycles that a jump beyond the planned end may cover at least.
 const SHORTEST_PLAN: f64 = 1000.0;
 
-/// The notice when a failed run is asked to continue.
-pub(super) const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
-
 impl Worker {
     /// Runs, or pauses.
     pub fn run_or_pause(&mut self) {

@@ -1,6 +1,5 @@
 //! Time travel: back to earlier states, and on from there.
 
-use super::stepping::BROKEN_DOWN;
 use super::*;
 use crate::scenario::Change;
 use crate::tui::undo::Kept;

@@ -98,6 +98,8 @@ pub fn program(arguments: &[&str]) -> CommandBuilder {
     let made = seen.parent().map(std::fs::create_dir_all);
     assert!(made.is_some_and(|made| made.is_ok()));
     std::fs::write(&seen, "").expect("a file");
+    // Nor does a test remember how another one has left the screen: what is no file is neither read nor written.
+    let _ = std::fs::create_dir(state_home().join("mdr-tui/look.toml"));
     command.env("TERM", "xterm-256color");
     command.env("LC_ALL", "C.UTF-8");
     command

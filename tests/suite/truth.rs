@@ -114,7 +114,7 @@ fn the_scale_of_the_stress_is_that_of_the_picture_and_holds_for_a_cycle() {
     let size = (100, 30);
     for (preset, most) in [
         ("li2019-fig3", 1),
-        ("separation", 1),
+        ("separation", 2),
         ("flat-punch", 1),
         ("mild-million", 4),
     ] {
@@ -190,7 +190,7 @@ fn the_axis_of_stresses_holds_for_a_cycle_and_is_not_that_of_a_spike() {
 fn a_bare_number_is_si_in_every_form() {
     let size = (80, 24);
     for keys in [
-        ",etangential angular<Enter><C-u>100",
+        ",etangential.angular<Enter><C-u>100",
         ",:set motion.tangential.angular_frequency=100",
     ] {
         let mut explorer = explorer("li2019-fig3", size, DARK);

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::explorer::Explorer;
 use super::panels::Panel;
-use crate::export::own;
+use crate::export::safe_open;
 use crate::plot::theme::{Look, Theme};
 
 /// The file in the program's own directory, and the most of it that is read.
@@ -28,7 +28,7 @@ impl Remembered {
     /// Reads it; as it is at first where there is nothing that can be read.
     pub fn read(directory: &Path) -> Self {
         let mut text = String::new();
-        let file = own::read(&directory.join(FILE)).ok();
+        let file = safe_open::read(&directory.join(FILE)).ok();
         let read = file.and_then(|file| file.take(LARGEST).read_to_string(&mut text).ok());
         read.and_then(|_| toml::from_str(&text).ok())
             .unwrap_or_default()
@@ -53,7 +53,7 @@ impl Remembered {
             "panel = {:?}\nzoomed = {}\n{theme}",
             self.panel, self.zoomed
         );
-        if let Ok(mut file) = own::open_or_make(&directory.join(FILE)) {
+        if let Ok(mut file) = safe_open::open_or_make(&directory.join(FILE)) {
             let _ = file
                 .set_len(0)
                 .and_then(|()| file.write_all(text.as_bytes()));

@@ -1,7 +1,7 @@
 //! Second runs that follow the first from cycle to cycle: a comparison in lockstep (another method, or the same on half
 //! the cells), and a coarser twin, from which the run differs by about its own error.
 //!
-//! The twin has half the cells and half the steps per cycle, so about a quarter of the work. The two are compared at
+//! The twin has fewer cells and steps per cycle by a factor of 1.7, so about a third of the work. The two are compared at
 //! the end of a cycle, then again when the run is a quarter longer. In between the twin takes steps and jumps of
 //! its own length: one that was cut wherever the run stands would show no error of time.
 
@@ -191,8 +191,7 @@ pub(super) struct Twin {
 }
 
 impl Twin {
-    /// A twin of `session`, which it has to catch up with; `None` if nothing wears, or if the run is too coarse to be
-    /// halved.
+    /// A twin of `session`, which it has to catch up with; `None` if nothing wears, or if the run is too coarse for a coarser one.
     pub fn of(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {

@@ -378,7 +378,16 @@ impl Simulation {
 
     /// Worn volume, m³: 2π∫(f − f₀) r dr, or 2L∫(f − f₀) dr of a line.
     pub fn wear_volume(&self) -> f64 {
-        scar_volume(&self.model, &self.state.wear) - self.state.ledger.regridded_volume
+        match self.setup().scar {
+            None => scar_volume(&self.model, &self.state.wear),
+            // What the cells make of the scar that it began with is no wear.
+            Some(_) => self.state.ledger.initial_volume + self.volume_since_start(),
+        }
+    }
+
+    /// 2π∫ r dr of what f has grown by since the run began, m³.
+    fn volume_since_start(&self) -> f64 {
+        scar_volume(&self.model, &self.worn_since_start())
     }
 
     /// What f has grown by since the run began, m, at the nodes.

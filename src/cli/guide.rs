@@ -26,7 +26,7 @@ pub fn guide(options: &Guide) -> Result<()> {
 
 /// The width of the terminal, in cells.
 fn columns() -> usize {
-    ratatui::crossterm::terminal::size().map_or(80, |(columns, _)| usize::from(columns))
+    crossterm::terminal::size().map_or(80, |(columns, _)| usize::from(columns))
 }
 
 fn list() -> String {

@@ -58,8 +58,10 @@ const SCREENS: usize = 8;
 ///
 /// If nothing tells the size, or if there is no memory for so many characters.
 pub fn size() -> io::Result<Size> {
-    let told = rustix::termios::tcgetwinsize(io::stdout())?;
-    let (columns, rows) = (told.ws_col, told.ws_row);
+    // The size is all that crossterm does: its raw mode keeps the modes that it found first, which are wrong after SIGSTOP
+    // and `fg`, and its events hold back the status reports by which the line is measured.
+    let told = crossterm::terminal::window_size()?;
+    let (columns, rows) = (told.columns, told.rows);
     let size = Size::new(columns.min(LARGEST), rows.min(LARGEST));
     let cells = SCREENS * usize::from(size.width) * usize::from(size.height);
     // An allocation that fails later on ends the process, and leaves the terminal as it is.

@@ -24,7 +24,7 @@ const DOMAIN: f64 = 1.3;
 /// Q/(μP), k E* and the cycles of the run to the limit.
 const SHARE: f64 = 0.5;
 const WEAR: f64 = 3.0;
-const CYCLES: f64 = 2000.0;
+const CYCLES: f64 = 400.0;
 
 fn cylinder() -> Cylinder {
     Cylinder {

@@ -26,6 +26,8 @@ struct Slip {
     length: f64,
     /// The mean load during it, N/m.
     load: f64,
+    /// Whether the spring stuck before.
+    is_late: bool,
 }
 
 /// The slip of a spring at `before` (m) whose load goes from one of `loads` to the other (N/m), negative where it is out
@@ -56,6 +58,7 @@ fn slip_of(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> Option<S
     Some(Slip {
         length: (end - begin) * speed,
         load: 0.5 * (at(begin) + at(end)),
+        is_late: begin > start,
     })
 }
 
@@ -68,7 +71,7 @@ pub(super) struct Within {
     pub share: Vec<f64>,
     /// The slip that does work, m.
     pub slip: Vec<f64>,
-    /// Whether springs touched or left, or too few slip to show where slip ends between them.
+    /// Whether springs stick for a part of the step and then leave, or too few slip to show where slip ends between them.
     pub is_ragged: bool,
 }
 
@@ -87,7 +90,8 @@ impl Within {
     }
 
     /// Follows the springs from one of two contacts to the other, whose friction at the mean load is `friction` (N/m).
-    /// Corrects the slip (m) of those that touch or leave, and the friction of all that slip.
+    /// Corrects the slip (m) and the friction where springs stick for a part of the step before they slip and leave; where
+    /// all of them slip from the beginning, the mean load serves as it is.
     pub fn follow(
         &mut self,
         model: &Model,
@@ -99,50 +103,60 @@ impl Within {
         let (coefficient, reach) = (material.friction(), material.reach());
         let increment = after.shift - before.shift;
         let sinks = material.normal_modulus() * (after.depth - before.depth);
+        let end = before.normal.nodes.max(after.normal.nodes);
+        let loads = |j: usize| [before.load.nodal[j], after.load.nodal[j]];
+        // Of a spring that touches or leaves in the step.
+        let follow = |j: usize| {
+            let changed = match (loads(j), loads(j).map(|load| load > 0.0)) {
+                ([from, _], [true, false]) => [from, (from + sinks).min(0.0)],
+                ([_, to], [false, true]) => [(to - sinks).min(0.0), to],
+                _ => return None,
+            };
+            Some(slip_of(changed, before.spring.nodal[j], increment, reach))
+        };
         self.states.copy_from_slice(&after.spring_state);
         self.share.fill(1.0);
-        let (mut has_changed, mut slipping) = (false, 0);
-        let end = before.normal.nodes.max(after.normal.nodes);
-        for j in 0..end {
-            let loads = [before.load.nodal[j], after.load.nodal[j]];
-            let changed = match loads.map(|load| load > 0.0) {
-                [true, true] if slip[j] == 0.0 => continue,
-                [false, false] => continue,
-                [true, true] => None,
-                [true, false] => Some([loads[0], (loads[0] + sinks).min(0.0)]),
-                [false, true] => Some([(loads[1] - sinks).min(0.0), loads[1]]),
-            };
-            slipping += 1;
-            let load = if let Some(loads) = changed {
-                has_changed = true;
-                let found = slip_of(loads, before.spring.nodal[j], increment, reach);
-                slip[j] = found.map_or(0.0, |found| found.length);
-                self.states[j] = match found {
-                    Some(found) if found.length > 0.0 => SpringState::Forward,
-                    Some(_) => SpringState::Backward,
-                    None if loads[1] > 0.0 => SpringState::Stick,
-                    None => SpringState::Open,
-                };
-                found.map_or(0.0, |found| found.load)
-            } else {
-                let change = loads[1] - loads[0];
-                let whole = increment - slip[j].signum() * reach * change;
-                let late = (1.0 - slip[j] / whole).clamp(0.0, 1.0);
-                0.5 * (loads[0] + loads[1] + late * change)
-            };
-            if friction[j] > 0.0 {
-                self.share[j] = coefficient * load / friction[j];
+        let (mut is_late, mut slipping) = (false, 0);
+        for (j, slip) in slip[..end].iter_mut().enumerate() {
+            match follow(j) {
+                // What the indenter moved before it took the spring along is no slip.
+                Some(None) => *slip = 0.0,
+                Some(Some(found)) => is_late |= found.is_late,
+                None => {}
             }
-            friction[j] = coefficient * load;
+            slipping += usize::from(*slip != 0.0);
+        }
+        self.is_ragged = is_late || slipping <= FEW;
+        if self.is_ragged {
+            for (j, friction) in friction[..end].iter_mut().enumerate() {
+                let load = if let Some(Some(found)) = follow(j) {
+                    slip[j] = found.length;
+                    self.states[j] = match found.length > 0.0 {
+                        true => SpringState::Forward,
+                        false => SpringState::Backward,
+                    };
+                    found.load
+                } else if slip[j] != 0.0 {
+                    let [from, to] = loads(j);
+                    let whole = increment - slip[j].signum() * reach * (to - from);
+                    let late = (1.0 - slip[j] / whole).clamp(0.0, 1.0);
+                    0.5 * (from + to + late * (to - from))
+                } else {
+                    continue;
+                };
+                if *friction > 0.0 {
+                    self.share[j] = coefficient * load / *friction;
+                }
+                *friction = coefficient * load;
+            }
         }
         self.slip.copy_from_slice(slip);
-        self.is_ragged = has_changed || slipping <= FEW;
+        let at_edge = end.checked_sub(1).map_or(0.0, |last| slip[last]);
         if self.is_ragged {
             self.end_slip(friction, end);
-        } else {
-            // What is open moves with the indenter and rubs nothing: the edge slips as the last spring in contact does.
-            let at_edge = end.checked_sub(1).map_or(0.0, |last| slip[last]);
-            self.slip[end..].fill(at_edge);
+        } else if at_edge == 0.0 {
+            // What is open moves with the indenter and rubs nothing next to a spring that sticks.
+            self.slip[end..].fill(0.0);
         }
     }
 

@@ -74,7 +74,7 @@ fn friction_over_work_is_of_second_order() {
 #[test]
 fn what_a_spring_holds_when_it_leaves_is_lost_for_any_friction() {
     for friction in ["1", "10", "300", "1e5"] {
-        for (steps, error) in [(12, 0.1), (100, 0.03)] {
+        for (steps, error) in [(12, 0.1), (100, 0.05)] {
             let friction = format!("friction.coefficient={friction}");
             let run = ended(
                 "relaxation-10nm-1e-12",

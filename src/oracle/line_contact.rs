@@ -168,8 +168,9 @@ mod tests {
             let exact = CYLINDER.limit_volume(c);
             assert!((volume / exact - 1.0).abs() < 1e-6, "{volume} {exact}");
             let carried = |v: f64| CYLINDER.limit_pressure(c, c * v.sin()) * c * v.cos();
-            let carried = 2.0 * integrate(carried, 0.0, 0.5 * PI * (1.0 - 1e-9));
-            assert!((carried / CYLINDER.load - 1.0).abs() < 1e-7, "{carried}");
+            // Nearer to the border, sin v is 1 and the pressure infinite.
+            let carried = 2.0 * integrate(carried, 0.0, 0.5 * PI * (1.0 - 1e-7));
+            assert!((carried / CYLINDER.load - 1.0).abs() < 1e-6, "{carried}");
         }
     }
 }

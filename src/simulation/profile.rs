@@ -7,7 +7,6 @@
 use std::f64::consts::PI;
 
 use super::model::Model;
-use super::state::State;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::{kink, line};
 use crate::math::geometry::Geometry;
@@ -43,11 +42,16 @@ impl Profile {
         self.end_scar(model, |j| wear[j]);
     }
 
-    /// Becomes that of `state` with `ahead` times the wear of its last step on top.
-    pub fn extrapolate(&mut self, model: &Model, state: &State, ahead: f64) {
-        let last = &state.last;
-        model.profile(&state.image, ahead, &last.growth, &mut self.g);
-        self.end_scar(model, |j| state.wear[j] + ahead * last.wear[j]);
+    /// Becomes that of a worn depth (m) and its 1D image (m), with `ahead` times what both grew by in the last step on top.
+    pub fn extrapolate(
+        &mut self,
+        model: &Model,
+        [wear, image]: [&[f64]; 2],
+        ahead: f64,
+        [worn, growth]: [&[f64]; 2],
+    ) {
+        model.profile(image, ahead, growth, &mut self.g);
+        self.end_scar(model, |j| wear[j] + ahead * worn[j]);
     }
 
     /// Ends the scar of a worn depth inside its last cell.

@@ -105,7 +105,7 @@ impl Waveform {
         let waveform = Self::polyline(phases, shape);
         if let Some(repeats) = waveform.repeats() {
             let rule = format!(
-                "holds {repeats} periods, and the table is one: keep the rows of {:e} s",
+                "holds {repeats} periods, and the table is one: keep the rows of {:.3e} s",
                 period / f64::from(repeats)
             );
             return Err(Invalid::new("times", format!("{period:e} s"), rule));
@@ -307,7 +307,7 @@ mod tests {
         assert!(
             record(3.0, 0.0)
                 .expect_err("refused")
-                .contains("keep the rows of 5e-2 s")
+                .contains("keep the rows of 5.000e-2 s")
         );
     }
 }

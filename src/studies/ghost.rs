@@ -189,7 +189,7 @@ impl Ghost {
 
     /// Adds one of this program's own tables, with the loop of its last cycle where it has one.
     pub fn take(&mut self, table: Table) {
-        if let Some(one) = Loop::of(&table, None) {
+        if let Some(one) = Loop::of(&table, table.last_cycle()) {
             self.take_loop(one.shifts, one.forces);
         }
         self.tables.push(table);

@@ -215,8 +215,11 @@ fn a_strangers_header_and_file_name_make_a_whole_picture() {
     dir.done("run hertz --cycles 0 --out x --quiet");
     let title = "A\u{ffff}B \u{202e}\u{9b}<&\u{1}";
     let state = dir.read("x/state.csv");
-    let state = state.replacen("# scenario: ", &format!("# scenario: {title}"), 1);
-    dir.write("s.csv", state.as_bytes());
+    let titled = |title: &str| state.replacen("# scenario: ", &format!("# scenario: {title}"), 1);
+    // A control character makes a table no text; all else of the title is read.
+    dir.write("control.csv", titled(title).as_bytes());
+    dir.refuse_line("figure control.csv -o control.svg", "is not a text");
+    dir.write("s.csv", titled(&title.replace('\u{1}', "")).as_bytes());
     let name = format!("{}.csv", title.replace('/', ""));
     dir.write(&name, b"r_um,wear_nm\n0,0\n5,1\n9,2\n");
     for figure in [

@@ -438,7 +438,8 @@ fn a_screen_can_be_printed_as_a_picture() {
 
 #[test]
 fn the_accuracy_panel_waits_for_the_twin_and_shows_what_it_tells() {
-    let text = shot("li2019-fig3", ",,,a", (80, 24));
+    // Before, the stick radius of the last period may still be that of the first loading, depending on the steps.
+    let text = shot("li2019-fig3", ",,,,a", (80, 24));
     for (meaning, largest) in [
         ("V of the profile against k E_d since the start", 5e-3),
         ("error of the worn depth", 1e-2),
@@ -473,9 +474,7 @@ fn after_a_jump_every_panel_tells_of_the_same_cycle() {
         "{text}"
     );
     // The force of the loop reaches both ways; without a loop its axis would end at zero.
-    let forces = text
-        .lines()
-        .filter(|line| line.contains("-600┤") || line.contains("-500┤"));
+    let forces = text.lines().filter(|line| line.contains(" -50┤"));
     assert!(forces.count() > 0, "{text}");
 }
 

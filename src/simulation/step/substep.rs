@@ -78,7 +78,11 @@ pub(in super::super) fn step(
             }
             Scheme::Trapezoid | Scheme::Euler => 0.0,
         };
-        scratch.profile.extrapolate(model, from, ahead);
+        let (worn, grown) = (
+            [&from.wear[..], &from.image],
+            [&from.last.wear[..], &from.last.growth],
+        );
+        scratch.profile.extrapolate(model, worn, ahead, grown);
         let stiffness = attempt(model, from, next, scratch, reach)?;
         match kind {
             // No sub-step is short enough: what comes of it says what is wrong.

@@ -238,7 +238,10 @@ impl Ladder<'_> {
                 Ok(rung) => {
                     let sources = top.errors_of(&rung);
                     let next = Top { rung, sources };
-                    let is_nearer = next.promised() < 0.9 * top.promised();
+                    // Where nothing wears, work and forces come nearer for ever; what is near enough ends that.
+                    let is_enough = next.promised() <= MARGIN * self.accuracy;
+                    let is_nearer =
+                        next.promised() < 0.9 * top.promised() && !(next.is_unworn() && is_enough);
                     stalls = if is_nearer { 0 } else { stalls + 1 };
                     stalls += u32::from(next.is_unworn());
                     planned = self.plan(&next);

@@ -78,7 +78,9 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
         .curves(pair_of_pressures);
     render(&pressures, right);
     let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
-    if highest == 0.0 {
+    // Interpolation at the very nodes rounds.
+    let deepest = seen.wear.iter().copied().fold(0.0, f64::max);
+    if highest <= 1e-12 * deepest {
         let mut canvas = canvas.at(below);
         let mut inside = canvas.titled(DIFFERENCE, Role::Title);
         inside.say("equal so far\nC: from the start", Role::Quiet);

@@ -24,6 +24,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
+use mdr_tui::studies::refinement::resolve_soon;
 use mdr_tui::tui::Stroke;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::event::Event;
@@ -420,7 +421,8 @@ pub struct Explorer {
 impl Explorer {
     /// A preset, paused at its start.
     pub fn on(preset: &str, theme: Theme) -> Self {
-        let worker = LiveWorker::on(load(preset, &[]), Duration::from_secs(1), false);
+        let found = resolve_soon(&load(preset, &[])).expect("points and steps");
+        let worker = LiveWorker::on(found.scenario, Duration::from_secs(1), false);
         let frame = worker.orders.frame().expect("a worker");
         let app = App::new(theme, worker.orders.clone(), frame);
         Self { app, worker }

@@ -56,8 +56,9 @@ pub fn axis_unit(max: f64, unit: &str) -> AxisUnit {
     }
     let power = 3 * ((max.abs() * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
     // A unit that is itself a power of ten, as 1e-3, takes the power up.
-    let own = unit.strip_prefix("1e").and_then(|own| own.parse().ok());
-    let text = match own.map(|own: i32| power + own) {
+    let own = unit.strip_prefix("1e");
+    let own = own.and_then(|own| own.parse::<i32>().ok());
+    let text = match own.map(|own| power + own) {
         Some(0) => String::new(),
         Some(both) => format!("1e{both}"),
         None => format!("1e{power} {unit}").trim_end().to_owned(),

@@ -220,9 +220,11 @@ fn usual_length(rows: &[Row]) -> usize {
     )
 }
 
-/// Which of the columns hold numbers in half of the rows or more.
+/// Which of the columns hold numbers in half of the rows or more, those of the first half left out: a preamble stands
+/// there.
 fn numeric_columns(rows: &[Row], fields: usize) -> Vec<bool> {
-    let of_length = || rows.iter().filter(|(_, row)| row.len() == fields);
+    let alike = || rows.iter().filter(|(_, row)| row.len() == fields);
+    let of_length = || alike().skip(alike().count() / 2);
     let numbers = |column: usize| {
         of_length()
             .filter(|(_, row)| row.get(column).is_some_and(|field| number(field).is_some()))

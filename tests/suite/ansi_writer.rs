@@ -92,7 +92,7 @@ fn take_few_bytes(
 /// cycles grows four times within these frames, 5 % of the bytes of the first screen.
 #[test]
 fn a_frame_of_the_figure_takes_few_bytes() {
-    for (columns, rows, budget) in [(80, 24, 175), (120, 40, 570), (200, 50, 840)] {
+    for (columns, rows, budget) in [(80, 24, 175), (120, 40, 570), (200, 50, 890)] {
         let mut counted = Counted::new(columns, rows);
         counted.frame("");
         let app = &counted.explorer.app;

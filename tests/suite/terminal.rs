@@ -323,6 +323,9 @@ fn no_color_means_no_colour_unless_asked_for() {
         terminal.wait_until(&what, |screen| is_coloured(screen) == coloured);
         terminal.press("?");
         terminal.wait_for("keys (");
+        // The help answers its own keys alone.
+        terminal.press("\x1b");
+        terminal.wait_until("no help", |screen| !screen.contents().contains("keys ("));
         terminal.quit();
         let styles = styles(&terminal.raw());
         assert_eq!(styles.iter().any(|&s| sets_colour(s)), coloured, "{what}");

@@ -255,7 +255,7 @@ fn names_and_units(
             .into_iter()
             .filter_map(|separator| separator.records(line).ok()?.pop());
         let mut names = found.map(|(_, row)| words(&row));
-        names.find(|names| names.len() == fields || names.len() + 1 == fields)
+        names.find(|names| names.len() == fields || fields > 2 && names.len() + 1 == fields)
     };
     let is_length =
         |row: &StringRecord| row.len() == fields || row.len() + 1 == fields && fields > 2;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::args::ColorChoice;
 use super::complain;
-use crate::export::safe_open;
+use crate::export::own_directory;
 use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::Refusal;
@@ -55,7 +55,7 @@ impl Config {
     /// One line with the file and what is wrong in it: invalid TOML, an unknown key, an invalid
     /// value.
     pub fn load() -> Result<Self, Refusal> {
-        let Some(directory) = safe_open::directory("XDG_CONFIG_HOME", ".config") else {
+        let Some(directory) = own_directory::config() else {
             return Ok(Self::default());
         };
         let path = directory.join("config.toml");

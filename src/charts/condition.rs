@@ -28,7 +28,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let live = run.live.as_ref().filter(|live| live.moves());
     let live = live.ok_or(NO_MOTION)?;
     // The path so far, oldest first: m, N.
-    let path = run.over_cycles(["u_x_amplitude_m", "mean_F_z_N"]);
+    let path = run.over_cycles([Column::ShiftAmplitude, Column::MeanNormalForce]);
     let [amplitudes, loads] = path.unwrap_or_default();
     let path = amplitudes.into_iter().zip(loads);
     let known = path.filter(|(amplitude, load)| *amplitude > 0.0 && *load > 0.0);

@@ -8,7 +8,7 @@ use crate::plot::step::Step;
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
-use crate::reading::Curves;
+use crate::reading::{Column, Curves};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
@@ -193,11 +193,11 @@ fn over_r(run: &Run, abscissa: &'static str, (label, unit): (&'static str, &'sta
 }
 
 /// A column over the radius at every state, by the states' cycles where there are several; else under this name.
-fn of_states(run: &Run, column: &str, alone: &str, role: Role) -> Vec<Curve> {
+fn of_states(run: &Run, column: Column, alone: &str, role: Role) -> Vec<Curve> {
     let count = run.states.len();
     let states = run.states.iter().enumerate();
     let curves = states.filter_map(|(k, state)| {
-        let (radii, values) = (state.column("r_m")?, state.column(column)?);
+        let (radii, values) = (state.column(Column::Radius)?, state.column(column)?);
         let (name, role) = named(k, count, state.cycle(), (alone, role));
         Some(Curve::new(name, radii, values, role))
     });
@@ -217,7 +217,7 @@ fn named(k: usize, count: usize, cycle: f64, alone: (&str, Role)) -> (String, Ro
 /// profile.
 fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve> {
     let state = run.states.last()?;
-    let (radii, unworn) = (state.column("r_m")?, state.column("f0_m")?);
+    let (radii, unworn) = (state.column(Column::Radius)?, state.column(Column::Unworn)?);
     let limit = theory?.limiting_profile(radii)?;
     let worn = limit.iter().zip(unworn);
     let worn = worn.map(|(f, f0)| match times {
@@ -237,13 +237,13 @@ fn over_cycles(run: &Run, y: Axis) -> Chart {
 }
 
 /// A column of the history over its cycles.
-fn series(run: &Run, column: &str, name: &str, role: Role) -> Result<Curve, &'static str> {
-    let [cycles, values] = run.over_cycles(["cycle", column]).ok_or(NO_HISTORY)?;
+fn series(run: &Run, column: Column, name: &str, role: Role) -> Result<Curve, &'static str> {
+    let [cycles, values] = run.over_cycles([Column::Cycle, column]).ok_or(NO_HISTORY)?;
     Ok(Curve::new(name, cycles, values, role))
 }
 
 /// A column of the history over its finished cycles: the unfinished one only if there is no other.
-fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'static str> {
+fn finished_series(run: &Run, column: Column, role: Role) -> Result<Curve, &'static str> {
     let mut curve = series(run, column, "", role)?;
     let is_open = run.live.as_ref().is_some_and(|live| live.is_within_a_cycle);
     if is_open && curve.xs.len() > 1 {

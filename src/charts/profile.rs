@@ -48,7 +48,11 @@ fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let state = run.states.last().ok_or(NO_STATE)?;
     let column = |name| state.column(name).unwrap_or_default();
-    let (radii, unworn, wear) = (column("r_m"), column("f0_m"), column("wear_m"));
+    let (radii, unworn, wear) = (
+        column(Column::Radius),
+        column(Column::Unworn),
+        column(Column::Wear),
+    );
     let mut chart = over_r(run, "r", ("f", "m"));
     let times = run.pick(times(run, unworn, wear), 1.0);
     let worn = match run.live {
@@ -56,17 +60,20 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
-            vec![worn.magnified(times, column("f_m")).filled(unworn)]
+            vec![
+                worn.magnified(times, column(Column::Profile))
+                    .filled(unworn),
+            ]
         }
         None => {
             // What a page hides in the profile: wear that is seen there would lie under its inset.
             let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
-            let inset = of_states(run, "wear_m", "", Role::Profile);
+            let inset = of_states(run, Column::Wear, "", Role::Profile);
             let deepest = inset.iter().map(Curve::highest).fold(0.0, f64::max);
             let is_hidden = deepest > 0.0 && deepest < HIDDEN * height(unworn, 0.0);
             let inset = Chart::new("", r, depth).curves(inset);
             chart.inset = is_hidden.then(|| Box::new(inset));
-            of_states(run, "f_m", "worn", Role::Profile)
+            of_states(run, Column::Profile, "worn", Role::Profile)
         }
     };
     chart.band = run.zones();

@@ -22,8 +22,8 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         ["contact a", "stick c"],
         ["contact radius a", "stick radius c"],
     );
-    let contact = series(run, "contact_radius_m", names[0], Role::Contact)?;
-    let stick = series(run, "permanent_stick_radius_m", names[1], Role::Stick).ok();
+    let contact = series(run, Column::ContactRadius, names[0], Role::Contact)?;
+    let stick = series(run, Column::PermanentStickRadius, names[1], Role::Stick).ok();
     let stick = stick.filter(|stick| stick.ys.iter().any(|radius| radius.is_finite()));
     let stick = stick.map(|stick| stick.dashed_if(run.live.is_some()));
     let theory = view.theory(run).and_then(|theory| theory.stick_radius);

@@ -18,7 +18,7 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let rate = finished_series(run, "wear_rate_m3", Role::Profile)?;
+    let rate = finished_series(run, Column::WearRate, Role::Profile)?;
     let cycles = run.live.as_ref().and_then(|live| live.planned_cycles);
     let expected = run.expected_volume() / cycles.unwrap_or(1.0);
     let ordinate = Axis::new("V per cycle", "m³")

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::contact::indenter::Indenter;
 use crate::math::geometry::Geometry;
-use crate::reading::{Moment, Zone};
+use crate::reading::{Column, Moment, Zone};
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
@@ -98,15 +98,15 @@ impl Run {
 
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
-        if table.has(&["r_m", "f_m"]) {
+        if table.has(&[Column::Radius, Column::Profile]) {
             self.states.push(table);
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
-        } else if table.has(&["cycle", "contact_radius_m", "wear_volume_m3"]) {
+        } else if table.has(&[Column::Cycle, Column::ContactRadius, Column::WearVolume]) {
             self.history = Some(table);
         } else if let Some(one) = Loop::of(&table, None) {
             self.loops.push(one);
-        } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
+        } else if table.has(&[Column::X, Column::Z, Column::VonMises]) {
             self.field = Some(table);
         } else {
             return Err("does not have the columns of a state, a history or a field".into());
@@ -135,7 +135,10 @@ impl Run {
 
     /// The radius of the outermost node, m; 0 without a state.
     pub fn edge(&self) -> f64 {
-        let radii = self.states.last().and_then(|state| state.column("r_m"));
+        let radii = self
+            .states
+            .last()
+            .and_then(|state| state.column(Column::Radius));
         radii.and_then(<[f64]>::last).copied().unwrap_or(0.0)
     }
 
@@ -177,9 +180,9 @@ impl Run {
 
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
     /// they lie at other phases of the motion.
-    pub(super) fn over_cycles<const N: usize>(&self, names: [&str; N]) -> Option<[Vec<f64>; N]> {
+    pub(super) fn over_cycles<const N: usize>(&self, wanted: [Column; N]) -> Option<[Vec<f64>; N]> {
         let history = self.history.as_ref()?;
-        let cycles = history.column("cycle")?;
+        let cycles = history.column(Column::Cycle)?;
         let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
         let rows = 0..cycles.len();
         let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
@@ -188,8 +191,8 @@ impl Run {
             _ => rows.collect(),
         };
         let mut columns = [(); N].map(|()| Vec::new());
-        for (values, name) in columns.iter_mut().zip(names) {
-            let column = history.column(name)?;
+        for (values, one) in columns.iter_mut().zip(wanted) {
+            let column = history.column(one)?;
             values.extend(rows.iter().map(|&row| column[row]));
         }
         Some(columns)
@@ -217,9 +220,9 @@ impl Run {
             "grid",
             "scheme",
             "steps_per_cycle",
-            "estimated_error",
-            "estimated_error_volume",
-            "estimated_error_force",
+            Column::WornDepthError.name(),
+            Column::VolumeError.name(),
+            Column::ForceError.name(),
             "checks",
         ];
         let mut facts: Vec<(String, String)> = told

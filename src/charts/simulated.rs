@@ -2,20 +2,20 @@
 
 use super::Run;
 use crate::export::{field, header, last_loop, state};
-use crate::reading::Curves;
+use crate::reading::{Column, Curves};
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::traces::{Loop, Table};
 
 /// What the charts over cycles show.
-const OVER_CYCLES: [&str; 7] = [
-    "cycle",
-    "contact_radius_m",
-    "permanent_stick_radius_m",
-    "wear_volume_m3",
-    "scar_depth_m",
-    "scar_radius_m",
-    "dissipated_energy_J",
+const OVER_CYCLES: [Column; 7] = [
+    Column::Cycle,
+    Column::ContactRadius,
+    Column::PermanentStickRadius,
+    Column::WearVolume,
+    Column::ScarDepth,
+    Column::ScarRadius,
+    Column::DissipatedEnergy,
 ];
 
 impl Run {
@@ -40,7 +40,7 @@ impl Run {
         let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
         let mut record = |session: &Session| {
             let reading = Reading::new(session);
-            let row = OVER_CYCLES.map(|name| reading.number(name));
+            let row = OVER_CYCLES.map(|column| reading.number(column));
             if seen.last().is_none_or(|last| last[0] < row[0]) {
                 seen.push(row);
             }

@@ -24,7 +24,9 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let state = run.states.last().ok_or(NO_STATE)?;
-    let columns = state.column("r_m").zip(state.column("p_Pa"));
+    let columns = state
+        .column(Column::Radius)
+        .zip(state.column(Column::Pressure));
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
     // What τ is divided by; on paper it is drawn as it is.
@@ -48,7 +50,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let mut chart = over_r(run, "r", ("stress", "Pa"))
         .curves(others)
         .curve(curve("p", pressure.to_vec(), Role::Pressure));
-    let shear = state.column("tau_Pa").filter(|_| divisor.is_some());
+    let shear = state.column(Column::Shear).filter(|_| divisor.is_some());
     let is_seen = |shear: &&[f64]| run.live.is_some() || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
         let shear = shear.iter().copied().map(scaled).collect();

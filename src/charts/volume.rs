@@ -17,7 +17,7 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let volume = series(run, "wear_volume_m3", "", Role::Profile)?;
+    let volume = series(run, Column::WearVolume, "", Role::Profile)?;
     let ordinate = Axis::new("V", "m³").from_zero();
     let mut chart = over_cycles(run, ordinate.expecting(run.expected_volume()));
     if let Some(live) = &run.live {

@@ -225,7 +225,7 @@ fn report(fit: &Fit, fitted: &Fitted) -> String {
         }
     }
     for (measured, set) in fit.data.iter().zip(&fitted.sets) {
-        let (name, unit, points, rms) = (&set.file, measured.axes.unit(), set.points, set.rms());
+        let (name, unit, points, rms) = (&set.file, measured.axes.y.unit(), set.points, set.rms());
         let at = match (measured.axes, measured.cycle) {
             (Axes::LOOP, Some(cycle)) => format!(" in cycle {cycle}"),
             (Axes::LOOP, None) => {
@@ -265,10 +265,17 @@ fn residual_plots(fit: &Fit, fitted: &Fitted, marker: Marker) -> String {
     let sets = fit.data.iter().zip(&fitted.sets);
     let charts = sets.map(|(measured, set)| {
         let abscissa = measured.axes.x;
-        let (name, unit) = abscissa.rsplit_once('_').unwrap_or((abscissa, ""));
-        let ordinate = Axis::new(format!("{}: residual", measured.name), measured.axes.unit());
+        let ordinate = Axis::new(
+            format!("{}: residual", measured.name),
+            measured.axes.y.unit(),
+        );
         let curve = Curve::new("", &measured.at[..], &set.residuals[..], Role::Profile);
-        Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
+        Chart::new(
+            "",
+            Axis::new(abscissa.quantity(), abscissa.unit()),
+            ordinate,
+        )
+        .curve(curve)
     });
     small_multiples::draw(&charts.collect::<Vec<_>>(), marker)
 }

@@ -8,10 +8,11 @@ use super::{results, small_multiples};
 use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
+use crate::reading::column::unit_of;
 use crate::scenario::columns::Columns;
 use crate::studies::measured::record::{Figures, Record};
 use crate::studies::measured::{Kind, Measured, loop_columns};
-use crate::traces::{Axes, unit_of};
+use crate::traces::Axes;
 
 /// Cycles of a record that are printed one by one; of more, as many in even steps.
 const MOST_ROWS: usize = 20;
@@ -272,12 +273,11 @@ impl Understood {
 
 fn chart(measured: &Measured) -> Chart {
     let axes = measured.axes;
-    let (name, unit) = axes.x.rsplit_once('_').unwrap_or((axes.x, ""));
     let curve = Curve::new("", &measured.at[..], &measured.values[..], Role::Profile);
     Chart::new(
         "",
-        Axis::new(name, unit),
-        Axis::new(axes.symbol, axes.unit()),
+        Axis::new(axes.x.quantity(), axes.x.unit()),
+        Axis::new(axes.y.symbol(), axes.y.unit()),
     )
     .curve(curve)
 }

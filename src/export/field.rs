@@ -2,24 +2,24 @@
 //! of a steady cycle, one row per point.
 
 use super::header;
-use crate::reading::Curves;
 use crate::reading::fatigue::{Fatigue, StressCycle};
+use crate::reading::{Column, Curves};
 use crate::scenario::scalars::field;
 use crate::scenario::session::Session;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 11] = [
-    "x_m",
-    "z_m",
-    "sigma_xx_Pa",
-    "sigma_yy_Pa",
-    "sigma_zz_Pa",
-    "sigma_xz_Pa",
-    "von_mises_Pa",
-    "max_principal_Pa",
-    "swt_Pa",
-    "shear_amplitude_Pa",
-    "max_hydrostatic_Pa",
+pub const COLUMNS: [Column; 11] = [
+    Column::X,
+    Column::Z,
+    Column::StressXx,
+    Column::StressYy,
+    Column::StressZz,
+    Column::StressXz,
+    Column::VonMises,
+    Column::MaxPrincipal,
+    Column::Swt,
+    Column::ShearAmplitude,
+    Column::MaxHydrostatic,
 ];
 
 /// Half the intervals along x, and the intervals in depth.

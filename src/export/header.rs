@@ -1,26 +1,27 @@
 //! The `# key: value` lines that open every CSV file, and numbers that read back exactly.
 
 use crate::math::grid::RadialGrid;
+use crate::reading::Column;
 use crate::scenario::escape::{csv_line, printable};
 pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
 /// How a file begins that tells of the present state of `session`: the header and the names of the columns.
-pub fn head(session: &Session, names: &[&str]) -> String {
+pub fn head(session: &Session, columns: &[Column]) -> String {
     let entries = entries(session);
     let lines = entries.iter().map(|(key, value)| line(key, value));
-    lines.collect::<String>() + &names.join(",") + "\n"
+    lines.collect::<String>() + &csv_line(columns.iter().map(|column| column.name()))
 }
 
 /// A whole file, of the fields row by row.
 pub fn table<R: AsRef<[String]>>(
     session: &Session,
-    names: &[&str],
+    columns: &[Column],
     rows: impl IntoIterator<Item = R>,
 ) -> String {
     let rows = rows.into_iter().map(|row| csv_line(row.as_ref()));
-    rows.fold(head(session, names), |text, row| text + &row)
+    rows.fold(head(session, columns), |text, row| text + &row)
 }
 
 /// A line of a header.
@@ -30,7 +31,10 @@ pub fn line(key: &str, value: &str) -> String {
 }
 
 /// Key and value of the line of a run whose error is not known.
-pub const UNMEASURED: (&str, &str) = ("estimated_error", "not measured (--estimate-error)");
+pub const UNMEASURED: (&str, &str) = (
+    Column::WornDepthError.name(),
+    "not measured (--estimate-error)",
+);
 
 /// What the header of a file says of the present state of `session`: keys and values.
 pub fn entries(session: &Session) -> Vec<(String, String)> {
@@ -42,7 +46,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     line("mdr-tui", env!("CARGO_PKG_VERSION"));
     line("arithmetic", arithmetic());
     line("scenario", scenario.title());
-    line("cycle", &number(session.simulation().cycle()));
+    line(Column::Cycle.name(), &number(session.simulation().cycle()));
     if let Some(remark) = setup.geometry.remark() {
         line("geometry", &remark);
     }

@@ -12,10 +12,9 @@ use serde::{Deserialize, Serialize};
 
 use super::header::head;
 use super::safe_open;
+use crate::reading::Column;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
-
-pub use crate::scenario::scalars::HISTORY as COLUMNS;
 
 /// Rows buffered in memory before they are written, bytes.
 const CHUNK: usize = 64 << 10;
@@ -30,7 +29,7 @@ pub struct History {
     checksum: u32,
     last_cycle: Option<f64>,
     /// Columns after the ones that every history has.
-    further: Vec<String>,
+    further: Vec<Column>,
 }
 
 impl History {
@@ -40,28 +39,38 @@ impl History {
     ///
     /// In one line, the first name that is not a scalar, or a column already.
     pub fn with(further: &[String]) -> Result<Self, String> {
-        for (at, name) in further.iter().enumerate() {
-            scalars::named(name)?;
-            if COLUMNS.contains(&name.as_str()) || further[..at].contains(name) {
-                return Err(format!("{name} is a column of the history already"));
-            }
-        }
-        Ok(Self {
-            further: further.to_vec(),
+        let further = further.iter().map(|name| scalars::named(name));
+        let history = Self {
+            further: further.collect::<Result<_, _>>()?,
             ..Self::default()
-        })
+        };
+        history.check_columns()?;
+        Ok(history)
     }
 
-    /// The names of all columns.
-    fn names(&self) -> impl Iterator<Item = &str> {
-        let further = self.further.iter().map(String::as_str);
-        COLUMNS.into_iter().chain(further)
+    /// Refuses a column that stands twice.
+    fn check_columns(&self) -> Result<(), String> {
+        let columns: Vec<Column> = self.columns().collect();
+        let mut further = columns.iter().enumerate().skip(Column::HISTORY.len());
+        match further.find(|(at, column)| columns[..*at].contains(column)) {
+            Some((_, column)) => Err(format!(
+                "{} is a column of the history already",
+                column.name()
+            )),
+            None => Ok(()),
+        }
+    }
+
+    fn columns(&self) -> impl Iterator<Item = Column> {
+        Column::HISTORY
+            .into_iter()
+            .chain(self.further.iter().copied())
     }
 
     /// The columns of the present moment of `session` with their values.
-    pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
+    pub fn values(&self, session: &Session) -> Vec<(Column, Value)> {
         let reading = Reading::new(session);
-        let values = self.names().map(|name| (name, reading.value(name)));
+        let values = self.columns().map(|column| (column, reading.value(column)));
         values.collect()
     }
 
@@ -171,8 +180,8 @@ impl History {
     ///
     /// In one line, what no history holds.
     pub fn check(&self) -> Result<(), String> {
-        Self::with(&self.further)?;
-        let commas = self.names().count() - 1;
+        self.check_columns()?;
+        let commas = self.columns().count() - 1;
         let has_all = |row: &str| row.matches(',').count() == commas;
         let is_whole = self.rows.is_empty() || self.rows.ends_with('\n');
         if !(is_whole && is_of_cells(self.rows.as_bytes()) && self.rows.lines().all(has_all)) {
@@ -184,8 +193,8 @@ impl History {
     /// Writes the whole table up to the present state of `session`, of which its header tells; the
     /// rows that are not in memory are read from the file at `rows`.
     pub fn write(&self, session: &Session, rows: &Path, out: &mut dyn Write) -> io::Result<()> {
-        let names: Vec<&str> = self.names().collect();
-        out.write_all(head(session, &names).as_bytes())?;
+        let columns: Vec<Column> = self.columns().collect();
+        out.write_all(head(session, &columns).as_bytes())?;
         if self.has_file() {
             self.copy_rows(rows, out)?;
         }
@@ -209,6 +218,6 @@ fn foreign() -> io::Error {
 }
 
 /// The fields of a moment, in the order of the columns.
-pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
-    COLUMNS.map(|name| scalars::cell(&reading.value(name)))
+pub fn fields(reading: &Reading) -> [String; Column::HISTORY.len()] {
+    Column::HISTORY.map(|column| scalars::cell(&reading.value(column)))
 }

@@ -1,11 +1,17 @@
 //! `loop.csv`: the fretting loop of the last period, finely stepped on the last profile.
 
 use super::header::{field, table};
+use crate::reading::Column;
 use crate::scenario::session::Session;
 use crate::simulation::{PeriodPoint, Simulation};
 
 /// The columns, in order; the last one stays empty without a rig that yields.
-pub const COLUMNS: [&str; 4] = ["cycle", "u_x_m", "F_x_N", "rig_displacement_m"];
+pub const COLUMNS: [Column; 4] = [
+    Column::Cycle,
+    Column::Shift,
+    Column::TangentialForce,
+    Column::RigDisplacement,
+];
 
 /// The longest period that is written as a whole, in cycles; of a longer one, the last cycle.
 const LONGEST: f64 = 20.0;

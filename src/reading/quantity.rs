@@ -2,6 +2,8 @@
 
 use strum::{EnumCount, VariantArray};
 
+use super::Column;
+
 /// A number that a run gives away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, EnumCount, VariantArray)]
 pub enum Quantity {
@@ -44,41 +46,9 @@ impl Quantity {
         }
     }
 
-    /// The key in the headers of files, and the name of the column in studies.
-    pub const fn column(self) -> &'static str {
-        match self {
-            Self::WornDepth => "estimated_error",
-            Self::Deepest => "estimated_error_deepest",
-            Self::Volume => "estimated_error_volume",
-            Self::Energy => "estimated_error_energy",
-            Self::Force => "estimated_error_force",
-            Self::Loop => "estimated_error_loop",
-            Self::Pressure => "estimated_error_pressure",
-            Self::ContactRadius => "estimated_error_contact_radius",
-            Self::StickRadius => "estimated_error_stick_radius",
-        }
-    }
-
-    /// What its error is, and relative to what, in one line.
-    pub const fn meaning(self) -> &'static str {
-        match self {
-            Self::WornDepth => {
-                "error of the new wear, rms over the scar, relative to its largest depth"
-            }
-            Self::Deepest => "error of the largest new wear, relative to it",
-            Self::Volume => "error of the new worn volume, relative to it",
-            Self::Energy => {
-                "error of the friction work, relative to it or to 0.001 of 4 mu F_z U per cycle"
-            }
-            Self::Force => "largest error of F_x over the last period, relative to mu F_z",
-            Self::Loop => "error of the last loop's area, relative to it or to 0.001 of 4 mu F_z U",
-            Self::Pressure => {
-                "largest error of p farther than 0.05 a from the axis, the stick border and the contact's edge, \
-                 relative to the largest p there"
-            }
-            Self::ContactRadius => "error of a, relative to it",
-            Self::StickRadius => "larger error of c, of the moment and permanent, relative to a",
-        }
+    /// Its estimated error: the key in the headers of files, and the column of studies.
+    pub const fn column(self) -> Column {
+        Column::ERRORS[self as usize]
     }
 
     /// Whether it is about wear, and means nothing where nothing has worn.
@@ -111,8 +81,8 @@ mod tests {
             let promised = if quantity.is_promised() { "yes" } else { "no" };
             let row = format!(
                 "| `{}` | {} | {promised} |",
-                quantity.column(),
-                quantity.meaning()
+                quantity.column().name(),
+                quantity.column().meaning()
             );
             assert!(guide.contains(&row), "the guide lacks: {row}");
         }

@@ -4,12 +4,10 @@ use std::path::Path;
 
 use super::measured::{Kind, Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
+use crate::reading::Column;
 use crate::scenario::columns::Columns;
 use crate::scenario::{Refusal, printable};
 use crate::traces::{Axes, Loop, Table};
-
-/// The column of standard errors.
-const ERRORS: &str = "error";
 
 /// One curve of a source.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,8 +103,11 @@ impl Ghost {
     /// Columns that make nothing that could be drawn; gaps and more in measured data.
     pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, Refusal> {
         let mut ghost = Self::new(name);
-        let has = |name| columns.has(name);
-        if ["f0_m", "u_z_m", "scar_depth_m"].into_iter().any(has) {
+        let has = |column: Column| columns.has(column);
+        if [Column::Unworn, Column::Indentation, Column::ScarDepth]
+            .into_iter()
+            .any(has)
+        {
             ghost.take(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
@@ -133,7 +134,7 @@ impl Ghost {
             Some(Trace {
                 xs: table.column(axes.x)?,
                 ys: table.column(axes.y)?,
-                errors: table.column(ERRORS),
+                errors: table.column(Column::StandardError),
             })
         });
         let is_there = |trace: &Trace| trace.ys.iter().any(|value| value.is_finite());
@@ -165,7 +166,7 @@ impl Ghost {
     /// The last cycle that it tells of.
     pub fn end(&self) -> f64 {
         let tables = self.tables.iter();
-        let histories = tables.filter(|table| table.column("r_m").is_none());
+        let histories = tables.filter(|table| table.column(Column::Radius).is_none());
         histories.filter_map(Table::last_cycle).fold(0.0, f64::max)
     }
 
@@ -203,7 +204,7 @@ impl Ghost {
     }
 
     fn add(&mut self, axes: Axes, xs: Vec<f64>, ys: Vec<f64>, errors: Option<Vec<f64>>) {
-        let errors = errors.map(|errors| (ERRORS, errors));
+        let errors = errors.map(|errors| (Column::StandardError, errors));
         let columns = [(axes.x, xs), (axes.y, ys)].into_iter().chain(errors);
         self.tables.push(Table::of_columns(Vec::new(), columns));
     }

@@ -3,18 +3,19 @@
 use std::collections::HashMap;
 
 use super::panels::Panel;
+use crate::reading::Column;
 
 /// An abscissa, by the column that it shows: charts over the same one have the cursor at the same place.
 pub type Abscissa = &'static str;
 
 /// The one of charts over r.
-pub const RADIUS: Abscissa = "r_m";
+pub const RADIUS: Abscissa = Column::Radius.name();
 
 /// The abscissa of a panel; pictures read the radius.
 pub fn abscissa(panel: Panel) -> Abscissa {
     match (panel.picture(), panel.recipe().overlays.first()) {
         (Some(_), _) => RADIUS,
-        (None, Some(axes)) => axes.x,
+        (None, Some(axes)) => axes.x.name(),
         (None, None) => panel.recipe().title,
     }
 }

@@ -54,7 +54,7 @@ fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> Str
         let moves = frame.observation.moment.stick_radius.is_some();
         let curves = CURVES.into_iter();
         for axes in curves.filter(|axes| moves || *axes != Axes::SHEAR) {
-            let at = over_r(run, axes, r).map(|seen| value(axes.symbol, seen, axes.unit()));
+            let at = over_r(run, axes, r).map(|seen| value(axes.y.symbol(), seen, axes.y.unit()));
             parts.extend(at.filter(|part| !parts.contains(part)));
         }
     }
@@ -102,7 +102,7 @@ fn here(run: &Run, axes: Axes, r: f64) -> Option<(f64, f64)> {
         Axes::CONTACT => return Some((moment.cycle, moment.contact_radius)),
         _ => {}
     }
-    let last = |name| run.history.as_ref()?.column(name)?.last().copied();
+    let last = |column| run.history.as_ref()?.column(column)?.last().copied();
     Some((last(axes.x)?, last(axes.y)?))
 }
 
@@ -128,8 +128,8 @@ fn compared(run: &Run, focus: Panel, r: f64) -> Vec<String> {
     let Some((place, own)) = here(run, axes, r) else {
         return Vec::new();
     };
-    let shown = |value: f64| format_value(value, axes.unit(), DIGITS);
-    let mut parts = vec![format!(" {} {} ", axes.symbol, shown(own))];
+    let shown = |value: f64| format_value(value, axes.y.unit(), DIGITS);
+    let mut parts = vec![format!(" {} {} ", axes.y.symbol(), shown(own))];
     for ghost in &run.ghosts {
         let Some(value) = of_ghost(run, ghost, axes, place) else {
             continue;

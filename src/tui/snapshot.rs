@@ -10,6 +10,7 @@ use crate::export::file::WriteError;
 use crate::export::header::{field as written, number, table};
 use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
 use crate::export::{history, last_loop, state};
+use crate::reading::Column;
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::Session;
@@ -58,11 +59,12 @@ fn history(session: &Session, trend: &Trend) -> String {
         let mut fields = match &entry.fields {
             Some(fields) => fields.to_vec(),
             None if entry.end() == now => history::fields(&Reading::new(session)).to_vec(),
-            None => vec![String::new(); history::COLUMNS.len()],
+            None => vec![String::new(); Column::HISTORY.len()],
         };
-        for ((name, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
-            let is_of_cycle = ["contact_radius_m", "permanent_stick_radius_m"].contains(&name);
-            let at = history::COLUMNS.iter().position(|column| *column == name);
+        for ((column, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
+            let is_of_cycle =
+                [Column::ContactRadius, Column::PermanentStickRadius].contains(&column);
+            let at = Column::HISTORY.iter().position(|known| *known == column);
             if let Some(field) = at.map(|at| &mut fields[at])
                 && (is_of_cycle || field.is_empty())
             {
@@ -71,14 +73,18 @@ fn history(session: &Session, trend: &Trend) -> String {
         }
         fields
     });
-    table(session, &history::COLUMNS, rows)
+    table(session, &Column::HISTORY, rows)
 }
 
 /// The last period, in the columns of a measured loop.
 fn loop_table(session: &Session) -> String {
     let rows = last_loop::rows(session.simulation()).into_iter();
     let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(written));
-    table(session, &["cycle", "u_m", "F_N"], rows)
+    table(
+        session,
+        &[Column::Cycle, Column::LoopShift, Column::LoopForce],
+        rows,
+    )
 }
 
 /// Where in a directory a state to go on from is: that of a snapshot, or of a run that was interrupted.
@@ -95,7 +101,7 @@ pub(super) fn about(path: &Path) -> Option<String> {
         let (_, value) = header.iter().find(|(known, _)| known == key)?;
         Some(value)
     };
-    let (cycle, title) = (fact("cycle")?, fact("scenario")?);
+    let (cycle, title) = (fact(Column::Cycle.name())?, fact("scenario")?);
     let note = fact("note").map_or_else(String::new, |note| format!(" Note: {note}."));
     let next = "Enter goes on from there";
     Some(format!("{title}, cycle {cycle}.{note} {next}"))
@@ -126,20 +132,24 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let read = |name: &str| Columns::read(&directory.join(name)).ok();
     let file = read("history.csv")?;
     let history = Table::of_file(&file);
-    let cycles = history.column("cycle")?;
-    let has_all = file.names == history::COLUMNS;
+    let cycles = history.column(Column::Cycle)?;
+    let has_all = file.names == Column::HISTORY.map(Column::name);
     let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| {
-        let value = |name| history.column(name).map_or(f64::NAN, |column| column[row]);
+        let value = |column| {
+            history
+                .column(column)
+                .map_or(f64::NAN, |values| values[row])
+        };
         Cycle {
-            values: trend::COLUMNS.map(|(name, _)| value(name)),
+            values: trend::COLUMNS.map(|(column, _)| value(column)),
             fields: has_all.then(|| file.fields(row).into()),
         }
     });
     let steps = read("loop.csv").map(|file| Table::of_file(&file));
     let steps = steps.unwrap_or_default();
-    let [cycles, shifts, forces] =
-        ["cycle", "u_m", "F_N"].map(|name| steps.column(name).unwrap_or_default());
+    let [cycles, shifts, forces] = [Column::Cycle, Column::LoopShift, Column::LoopForce]
+        .map(|column| steps.column(column).unwrap_or_default());
     let steps = cycles.iter().zip(shifts).zip(forces);
     let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force, f64::NAN]);
     Some(Trend::of_past(entries, steps, initial))

@@ -7,7 +7,7 @@ use super::loops::Loops;
 use crate::charts::Run;
 use crate::export::{history, state};
 use crate::math::scan::largest;
-use crate::reading::{Moment, Observation};
+use crate::reading::{Column, Moment, Observation};
 use crate::scenario::scalars::{Reading, scar_radius};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
@@ -45,7 +45,7 @@ impl Recorded {
     /// What charts are made of: what is `seen` of the present moment, and the past.
     pub fn charted(&self, seen: &Observation) -> Run {
         let moment = &seen.moment;
-        let header = vec![("cycle".to_owned(), moment.cycle.to_string())];
+        let header = vec![(Column::Cycle.name().to_owned(), moment.cycle.to_string())];
         let moves = moment.stick_radius.is_some();
         let last = moves.then(|| self.trend.loops.last(moment.cycle));
         Run {
@@ -77,19 +77,19 @@ type Merge = fn(f64, f64) -> f64;
 const LAST: Merge = |_, later| later;
 
 /// The columns of a history, by their names in `history.csv` where they are there.
-pub const COLUMNS: [(&str, Merge); 11] = [
-    ("cycle", LAST),
-    ("contact_radius_m", f64::max),
-    ("permanent_stick_radius_m", f64::min),
-    ("wear_volume_m3", LAST),
-    ("scar_depth_m", LAST),
-    ("scar_radius_m", LAST),
-    ("dissipated_energy_J", LAST),
-    ("energy_residual", LAST),
-    ("step_cost_s", f64::max),
+pub const COLUMNS: [(Column, Merge); 11] = [
+    (Column::Cycle, LAST),
+    (Column::ContactRadius, f64::max),
+    (Column::PermanentStickRadius, f64::min),
+    (Column::WearVolume, LAST),
+    (Column::ScarDepth, LAST),
+    (Column::ScarRadius, LAST),
+    (Column::DissipatedEnergy, LAST),
+    (Column::EnergyResidual, LAST),
+    (Column::StepCost, f64::max),
     // Of the last whole cycle.
-    ("u_x_amplitude_m", LAST),
-    ("mean_F_z_N", LAST),
+    (Column::ShiftAmplitude, LAST),
+    (Column::MeanNormalForce, LAST),
 ];
 
 const VOLUME: usize = 3;
@@ -162,7 +162,7 @@ impl Trend {
         let first = |trend: &Self| trend.cycles.first().map(Arc::as_ptr);
         let other = other.filter(|other| first(other) == first(self));
         let shared = other.map_or(0, |other| other.cycles.len());
-        let fields = 32 * history::COLUMNS.len();
+        let fields = 32 * Column::HISTORY.len();
         let own = self.cycles.len().saturating_sub(shared) * (size_of::<Cycle>() + fields);
         let places = size_of::<Arc<Cycle>>() * self.cycles.len();
         own + places + size_of::<[f64; 4]>() * self.loops.steps.len()
@@ -248,16 +248,16 @@ impl Trend {
     /// The cycles so far as columns, and the volume that is worn in a cycle, on average over each entry.
     pub fn history(&self) -> Table {
         let columns = COLUMNS.into_iter().enumerate();
-        let columns = columns.map(|(k, (name, _))| {
+        let columns = columns.map(|(k, (column, _))| {
             let values = self.cycles().map(|entry| entry.values[k]);
-            (name, values.collect())
+            (column, values.collect())
         });
         let start = self.start.unwrap_or_default();
         let rates = self.cycles().scan(start, |before, entry| {
             let [cycle, volume] = std::mem::replace(before, [entry.end(), entry.values[VOLUME]]);
             Some((before[1] - volume) / (before[0] - cycle))
         });
-        let rates = ("wear_rate_m3", rates.collect());
+        let rates = (Column::WearRate, rates.collect());
         Table::of_columns(Vec::new(), columns.chain([rates]))
     }
 }

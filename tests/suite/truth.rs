@@ -7,6 +7,7 @@ use crate::common::{Explorer, begin, load, rehearsed_on};
 use crate::test_dir::has;
 use mdr_tui::plot::Marker;
 use mdr_tui::plot::theme::{Depth, Look, Role, Theme};
+use mdr_tui::reading::Column;
 use mdr_tui::reading::subsurface::Stress;
 use mdr_tui::tui::frame::Frame;
 use mdr_tui::tui::keys::Key;
@@ -78,7 +79,8 @@ fn the_cursor_reads_true_values_of_what_is_drawn_magnified() {
     assert!(factor > 1.0);
     let read = value(&screen, &format!("worn ×{factor}"));
     let state = frame.run.states.last().expect("a state");
-    let [radii, profile] = ["r_m", "f_m"].map(|name| state.column(name).expect("a column"));
+    let [radii, profile] =
+        [Column::Radius, Column::Profile].map(|column| state.column(column).expect("a column"));
     let above = radii.iter().position(|node| *node > r).expect("a node");
     let within = profile[above - 1] * 0.999..=profile[above] * 1.001;
     assert!(

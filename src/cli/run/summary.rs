@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::reading::{Quantity, verdict};
+use crate::reading::{Column, Quantity, verdict};
 use crate::scenario::escape;
 use crate::scenario::scalars::Value;
 
@@ -28,7 +28,7 @@ impl Job<'_> {
             Err(_) => (key, text.into()),
         });
         let values = self.job.history.values(&self.session).into_iter();
-        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let values = values.map(|(column, value)| (column.name().to_owned(), value));
         let directory = self.directory.path().display().to_string();
         let directory = [("directory".to_owned(), directory.into())];
         let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
@@ -59,12 +59,16 @@ impl Job<'_> {
         lines.extend(residual.map(|residual| ("energy residual", residual)));
         let error = "estimated error";
         let stated = self.session.statements().iter();
-        if volume > 0.0 && stated.clone().all(|(key, _)| key != "estimated_error") {
+        if volume > 0.0
+            && stated
+                .clone()
+                .all(|(key, _)| key != Column::WornDepthError.name())
+        {
             lines.push((error, "not run (--estimate-error measures it)".into()));
         }
         for (key, value) in stated {
             let mut quantities = Quantity::ALL.iter();
-            let of = quantities.find(|quantity| quantity.column() == key);
+            let of = quantities.find(|quantity| quantity.column().name() == key);
             lines.extend(of.map(|of| (error, format!("{value}   of {}", of.name()))));
         }
         if let Some(verdict) = verdict(&self.session.checks()) {

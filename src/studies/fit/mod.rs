@@ -28,6 +28,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow, ensure};
 
+use crate::reading::Column;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
@@ -359,8 +360,9 @@ impl Fit {
 fn cycles(scenario: &Scenario, data: &[Measured], given: Option<f64>) -> Result<f64> {
     let planned = given.or(scenario.run().cycles).unwrap_or(0.0);
     let mut last = 0.0f64;
-    let over =
-        |set: &&Measured| set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != "energy_J";
+    let over = |set: &&Measured| {
+        set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != Column::Energy
+    };
     if data.iter().any(|set| over(&set)) {
         let session = Session::start(scenario.clone())?;
         for set in data.iter().filter(over) {

@@ -12,7 +12,6 @@ use super::structure::Structure;
 use crate::math::scan::rms;
 use crate::scenario::Scenario;
 use crate::studies::measured::Measured;
-use crate::traces::unit_of;
 
 /// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
 const VAGUE: f64 = 0.5;
@@ -156,7 +155,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
         let left = residuals(set, simulated);
         let spent: f64 = errors.leverages[place].iter().sum();
         let freedom = freedom(left.len(), spent);
-        let (values, abscissae) = (set.axes.unit(), unit_of(set.axes.x));
+        let (values, abscissae) = (set.axes.y.unit(), set.axes.x.unit());
         let column = usize::from(!set.axes.over_r());
         let mut nuisances = Vec::new();
         for k in (0..3).filter(|&k| search.nuisances[i].active[k]) {

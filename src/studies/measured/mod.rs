@@ -4,6 +4,7 @@
 //! noted; what needs one (zeros, centre, tilt) a fit finds beside its keys.
 
 use crate::math::scan::range;
+use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::scenario::columns::Columns;
 use crate::traces::Axes;
@@ -40,29 +41,35 @@ pub enum Kind {
 }
 
 /// Abscissae of histories, in the order in which they are looked for.
-pub const OVER: [&str; 4] = ["cycle", "energy_J", "distance_m", "time_s"];
+pub const OVER: [Column; 4] = [
+    Column::Cycle,
+    Column::Energy,
+    Column::Distance,
+    Column::Time,
+];
 
-/// Ordinates of histories, with what they are called in [`Axes`] and its symbol.
-const WORN: [(&str, &str, &str); 4] = [
-    ("depth_m", Axes::DEPTH.y, Axes::DEPTH.symbol),
-    ("wear_volume_m3", Axes::VOLUME.y, Axes::VOLUME.symbol),
-    ("approach_m", "approach_m", "approach"),
-    ("mass_kg", Axes::VOLUME.y, Axes::VOLUME.symbol),
+/// Ordinates of histories, with what they are called in [`Axes`].
+const WORN: [(Column, Column); 4] = [
+    (Column::Depth, Column::ScarDepth),
+    (Column::WearVolume, Column::WearVolume),
+    (Column::Approach, Column::Approach),
+    (Column::Mass, Column::WearVolume),
 ];
 
 impl Kind {
     /// By the columns of a file; `None` if they are of nothing that was measured.
     pub fn of(columns: &Columns) -> Option<Self> {
-        let has = |name: &str| columns.has(name);
-        let is_own_loop = has("u_x_m") && has("F_x_N") && !has(Axes::VOLUME.y);
-        if has("x_m") && has("y_m") && (has("f_m") || has("wear_m")) {
+        let has = |column: Column| columns.has(column);
+        let is_own_loop =
+            has(Column::Shift) && has(Column::TangentialForce) && !has(Axes::VOLUME.y);
+        if has(Column::X) && has(Column::Y) && (has(Column::Profile) || has(Column::Wear)) {
             Some(Self::Map)
         } else if is_own_loop || has(Axes::LOOP.x) && has(Axes::LOOP.y) {
             Some(Self::Loop)
-        } else if OVER.iter().any(|name| has(name)) && WORN.iter().any(|(name, ..)| has(name)) {
+        } else if OVER.into_iter().any(has) && WORN.iter().any(|(name, _)| has(*name)) {
             Some(Self::History)
         } else {
-            has("r_m").then_some(Self::Scar)
+            has(Column::Radius).then_some(Self::Scar)
         }
     }
 }
@@ -184,11 +191,11 @@ impl Measured {
             .unwrap_or(OVER[0]);
         let found = WORN
             .into_iter()
-            .find(|(name, ..)| columns.has(name))
+            .find(|(name, _)| columns.has(name))
             .unwrap_or(WORN[1]);
-        let (name, y, symbol) = found;
-        let mut measured = read(columns, Axes::new(x, y, symbol), [x, name])?;
-        if name == "mass_kg" {
+        let (name, y) = found;
+        let mut measured = read(columns, Axes::new(x, y), [x, name])?;
+        if name == Column::Mass {
             let rule = "a mass needs the density of what has worn: --density 7800 (kg/m^3)";
             let density = density.ok_or_else(|| columns.refuse(rule))?;
             let errors = measured.errors.iter_mut().flatten();
@@ -200,7 +207,7 @@ impl Measured {
         }
         if let Some(row) = measured.at.iter().position(|at| *at < 0.0) {
             let line = columns.line(row);
-            return Err(columns.refuse(format!("line {line}: {x} must be 0 or greater")));
+            return Err(columns.refuse(format!("line {line}: {} must be 0 or greater", x.name())));
         }
         Ok(measured)
     }
@@ -234,24 +241,27 @@ impl Measured {
 }
 
 /// The columns of displacement and force in a file of loops.
-pub fn loop_columns(columns: &Columns) -> [&'static str; 2] {
-    let is_own = columns.has("u_x_m") && columns.has("F_x_N");
-    let is_sensed = columns.column("rig_displacement_m").is_ok();
+pub fn loop_columns(columns: &Columns) -> [Column; 2] {
+    let is_own = columns.has(Column::Shift) && columns.has(Column::TangentialForce);
+    let is_sensed = columns.column(Column::RigDisplacement.name()).is_ok();
     match (is_own, is_sensed) {
-        (true, true) => ["rig_displacement_m", "F_x_N"],
-        (true, false) => ["u_x_m", "F_x_N"],
+        (true, true) => [Column::RigDisplacement, Column::TangentialForce],
+        (true, false) => [Column::Shift, Column::TangentialForce],
         (false, _) => [Axes::LOOP.x, Axes::LOOP.y],
     }
 }
 
-fn read(columns: &Columns, axes: Axes, [at, values]: [&str; 2]) -> Result<Measured, Refusal> {
-    let (_, unit) = values.rsplit_once('_').unwrap_or_default();
-    let error = format!("error_{unit}");
-    let cycle = columns.header.iter().find(|(key, _)| key == "cycle");
+fn read(columns: &Columns, axes: Axes, [at, values]: [Column; 2]) -> Result<Measured, Refusal> {
+    let (_, unit) = values.name().rsplit_once('_').unwrap_or_default();
+    let error = format!("{}_{unit}", Column::StandardError.name());
+    let cycle = columns
+        .header
+        .iter()
+        .find(|(key, _)| key == Column::Cycle.name());
     let has_errors = columns.has(&error);
     // Without errors, the values take their place.
-    let error = if has_errors { error.as_str() } else { values };
-    let ([at, values, errors], rows) = columns.whole_rows([at, values, error])?;
+    let error = if has_errors { &error } else { values.name() };
+    let ([at, values, errors], rows) = columns.whole_rows([at.name(), values.name(), error])?;
     if at.len() < FEWEST {
         return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));
     }

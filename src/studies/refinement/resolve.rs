@@ -150,7 +150,7 @@ pub fn statements_of(error: &Difference, has_worn: bool) -> Vec<(String, String)
     let stated = Quantity::ALL
         .iter()
         .filter(|of| has_worn || !of.is_of_wear());
-    let stated = stated.map(|&of| (of.column().to_owned(), format!("{:.1e}", error[of])));
+    let stated = stated.map(|&of| (of.column().name().to_owned(), format!("{:.1e}", error[of])));
     stated.collect()
 }
 

@@ -86,8 +86,8 @@ pub(super) fn run_scenario(
         crate::failpoint::hit("point");
         let ended = advance(&mut session, &study.stop, go_on);
         let reading = Reading::new(&session);
-        let columns = study.columns.iter();
-        let fields = columns.map(|column| cell(&column.read(&reading)));
+        let columns = study.columns.iter().copied();
+        let fields = columns.map(|column| cell(&reading.value(column)));
         (ended, fields.collect::<Vec<_>>(), failed_check(&session))
     }));
     let Ok((ended, mut row, failed_check)) = ended else {

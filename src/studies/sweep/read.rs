@@ -11,17 +11,18 @@ use super::axis::{self, Axis, Values, known_key};
 use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
 use crate::math::scale::Scale;
+use crate::reading::Column;
 use crate::scenario::blocks::flatten;
-use crate::scenario::scalars::{self, Scalar, number};
+use crate::scenario::scalars::{self, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{preset, schema, units, values};
 
 /// The columns of a study that names none.
-const COLUMNS: [&str; 4] = [
-    "wear_volume_m3",
-    "dissipated_energy_J",
-    "regime",
-    "estimated_error",
+const COLUMNS: [Column; 4] = [
+    Column::WearVolume,
+    Column::DissipatedEnergy,
+    Column::Regime,
+    Column::WornDepthError,
 ];
 
 type Result<T> = std::result::Result<T, Refusal>;
@@ -181,15 +182,16 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
     Ok(found)
 }
 
-fn columns(names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
-    let usual = || COLUMNS.map(str::to_owned).to_vec();
-    let names = names.map_or_else(usual, <[String]>::to_vec);
-    let mut columns: Vec<&Scalar> = Vec::new();
+fn columns(names: Option<&[String]>) -> Result<Vec<Column>> {
+    let Some(names) = names else {
+        return Ok(COLUMNS.to_vec());
+    };
+    let mut columns = Vec::new();
     for name in names {
-        let column = scalars::named(&name);
+        let column = scalars::named(name);
         let column = column.map_err(|why| Refusal::from(format!("columns: {why}")))?;
-        if columns.iter().any(|known| known.name == column.name) {
-            return refuse("columns", Value::from(name), "stands twice");
+        if columns.contains(&column) {
+            return refuse("columns", Value::from(name.as_str()), "stands twice");
         }
         columns.push(column);
     }

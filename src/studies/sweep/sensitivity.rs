@@ -149,7 +149,7 @@ fn around(
                 let both = spreads[column].zip(spread);
                 spreads[column] = both.map(|(sum, spread)| f64::hypot(sum, spread));
             }
-            let (name, result) = (known.name, results[0][column]);
+            let (name, result) = (known.name(), results[0][column]);
             table.push((
                 key, value, name, result, elasticity, error, deviation, spread,
             ));
@@ -157,7 +157,7 @@ fn around(
     }
     for (column, spread) in spreads.into_iter().enumerate() {
         if spread.is_some() {
-            let (name, result) = (study.columns[column].name, results[0][column]);
+            let (name, result) = (study.columns[column].name(), results[0][column]);
             table.push(("all", (), name, result, (), (), (), spread));
         }
     }

@@ -4,24 +4,28 @@ use super::border::{Distance, crossing, to_gross_slip, to_lift_off};
 use super::finder::Finder;
 use super::record::Record;
 use super::{Axis, Design, Study, Success};
-use crate::reading::Regime;
+use crate::reading::{Column, Regime};
 use crate::scenario::Refusal;
 
 /// The field's criteria that can be laid over a map: column, value, and name with what it holds for.
-const CRITERIA: [(&str, f64, &str); 5] = [
+const CRITERIA: [(Column, f64, &str); 5] = [
     (
-        "energy_ratio",
+        Column::EnergyRatio,
         0.2,
         "A = 0.2 (unworn sphere, stiff rig only)",
     ),
     (
-        "sliding_ratio",
+        Column::SlidingRatio,
         0.26,
         "D = 0.26 (unworn sphere, stiff rig only)",
     ),
-    ("energy_ratio_B", 0.77, "B = 0.77 (sphere, any rig)"),
-    ("swt_ratio", 1.0, "SWT at the fatigue limit"),
-    ("crossland_ratio", 1.0, "Crossland at the fatigue limit"),
+    (Column::EnergyRatioB, 0.77, "B = 0.77 (sphere, any rig)"),
+    (Column::SwtRatio, 1.0, "SWT at the fatigue limit"),
+    (
+        Column::CrosslandRatio,
+        1.0,
+        "Crossland at the fatigue limit",
+    ),
 ];
 
 /// A line over a map, as places on its axes: 1.5 lies halfway between the second and the third value.
@@ -201,29 +205,29 @@ impl Slice {
     }
 
     /// The field of `column` of a point; `None` without a row, or where the point failed.
-    pub fn field(&self, point: usize, column: &str) -> Option<&str> {
+    pub fn field(&self, point: usize, column: Column) -> Option<&str> {
         let row = self.row(point)?;
         let mut columns = self.study.columns.iter();
-        let at = columns.position(|known| known.name == column)?;
+        let at = columns.position(|known| *known == column)?;
         let field = row.get(self.study.axes.len() + at)?;
         (Success::of(row).has_result() && !field.is_empty()).then_some(field)
     }
 
     /// The number in `column` of a point.
-    pub fn number(&self, point: usize, column: &str) -> Option<f64> {
+    pub fn number(&self, point: usize, column: Column) -> Option<f64> {
         let number: f64 = self.field(point, column)?.parse().ok()?;
         number.is_finite().then_some(number)
     }
 
     /// The regime of a point.
     pub fn regime(&self, point: usize) -> Option<Regime> {
-        self.field(point, "regime")?.parse().ok()
+        self.field(point, Column::Regime)?.parse().ok()
     }
 
     /// The criteria of the field, where the study has their columns: between neighbouring points of the map.
     pub fn criteria(&self) -> Vec<Line> {
         let [wide, high] = self.size();
-        let line = |(column, value, name): (&str, f64, &'static str)| {
+        let line = |(column, value, name): (Column, f64, &'static str)| {
             let off = |x: usize, y: usize| {
                 let inside = x < wide && y < high;
                 let number = inside.then(|| self.number(self.point_at(x, y), column));

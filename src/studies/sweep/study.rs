@@ -7,8 +7,8 @@ use toml::{Table, Value};
 
 use super::Design;
 use super::axis::{self, Axis, known_key};
+use crate::reading::Column;
 use crate::scenario::escape::cell;
-use crate::scenario::scalars::Scalar;
 use crate::scenario::values::{self, literal};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::scenario::{assign, schema, units};
@@ -41,7 +41,7 @@ pub struct Study {
     /// How the axes make points.
     pub design: Design,
     /// The columns after the axes' columns.
-    pub columns: Vec<&'static Scalar>,
+    pub columns: Vec<Column>,
     /// When a point ends.
     pub stop: Stop,
     /// Keys whose sensitivities are asked for, each with its standard deviation in its unit; 0 where that is not known.
@@ -91,7 +91,7 @@ impl Study {
     /// The names of all columns, in order: the keys of the axes, the columns, `status`.
     pub fn columns(&self) -> Vec<&str> {
         let axes = self.axes.iter().map(|axis| axis.key.as_str());
-        let columns = self.columns.iter().map(|column| column.name);
+        let columns = self.columns.iter().map(|column| column.name());
         axes.chain(columns).chain(["status"]).collect()
     }
 

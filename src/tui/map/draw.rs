@@ -196,7 +196,8 @@ fn reading(view: &View, point: usize) -> Vec<String> {
     };
     let columns = study.columns();
     let read = columns.iter().zip(fields).skip(study.axes.len());
-    let (first, others): (Vec<_>, Vec<_>) = read.partition(|(name, _)| **name == view.column());
+    let (first, others): (Vec<_>, Vec<_>) =
+        read.partition(|(name, _)| **name == view.column().name());
     let read = first.into_iter().chain(others);
     let read = read.map(|(name, field)| match field.parse() {
         Ok(number) => in_words(&study::quantity(name, &[]), number),
@@ -214,7 +215,7 @@ fn in_words(of: &Axis, number: f64) -> String {
 fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     let ((quantity, range), quiet) = (shown(chart), theme.style(Role::Quiet));
     let name = match view.is_regime() {
-        true => view.column(),
+        true => view.column().name(),
         false => &quantity.label,
     };
     let name = Span::styled(theme.printable(name), theme.style(Role::Focus));

@@ -1,5 +1,6 @@
 //! The study of `:sweep KEY A..B`: one key around the present scenario.
 
+use crate::reading::Column;
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::Study;
 
@@ -10,14 +11,14 @@ pub const POINTS: usize = 25;
 const DECADES: f64 = 20.0;
 
 /// The columns of the study.
-const COLUMNS: [&str; 7] = [
-    "wear_volume_m3",
-    "scar_depth_m",
-    "dissipated_energy_J",
-    "contact_radius_m",
-    "permanent_stick_radius_m",
-    "energy_ratio",
-    "regime",
+const COLUMNS: [Column; 7] = [
+    Column::WearVolume,
+    Column::ScarDepth,
+    Column::DissipatedEnergy,
+    Column::ContactRadius,
+    Column::PermanentStickRadius,
+    Column::EnergyRatio,
+    Column::Regime,
 ];
 
 /// The argument of `sweep`: a key and the ends of its axis.
@@ -72,9 +73,9 @@ impl Range {
             true => "logspace",
             false => "linspace",
         };
-        let Self { key, from, to } = self;
+        let (Self { key, from, to }, columns) = (self, COLUMNS.map(Column::name));
         let text = format!(
-            "base = \"present\"\ncolumns = {COLUMNS:?}\n[[axis]]\nkey = {key:?}\n\
+            "base = \"present\"\ncolumns = {columns:?}\n[[axis]]\nkey = {key:?}\n\
              {spread} = [{from:?}, {to:?}, {POINTS}]\n"
         );
         Study::read_with_base(&text, "sweep", &base.to_toml())

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use crate::figure::study;
 use crate::math::scan;
 use crate::plot::{self, Chart, Scale};
+use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{Axis, Design, Study};
@@ -118,10 +119,10 @@ impl View {
         [self.slice.at[self.slice.x], y]
     }
 
-    /// The name of the column; empty if the study has none.
-    pub fn column(&self) -> &'static str {
+    /// The column that is shown; the cycle, which has no values, if the study has none.
+    pub fn column(&self) -> Column {
         let column = self.slice.study.columns.get(self.column);
-        column.map_or("", |column| column.name)
+        column.copied().unwrap_or(Column::Cycle)
     }
 
     /// The point under the cursor.
@@ -132,7 +133,7 @@ impl View {
 
     /// Whether the column holds words.
     pub fn is_regime(&self) -> bool {
-        self.column() == "regime"
+        self.column() == Column::Regime
     }
 
     /// The chart of the column, as on paper; its colours end with the values that are shown, and its scale is the

@@ -21,7 +21,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let mut chart = over_r(run, "r", (run.pick("f - f0", "worn depth"), "m"));
     chart.band = run.zones();
     chart.y.expects = run.expected_wear();
-    if run.live.is_some() {
+    if run.medium == Medium::Screen {
         chart.y.holds = Some(0.0);
         let shade = |curve: &mut Curve| curve.fill = vec![0.0; curve.xs.len()];
         worn.iter_mut().for_each(shade);

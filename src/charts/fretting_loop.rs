@@ -60,7 +60,7 @@ fn loops(run: &Run) -> Vec<Curve> {
         };
         if is_sensed {
             let curve = Curve::new(sensor, sensed, forces, of_sensor);
-            curves.push(curve.dashed_if(run.live.is_none()));
+            curves.push(curve.dashed_if(run.medium == Medium::Paper));
         }
         // The contact's comes last: another figure takes that as its ghost.
         curves.push(Curve::new(name, one.shifts, one.forces, role));
@@ -74,7 +74,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     }
     let loops = loops(run);
     let moves = |curve: &Curve| curve.xs.iter().any(|&x| x != curve.xs[0]);
-    if run.live.is_none() && !loops.iter().any(moves) {
+    if run.medium == Medium::Paper && !loops.iter().any(moves) {
         return Err(match loops.is_empty() {
             true => {
                 "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \

@@ -33,7 +33,7 @@ pub mod springs;
 pub mod stresses;
 pub mod volume;
 
-pub use run::{Live, Run};
+pub use run::{Live, Medium, Run};
 
 /// Symbols with their meaning, for a reader who knows Hertz and nothing else.
 pub type Symbols = &'static [(&'static str, &'static str)];
@@ -59,9 +59,9 @@ const NO_HISTORY: &str = "there is no history.csv";
 /// Makes a chart of a run, or says why there is nothing to show.
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
-/// Everything that there is to know of a chart but its data.
+/// Everything that there is to know of a chart, or of another panel, but its data.
 #[derive(Debug, Clone, Copy)]
-pub struct Recipe {
+pub struct Recipe<M: ?Sized = Make> {
     /// The name on the command line, for charts that a paper can have.
     pub name: &'static str,
     /// The title.
@@ -87,12 +87,12 @@ pub struct Recipe {
     /// The symbols in the chart with their meaning.
     pub symbols: Symbols,
     /// How it is made.
-    pub make: Make,
+    pub make: M,
 }
 
-impl Recipe {
+impl<M> Recipe<M> {
     /// A recipe that is nothing but made.
-    pub const fn new(make: Make) -> Self {
+    pub const fn new(make: M) -> Self {
         Self {
             name: "",
             title: "",
@@ -108,7 +108,12 @@ impl Recipe {
             make,
         }
     }
+}
 
+/// What is said of a chart or of another panel, however it is made.
+pub type About = Recipe<dyn Sync>;
+
+impl Recipe {
     /// The chart of a run.
     ///
     /// # Errors
@@ -131,9 +136,9 @@ impl Recipe {
         }
         chart.curves.sort_by_key(|curve| match curve.role {
             // On paper, curves of other sources lie over those of the run.
-            Role::Ghost(k) if run.live.is_none() => k + 1,
+            Role::Ghost(k) if run.medium == Medium::Paper => k + 1,
             // On a screen, closed forms lie below what they explain.
-            _ => usize::from(run.live.is_some() && !curve.is_theory),
+            _ => usize::from(run.medium == Medium::Screen && !curve.is_theory),
         });
         Ok(chart)
     }
@@ -145,11 +150,6 @@ impl Recipe {
     pub fn on_paper(&self, run: &Run) -> Result<Chart, Refusal> {
         let chart = self.chart(run, &View::default());
         chart.map_err(|why| Refusal::new(format_args!("no chart {}", self.name), why))
-    }
-
-    /// Whether its abscissa is the radius, which has the cursor.
-    pub fn is_over_r(&self) -> bool {
-        self.overlays.first().is_some_and(|axes| axes.over_r())
     }
 
     /// Whether the chart has a place for what `ghost` holds.

@@ -55,8 +55,8 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     );
     let mut chart = over_r(run, "r", ("f", "m"));
     let times = run.pick(times(run, unworn, wear), 1.0);
-    let worn = match run.live {
-        Some(_) => {
+    let worn = match run.medium {
+        Medium::Screen => {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
@@ -65,7 +65,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
                     .filled(unworn),
             ]
         }
-        None => {
+        Medium::Paper => {
             // What a page hides in the profile: wear that is seen there would lie under its inset.
             let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
             let inset = of_states(run, Column::Wear, "", Role::Profile);

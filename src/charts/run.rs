@@ -10,7 +10,17 @@ use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::{Loop, Table};
 
-/// What a run has only while it is on a screen.
+/// What charts are drawn on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Medium {
+    /// A screen, where charts move with the run.
+    Screen,
+    /// A page.
+    #[default]
+    Paper,
+}
+
+/// What only a run has that goes on: the present moment.
 #[derive(Debug, Clone)]
 pub struct Live {
     /// The present moment.
@@ -59,16 +69,18 @@ pub struct Run {
     pub indenter: Option<Indenter>,
     /// Round, or a line.
     pub geometry: Geometry,
-    /// What belongs to a screen, of a run at one moment; `None` on paper.
+    /// What its charts are drawn on.
+    pub medium: Medium,
+    /// The present moment, of a run that goes on.
     pub live: Option<Live>,
 }
 
 impl Run {
     /// A name for little room on a screen, or in full on paper.
     pub(super) fn pick<T>(&self, screen: T, paper: T) -> T {
-        match self.live {
-            Some(_) => screen,
-            None => paper,
+        match self.medium {
+            Medium::Screen => screen,
+            Medium::Paper => paper,
         }
     }
 
@@ -187,7 +199,7 @@ impl Run {
         let rows = 0..cycles.len();
         let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
         let rows = match 2 * whole.len() > cycles.len() && whole.len() > 1 {
-            true if self.live.is_none() => whole,
+            true if self.medium == Medium::Paper => whole,
             _ => rows.collect(),
         };
         let mut columns = [(); N].map(|()| Vec::new());

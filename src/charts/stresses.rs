@@ -30,10 +30,10 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
     // What τ is divided by; on paper it is drawn as it is.
-    let (name, divisor) = match &run.live {
-        None => ("τ", Some(1.0)),
-        Some(_) if is_log => ("|τ|/μ", run.friction()),
-        Some(_) => ("τ/μ", run.friction()),
+    let (name, divisor) = match run.medium {
+        Medium::Paper => ("τ", Some(1.0)),
+        Medium::Screen if is_log => ("|τ|/μ", run.friction()),
+        Medium::Screen => ("τ/μ", run.friction()),
     };
     // A logarithmic ordinate shows the size of τ.
     let scaled = |shear: f64| {
@@ -51,12 +51,13 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .curves(others)
         .curve(curve("p", pressure.to_vec(), Role::Pressure));
     let shear = state.column(Column::Shear).filter(|_| divisor.is_some());
-    let is_seen = |shear: &&[f64]| run.live.is_some() || shear.iter().any(|&tau| tau != 0.0);
+    let is_seen =
+        |shear: &&[f64]| run.medium == Medium::Screen || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
         let shear = shear.iter().copied().map(scaled).collect();
         let shear = curve(name, shear, Role::Shear);
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
-        chart = chart.curve(shear.dashed_if(run.live.is_some()));
+        chart = chart.curve(shear.dashed_if(run.medium == Medium::Screen));
         chart.y.is_symmetric = true;
     }
     let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {

@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::map::range::{POINTS, Range};
 use super::panels::Panel;
 use super::settings::Setting;
-use crate::charts::Recipe;
+use crate::charts::About;
 use crate::scenario::preset;
 use crate::scenario::schema::Kind;
 
@@ -178,7 +178,7 @@ pub fn copy(typed: &str, _: &Frame) -> Vec<Completion> {
 pub fn focus(typed: &str, _: &Frame) -> Vec<Completion> {
     let panels = Panel::ALL.into_iter().map(|panel| (panel, panel.recipe()));
     let fitting = panels.filter(|(_, recipe)| recipe.title.contains(typed));
-    let focus = |(panel, recipe): (Panel, &Recipe)| {
+    let focus = |(panel, recipe): (Panel, &About)| {
         let text = recipe.text.split_inclusive('.').next().unwrap_or_default();
         Completion::new(format!("focus {}", recipe.title), text)
             .doing(move |on| on.stage.focus_on(panel))

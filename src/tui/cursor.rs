@@ -13,11 +13,10 @@ pub const RADIUS: Abscissa = Column::Radius.name();
 
 /// The abscissa of a panel; pictures read the radius.
 pub fn abscissa(panel: Panel) -> Abscissa {
-    match (panel.picture(), panel.recipe().overlays.first()) {
-        (Some(_), _) => RADIUS,
-        (None, Some(axes)) => axes.x.name(),
-        (None, None) => panel.recipe().title,
-    }
+    panel.chart().map_or(RADIUS, |recipe| {
+        let first = recipe.overlays.first();
+        first.map_or(recipe.title, |axes| axes.x.name())
+    })
 }
 
 /// Steps across what is shown, and the initial place.

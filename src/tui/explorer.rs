@@ -11,7 +11,7 @@ use super::cursor::{self, Abscissa, Cursor, abscissa};
 use super::frame::Frame;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
-use super::panels::{Panel, StressMap, numbers};
+use super::panels::{self, Panel, StressMap, numbers};
 use super::present::SpeedUp;
 use super::stage::Stage;
 use super::undo::Past;
@@ -164,9 +164,10 @@ impl Explorer {
         let Some((panel, place)) = places.find(|(_, place)| place.contains(at)) else {
             return;
         };
-        let chart = self.charts.get(panel, &frame);
-        let chart = chart.as_ref().as_ref().ok();
-        let place = chart.and_then(|chart| panel.abscissa_at(chart, &self.theme, place, at));
+        let recipe = panel.chart();
+        let chart = recipe.map(|recipe| self.charts.get(panel, recipe, &frame));
+        let chart = chart.as_deref().and_then(|made| made.as_ref().ok());
+        let place = chart.and_then(|chart| panels::abscissa_at(chart, &self.theme, place, at));
         let place = place.filter(|_| self.cursor.is_shown() && !is_second);
         if let Some((place, whole)) = place.zip(self.charts.whole(panel)) {
             self.cursor.put(abscissa(panel), whole, place);

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use super::cursor::{Cursor, abscissa};
 use super::frame::{Activity, Frame};
 use super::held::Held;
-use super::panels::Panel;
+use super::panels::{Content, Panel, extent};
 use super::stage::Stage;
 use super::tour;
-use crate::charts::View;
+use crate::charts::{Recipe, View};
 use crate::math::scan::{range, value_at};
 use crate::plot::{Chart, Scale};
 
@@ -100,10 +100,10 @@ impl LiveCharts {
     }
 
     /// The chart of a panel: as it was made when the frame came, else of `frame`.
-    pub(super) fn get(&self, panel: Panel, frame: &Frame) -> Cow<'_, Made> {
+    pub(super) fn get(&self, panel: Panel, recipe: &Recipe, frame: &Frame) -> Cow<'_, Made> {
         match self.charts.get(&panel) {
             Some(chart) => Cow::Borrowed(chart),
-            None => Cow::Owned(panel.recipe().chart(&frame.run, &self.view(panel))),
+            None => Cow::Owned(recipe.chart(&frame.run, &self.view(panel))),
         }
     }
 
@@ -128,12 +128,21 @@ impl LiveCharts {
         }
         let cycle = newest.observation.moment.cycle;
         for &panel in visible {
-            let (recipe, view, frame) = (panel.recipe(), self.view(panel), shown(panel));
+            let (view, frame) = (self.view(panel), shown(panel));
+            let ordinate = (panel, Some(view.scale));
+            let recipe = match panel.content() {
+                Content::Chart(recipe) => recipe,
+                Content::Picture(picture) => {
+                    self.hold(ordinate, (picture.make.extent)(frame), cycle);
+                    continue;
+                }
+            };
             let mut chart = recipe.chart(&frame.run, &view);
             let made = chart.as_ref().ok();
             let across = made.filter(|_| recipe.keeps_abscissa);
             let across = across.and_then(|chart| chart.x.bounds);
-            let along = self.hold((panel, Some(view.scale)), panel.extent(frame, made), cycle);
+            let extent = made.and_then(|chart| extent(chart, recipe.has_spikes));
+            let along = self.hold(ordinate, extent, cycle);
             let across = self.hold((panel, None), across, cycle);
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = along;

@@ -28,13 +28,16 @@ pub(super) fn line_at(
     width: usize,
     theme: &Theme,
 ) -> String {
-    match (abscissa(focus), &*charts.get(focus, frame)) {
-        (RADIUS, _) => line(frame, focus, place, width, theme),
-        (_, Ok(chart)) => match &compared(&frame.run, focus, place)[..] {
+    let Some(recipe) = focus.chart() else {
+        return line(frame, focus, place, width, theme);
+    };
+    match &*charts.get(focus, recipe, frame) {
+        _ if abscissa(focus) == RADIUS => line(frame, focus, place, width, theme),
+        Ok(chart) => match &compared(&frame.run, focus, place)[..] {
             [] => line_of(chart, place, width, theme),
             now => theme.printable(&format!(" now {}", now.concat())),
         },
-        (_, Err(_)) => String::new(),
+        Err(_) => String::new(),
     }
 }
 

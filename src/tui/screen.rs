@@ -20,7 +20,7 @@ use super::explorer::Explorer;
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
-use super::panels::{Panel, Shown, compare};
+use super::panels::{Content, Panel, Shown, compare};
 use super::{footer, present, timeline};
 use crate::plot::theme::Role;
 use crate::reading::verdict;
@@ -78,26 +78,26 @@ fn panels(explorer: &Explorer, mut canvas: Canvas) {
 
 /// Draws a panel: its picture, or its chart.
 fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
-    let (recipe, frame, charts) = (panel.recipe(), &*explorer.frame, &explorer.charts);
+    let (frame, charts) = (&*explorer.frame, &explorer.charts);
     let role = match explorer.stage.focus == panel {
         true => Role::Focus,
         false => Role::Title,
     };
-    if let Some(picture) = panel.picture() {
-        let shown = Shown {
-            frame: explorer.calm.shown(panel, &explorer.stage, frame),
-            calm: explorer.calm.of(frame),
-            stress: explorer.stress,
-            bounds: charts.bounds(panel),
-            role,
-        };
-        return (picture.draw)(&shown, canvas);
-    }
-    match &*charts.get(panel, frame) {
-        Ok(chart) => {
-            canvas.plot(chart, role, explorer.cursor_in(panel));
+    match panel.content() {
+        Content::Picture(picture) => {
+            let shown = Shown {
+                frame: explorer.calm.shown(panel, &explorer.stage, frame),
+                calm: explorer.calm.of(frame),
+                stress: explorer.stress,
+                bounds: charts.bounds(panel),
+                role,
+            };
+            (picture.make.draw)(&shown, canvas);
         }
-        Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
+        Content::Chart(recipe) => match &*charts.get(panel, recipe, frame) {
+            Ok(chart) => _ = canvas.plot(chart, role, explorer.cursor_in(panel)),
+            Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
+        },
     }
 }
 

@@ -88,7 +88,7 @@ pub enum PaperFigure {
 /// The charts that a paper can have: those of the explorer that have a name here, and maps of the half-space.
 pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
     let maps = [&field::VON_MISES, &field::PRINCIPAL, &field::SWT];
-    let charts = Panel::ALL.into_iter().map(Panel::recipe).chain(maps);
+    let charts = Panel::ALL.into_iter().filter_map(Panel::chart).chain(maps);
     charts.filter(|recipe| !recipe.name.is_empty())
 }
 

@@ -1,6 +1,7 @@
 //! What the focused panel shows: a few sentences, its symbols, and what to look for in this scenario.
 
 use super::*;
+use crate::charts::About;
 use crate::tui::canvas::rows;
 use crate::tui::stage::Stage;
 use crate::tui::{panels, tour};
@@ -31,7 +32,7 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
     let is_compared = explorer.compares();
     // In a comparison there are other panels than the focused one.
     let focus = explorer.stage.focus;
-    let (recipe, keys) = match is_compared {
+    let (recipe, keys): (&About, _) = match is_compared {
         true => (&panels::compare::RECIPE, "Esc closes"),
         false => (focus.recipe(), "Tab: next panel, Esc closes"),
     };

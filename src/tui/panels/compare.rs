@@ -18,13 +18,13 @@ const NARROWEST: u16 = 17;
 const DIFFERENCE: &str = "difference of f";
 
 /// The explanation of a comparison, which takes the place of all panels.
-pub static RECIPE: Recipe = Recipe {
+pub static RECIPE: Recipe<()> = Recipe {
     title: "comparison",
     text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
            of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
            at the start of the scenario, c ends the comparison.",
     symbols: &[A, C, ("side by side", "the same numbers of both runs")],
-    ..Recipe::new(|_, _| Err(""))
+    ..Recipe::new(())
 };
 
 /// Draws the comparison over the whole area of the panels, with a cursor at a radius, m, if there is one.

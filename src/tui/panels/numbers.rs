@@ -5,31 +5,30 @@ use crate::reading::CycleFigures;
 use crate::scenario::units::shown_in;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "numbers",
-        is_calm: true,
-        text: "The state in numbers, and what a fretting test reports for the last complete cycle. A, B and D \
-               are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
-               D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
-        symbols: &[
-            ("E_d", "energy lost to friction"),
-            ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
-            (
-                "slip ratio",
-                "mean slip of the contact divided by the amplitude",
-            ),
-            ("D, A, B", "sliding ratio and energy ratios of the loop"),
-            ("V/E_d", "wear volume divided by accumulated energy"),
-        ],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: |_| None,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "numbers",
+    is_calm: true,
+    text: "The state in numbers, and what a fretting test reports for the last complete cycle. A, B and D \
+           are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
+           D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
+    symbols: &[
+        ("E_d", "energy lost to friction"),
+        ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
+        (
+            "slip ratio",
+            "mean slip of the contact divided by the amplitude",
+        ),
+        ("D, A, B", "sliding ratio and energy ratios of the loop"),
+        ("V/E_d", "wear volume divided by accumulated energy"),
+    ],
+    ..Recipe::new(Picture {
+        draw,
+        extent: |_| None,
+    })
 };
 
 fn draw(shown: &Shown, mut canvas: Canvas) {
-    let mut canvas = canvas.titled(PICTURE.recipe.title, shown.role);
+    let mut canvas = canvas.titled(RECIPE.title, shown.role);
     let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;

@@ -15,17 +15,16 @@ use crate::plot::step::Step;
 use crate::plot::theme::look_of;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "scar from above",
-        needs: Curves::PROFILE.union(Curves::SPRINGS),
-        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
-               the right half the worn depth in colours. The arrow shows which way the indenter slips.",
-        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: depths,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "scar from above",
+    needs: Curves::PROFILE.union(Curves::SPRINGS),
+    text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
+           the right half the worn depth in colours. The arrow shows which way the indenter slips.",
+    symbols: &[("s ~ .", "stick, slip, open (without colours)")],
+    ..Recipe::new(Picture {
+        draw,
+        extent: depths,
+    })
 };
 
 /// The width, cells, from which the legend fits in one line, and the height from which it gets two
@@ -58,7 +57,7 @@ fn depths(frame: &Frame) -> Option<[f64; 2]> {
 
 fn draw(of: &Shown, mut canvas: Canvas) {
     let frame = of.frame;
-    let mut canvas = canvas.titled(PICTURE.recipe.title, of.role);
+    let mut canvas = canvas.titled(RECIPE.title, of.role);
     let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;

@@ -22,22 +22,21 @@ use crate::plot::theme::look_of;
 use crate::reading::Zone;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "cross-section",
-        needs: Curves::PROFILE
-            .union(Curves::DEPRESSION)
-            .union(Curves::SPRINGS)
-            .union(Curves::SURFACE),
-        is_calm: true,
-        text: "A cut through both bodies: the indenter above, the half-space it deforms below. The title tells \
-               what is magnified. The contact surface is coloured by stick and slip; the short lines across it \
-               (V) stay in one where it sticks, and part where it slips.",
-        symbols: &[("F_z", "normal force"), U_X],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: heights,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "cross-section",
+    needs: Curves::PROFILE
+        .union(Curves::DEPRESSION)
+        .union(Curves::SPRINGS)
+        .union(Curves::SURFACE),
+    is_calm: true,
+    text: "A cut through both bodies: the indenter above, the half-space it deforms below. The title tells \
+           what is magnified. The contact surface is coloured by stick and slip; the short lines across it \
+           (V) stay in one where it sticks, and part where it slips.",
+    symbols: &[("F_z", "normal force"), U_X],
+    ..Recipe::new(Picture {
+        draw,
+        extent: heights,
+    })
 };
 
 /// Parts of a cell that a surface is drawn to.
@@ -212,12 +211,12 @@ impl Section<'_> {
 
 fn draw(shown: &Shown, mut canvas: Canvas) {
     let room = usize::from(canvas.area.width.saturating_sub(2));
-    let inner = canvas.titled(PICTURE.recipe.title, shown.role).area;
+    let inner = canvas.titled(RECIPE.title, shown.role).area;
     let [picture, below] = caption::beside(inner);
     let Some(section) = Section::of(shown, &canvas.theme, picture) else {
         return;
     };
-    canvas.titled(&section.title(PICTURE.recipe.title, room), shown.role);
+    canvas.titled(&section.title(RECIPE.title, room), shown.role);
     let mut canvas = canvas.at(picture);
     section.bodies(&mut canvas);
     if picture.height >= LARGE {

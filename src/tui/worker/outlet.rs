@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use super::*;
-use crate::charts::{Live, Run};
+use crate::charts::{Live, Medium, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
@@ -145,6 +145,7 @@ impl Worker {
             ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
             theory: Some(Arc::clone(&facts.theory)),
             indenter: Some(setup.indenter.clone()),
+            medium: Medium::Screen,
             live: Some(Live {
                 moment,
                 wears: seen.law.is_some(),

@@ -41,10 +41,15 @@ pub(super) fn assign(
     if parameter.path == "indenter.shape" {
         drop_keys_of_other_shapes(table, &value, origin);
     }
-    drop_replaced(table, parameter.path);
-    origin.assign(parameter.path, written);
-    values::insert(table, parameter.path, value);
+    put(table, origin, parameter.path, value, written);
     Ok(())
+}
+
+/// Puts `value` at a known `path`, in the place of what does not go with it.
+pub(super) fn put(table: &mut Table, origin: &mut Origin, path: &str, value: Value, written: &str) {
+    drop_replaced(table, path);
+    origin.assign(path, written);
+    values::insert(table, path, value);
 }
 
 /// Drops the keys whose place the one that is assigned takes, or that do not go with it.

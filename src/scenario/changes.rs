@@ -83,7 +83,7 @@ impl Scenario {
         place: impl Fn(usize) -> String,
     ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
-        let mut table = self.with_changes(Vec::new()).whole();
+        let mut table = self.with_changes(Vec::new()).whole(&self.spec);
         for (at, change) in changes.iter().enumerate() {
             let written = place(at);
             let (key, value) = assign::split(&change.set, &written)?;

@@ -35,6 +35,7 @@ mod run;
 pub mod scalars;
 pub mod schema;
 pub mod session;
+pub mod spec;
 pub mod typed;
 pub mod units;
 pub(crate) mod values;
@@ -48,6 +49,7 @@ use error::{Faults, Origin};
 use escape::echo;
 pub use escape::printable;
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
+pub use spec::Spec;
 
 /// The longest [stem](Scenario::stem), in bytes.
 const LONGEST_STEM: usize = 200;
@@ -60,11 +62,12 @@ pub struct Scenario {
     directory: PathBuf,
     title: String,
     description: String,
-    /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out,
-    /// but for those that follow the method.
+    /// The parts that code changes.
+    spec: Spec,
+    /// All other keys except `[[changes]]`. Here and there the defaults that may change are written out, but for those
+    /// that follow the method.
     table: Table,
     setup: Setup,
-    run: RunPlan,
     changes: Vec<Change>,
 }
 
@@ -73,7 +76,7 @@ impl PartialEq for Scenario {
     fn eq(&self, other: &Self) -> bool {
         self.table == other.table
             && self.setup == other.setup
-            && self.run == other.run
+            && self.spec == other.spec
             && self.changes == other.changes
     }
 }
@@ -134,6 +137,22 @@ impl Scenario {
         self.with_all(&[(key, value)])
     }
 
+    /// The same scenario with other numbers at dotted paths.
+    ///
+    /// # Errors
+    /// Numbers that are refused.
+    pub fn with_numbers<'a>(
+        &self,
+        numbers: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, Refusal> {
+        let (mut table, mut origin) = (self.whole(&self.spec), Origin::new(&self.origin));
+        for (key, number) in numbers {
+            let written = assign::written(key, &scalars::number(number));
+            assign::put(&mut table, &mut origin, key, Value::Float(number), &written);
+        }
+        Self::build(table, origin, &self.origin, &self.directory)
+    }
+
     /// [`with`](Self::with) for several keys that are only right together, such as another shape
     /// and its size.
     pub fn with_all(
@@ -141,7 +160,7 @@ impl Scenario {
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
-        let mut table = self.whole();
+        let mut table = self.whole(&self.spec);
         let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
         if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
             && self.accuracy().is_none()
@@ -158,9 +177,25 @@ impl Scenario {
         Self::build(table, origin, &self.origin, &self.directory)
     }
 
+    /// The same scenario with other parts.
+    ///
+    /// # Errors
+    /// Values that are refused.
+    pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Result<Self, Refusal> {
+        let mut spec = self.spec.clone();
+        edit(&mut spec);
+        let table = self.whole(&spec);
+        Self::build(
+            table,
+            Origin::new(&self.origin),
+            &self.origin,
+            &self.directory,
+        )
+    }
+
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
-        let is_given = self.value("numerics.domain_radius").is_some();
+        let is_given = self.spec.numerics.domain_radius.is_some();
         match is_given || self.setup.indenter.rim().is_some() {
             true => Domain::Given,
             false => Domain::Derived,
@@ -170,10 +205,9 @@ impl Scenario {
     /// The same scenario with another `[run]`, which is taken as it is.
     #[must_use]
     pub fn with_run(&self, run: RunPlan) -> Self {
-        Self {
-            run,
-            ..self.clone()
-        }
+        let mut scenario = self.clone();
+        scenario.spec.run = run;
+        scenario
     }
 
     /// The same scenario with what its files state of its errors, keys and values, which [`statements`](Self::statements)
@@ -181,14 +215,14 @@ impl Scenario {
     #[must_use]
     pub fn stating(mut self, statements: &[(String, String)]) -> Self {
         let seal = self.seal();
-        self.run.state(statements, &seal);
+        self.spec.run.state(statements, &seal);
         self
     }
 
     /// What the files of the run that this scenario records state of its errors, keys and values; empty for a scenario
     /// that records no run, or was edited since.
     pub fn statements(&self) -> Vec<(String, String)> {
-        match self.run.statements() {
+        match self.spec.run.statements() {
             Some((statements, seal)) if seal == self.seal() => statements,
             _ => Vec::new(),
         }
@@ -198,7 +232,7 @@ impl Scenario {
     fn seal(&self) -> String {
         let bare = self.with_run(RunPlan {
             stated: None,
-            ..self.run.clone()
+            ..self.spec.run.clone()
         });
         format!("{:08x}", crc32fast::hash(bare.to_toml().as_bytes()))
     }
@@ -246,7 +280,12 @@ impl Scenario {
 
     /// Length and output of the run.
     pub fn run(&self) -> &RunPlan {
-        &self.run
+        &self.spec.run
+    }
+
+    /// The parts that code changes.
+    pub fn spec(&self) -> &Spec {
+        &self.spec
     }
 
     /// What is changed during the run, in order.
@@ -258,13 +297,13 @@ impl Scenario {
     /// then points, steps and tolerance are still to be found, by [`refinement`](crate::studies::refinement), and
     /// assigning one of them takes its place.
     pub fn accuracy(&self) -> Option<f64> {
-        schema::read(&self.table, "numerics.accuracy")
+        self.spec.numerics.accuracy
     }
 
     /// `wear.share`, the part of the worn depth that is the indenter's, where it is given. The contact feels the sum of
     /// both bodies' wear alone, so the simulation does not know it.
     pub fn wear_share(&self) -> Option<f64> {
-        schema::read(&self.table, "wear.share")
+        self.spec.wear.as_ref()?.share
     }
 
     /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
@@ -275,11 +314,7 @@ impl Scenario {
     /// The value at a dotted path as TOML, where the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
         let value = |table: &Table| values::at(table, path).map(values::literal);
-        match path.split('.').next() {
-            // These two stand apart; the other keys are looked up as they are, for every frame.
-            Some("run" | "changes") => value(&self.whole()),
-            _ => value(&self.table),
-        }
+        value(&self.table).or_else(|| value(&self.whole(&self.spec)))
     }
 
     /// The whole scenario as it is run. Read back, it gives an equal one, to the last bit. What
@@ -292,7 +327,7 @@ impl Scenario {
             follows.insert(0, ("numerics.grid", quoted(setup.spacing.name())));
         }
         let source = format!("default of method \"{}\"", setup.method);
-        write::scenario(&self.whole(), &follows, &source)
+        write::scenario(&self.whole(&self.spec), &follows, &source)
     }
 
     /// Checks a table and makes its parts; errors show its values as they were written.
@@ -307,7 +342,12 @@ impl Scenario {
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
-        let (complete, setup) = parts::setup(&mut table, from, faults)?;
+        let (mut complete, setup) = parts::setup(&mut table, from, faults)?;
+        complete.extend(
+            table
+                .get_key_value("run")
+                .map(|(run, plan)| (run.clone(), plan.clone())),
+        );
         let changes: Vec<Change> = schema::read(&table, "changes").unwrap_or_default();
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
@@ -323,26 +363,26 @@ impl Scenario {
             directory: directory.to_owned(),
             title: printable(given.as_deref().unwrap_or(origin)),
             description: lines.join("\n"),
+            spec: Spec::take(&mut complete),
             table: complete,
             setup,
-            run: schema::read(&table, "run").unwrap_or_default(),
             changes: Vec::new(),
         };
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);
-        if scenario.run.stated.is_some() && scenario.statements().is_empty() {
+        if scenario.spec.run.stated.is_some() && scenario.statements().is_empty() {
             // They are about the scenario before it was edited.
-            scenario.run.stated = None;
+            scenario.spec.run.stated = None;
         }
         Ok(scenario)
     }
 
-    /// All keys, `[run]` and `[[changes]]` included.
-    fn whole(&self) -> Table {
+    /// All keys with these parts, `[[changes]]` included.
+    fn whole(&self, spec: &Spec) -> Table {
         let mut table = self.table.clone();
-        let plan = Value::try_from(&self.run).expect("a plan is a table");
         let changes = Value::try_from(&self.changes).expect("changes are a list");
-        table.extend([("run".into(), plan), ("changes".into(), changes)]);
+        table.extend(spec.table());
+        table.insert("changes".into(), changes);
         table
     }
 }

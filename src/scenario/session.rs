@@ -6,7 +6,8 @@
 use thiserror::Error;
 
 use super::changes::{Change, MOST_CHANGES};
-use super::{Refusal, RunPlan, Scenario};
+use super::spec::Edits;
+use super::{Refusal, RunPlan, Scenario, Spec};
 use crate::reading::{Check, CycleFigures, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
 
@@ -197,6 +198,20 @@ impl Session {
         }
     }
 
+    /// Changes parts of the scenario now, carrying the state over; what differs is recorded, and returned.
+    ///
+    /// # Errors
+    ///
+    /// As [`change_all`](Self::change_all).
+    pub fn edit(&mut self, edit: impl FnOnce(&mut Spec)) -> Result<Edits, SessionError> {
+        let before = self.scenario.spec();
+        let mut after = before.clone();
+        edit(&mut after);
+        let edits = before.changes_to(&after);
+        self.change_all(&edits)?;
+        Ok(edits)
+    }
+
     /// Changes one key of the scenario now, carrying the state over, and records it.
     /// On an error nothing has changed.
     pub fn change(&mut self, key: &str, value: &str) -> Result<(), SessionError> {
@@ -269,7 +284,7 @@ impl Session {
     #[must_use]
     pub fn noted(&self, note: &str) -> Self {
         let mut noted = self.clone();
-        noted.loaded.run.note = Some(note.to_owned());
+        noted.loaded.spec.run.note = Some(note.to_owned());
         noted
     }
 

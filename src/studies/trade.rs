@@ -12,6 +12,7 @@ use crate::math::abel::AbelMethod;
 use crate::reading::{Moment, Quantity, Subject};
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::spec::{Numerics, Spec};
 use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Level, Outcome, Reached, Rung};
@@ -54,14 +55,17 @@ impl Display for Setting {
 }
 
 impl Setting {
-    /// The keys of a scenario and their values.
-    pub fn keys(&self) -> Vec<(&'static str, String)> {
-        let mut keys = vec![
-            ("numerics.method", self.method.name().to_owned()),
-            ("numerics.scheme", self.scheme.name().to_owned()),
-        ];
-        keys.extend(self.level.keys());
-        keys
+    fn set(&self, numerics: &mut Numerics) {
+        (numerics.method, numerics.scheme) = (Some(self.method), Some(self.scheme));
+        self.level.set(numerics);
+    }
+
+    /// The scenario computed so.
+    ///
+    /// # Errors
+    /// If the scenario's shape does not allow the method or this many cells.
+    pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, Refusal> {
+        scenario.edited(|spec| self.set(&mut spec.numerics))
     }
 
     /// An estimate of the work of a cycle, in kernel values.
@@ -72,8 +76,11 @@ impl Setting {
 
     /// The same as options that `run` takes.
     pub fn assignments(&self) -> Vec<String> {
-        let set = |(key, value)| format!("--set {key}={value}");
-        self.keys().into_iter().map(set).collect()
+        let mut spec = Spec::default();
+        self.set(&mut spec.numerics);
+        let keys = Spec::default().changes_to(&spec).into_iter();
+        let set = |(key, value): (_, String)| format!("--set {key}={}", value.trim_matches('"'));
+        keys.map(set).collect()
     }
 
     /// Runs `scenario` so over `cycles`, as long as `go_on`, which is asked at every step, says so, and as often as a
@@ -87,7 +94,7 @@ impl Setting {
         cycles: f64,
         go_on: &dyn Fn() -> bool,
     ) -> Result<(Session, f64), SessionError> {
-        let scenario = scenario.with_all(&self.keys())?;
+        let scenario = self.of_scenario(scenario)?;
         let mut times = Vec::new();
         loop {
             let start = Instant::now();
@@ -148,10 +155,10 @@ pub fn settings(
 /// # Errors
 /// If its shape does not allow that method.
 pub fn by_the_best(scenario: &Scenario) -> Result<Scenario, Refusal> {
-    scenario.with_all(&[
-        ("numerics.method", AbelMethod::Product.name()),
-        ("numerics.scheme", Scheme::Trapezoid.name()),
-    ])
+    scenario.edited(|spec| {
+        spec.numerics.method = Some(AbelMethod::Product);
+        spec.numerics.scheme = Some(Scheme::Trapezoid);
+    })
 }
 
 /// What settings are judged against: a run whose own error is known.
@@ -198,7 +205,7 @@ impl Display for Reference {
 /// Whether the user asks for jumps; an accuracy that chooses them does not.
 fn wants_jumps(scenario: &Scenario) -> bool {
     scenario.setup().integrator != Integrator::Direct
-        && scenario.value("numerics.integrator").is_some()
+        && scenario.spec().numerics.integrator.is_some()
 }
 
 /// One setting, and how it did.

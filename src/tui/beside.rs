@@ -11,6 +11,7 @@ use super::trend::Recorded;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::{MIN_CELLS, RadialGrid};
 use crate::reading::{Curves, Observation};
+use crate::scenario::Spec;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Difference, Outcome};
 
@@ -107,18 +108,20 @@ impl ComparisonRun {
         let choices = choices(session);
         let now = before.map_or(0, |comparison| comparison.choice) as isize;
         let choice = (now + places).rem_euclid(choices.len() as isize) as usize;
-        let (key, value) = &choices[choice];
+        let chosen = &choices[choice];
         let session = match from {
             From::Now => {
                 let mut session = session.clone();
-                session.change(key, value)?;
+                session.edit(chosen)?;
                 session
             }
             From::Start => {
                 let run = session.as_run(Vec::new());
                 let mut others = run.changes().to_vec();
-                others.retain(|change| change.key() != *key);
-                let scenario = run.with_changes(Vec::new()).with(key, value)?;
+                let run = run.with_changes(Vec::new());
+                let scenario = run.edited(chosen)?;
+                let replaced = run.spec().changes_to(scenario.spec());
+                others.retain(|change| replaced.iter().all(|(key, _)| change.key() != *key));
                 Session::start(scenario.with_changes(others))?
             }
         };
@@ -159,17 +162,22 @@ pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
     format!("{}, N = {}", method.spoken(), grid.cells())
 }
 
+/// What tells the other run apart.
+type Edit = Box<dyn Fn(&mut Spec)>;
+
 /// What a run can be compared with: every other method, and itself on half the cells.
-fn choices(session: &Session) -> Vec<(&'static str, String)> {
+fn choices(session: &Session) -> Vec<Edit> {
     let setup = session.simulation().setup();
     let mut others = AbelMethod::of(setup.geometry).to_vec();
     others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
     others.sort_by_key(|method| *method != AbelMethod::B);
-    let change = |method| ("numerics.method", format!("\"{method}\""));
     let half = (setup.grid.cells() / 2).max(MIN_CELLS);
-    let half = ("numerics.points", half.to_string());
-    others.into_iter().map(change).chain([half]).collect()
+    let by = |method| -> Edit { Box::new(move |spec| spec.numerics.method = Some(method)) };
+    let on_half: Edit = Box::new(move |Spec { numerics, .. }| {
+        (numerics.accuracy, numerics.points, numerics.nodes) = (None, Some(half), None);
+    });
+    others.into_iter().map(by).chain([on_half]).collect()
 }
 
 /// The run is this many times longer at the next comparison.

@@ -95,7 +95,7 @@ fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
             (picture.make.draw)(&shown, canvas);
         }
         Content::Chart(recipe) => match &*charts.get(panel, recipe, frame) {
-            Ok(chart) => _ = canvas.plot(chart, role, explorer.cursor_in(panel)),
+            Ok(chart) => canvas.plot(chart, role, explorer.cursor_in(panel)),
             Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
         },
     }

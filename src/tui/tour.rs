@@ -31,7 +31,7 @@ impl Caption {
 }
 
 static TOURS: LazyLock<HashMap<String, Vec<Caption>>> =
-    LazyLock::new(|| toml::from_str(include_str!("tours.toml")).unwrap_or_default());
+    LazyLock::new(|| toml::from_str(include_str!("tours.toml")).expect("tours are TOML"));
 
 /// The captions of a preset; `None` for other scenarios.
 pub fn captions(origin: &str) -> &'static [Caption] {

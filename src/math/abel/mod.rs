@@ -53,6 +53,7 @@
 use std::fmt::Debug;
 
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use super::geometry::Geometry;
@@ -79,9 +80,9 @@ pub mod worn;
 pub const MOST_DENSE_CELLS: usize = 8192;
 
 /// A way to compute the three transforms.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[derive(Display, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum AbelMethod {
     /// Product integration, linear in r²: ours.
@@ -90,6 +91,7 @@ pub enum AbelMethod {
     A,
     /// The paper's suggestion (b): Method A for (1) and (3), Method B for (2).
     #[strum(serialize = "a+b")]
+    #[serde(rename = "a+b")]
     APlusB,
     /// The paper's Method B: trapezoids in asin and acosh, Eqs. (11) to (13).
     B,

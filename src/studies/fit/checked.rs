@@ -73,7 +73,7 @@ pub(super) fn with_stroke(
             format!("its amplitude is {other:.3e} m, that of the loop before it {first:.3e} m")
         ));
     }
-    Ok(scenario.with(STROKE, &format!("{first:e}"))?)
+    Ok(scenario.with_numbers([(STROKE, first)])?)
 }
 
 /// Refuses depths that can be in no unit but another one.

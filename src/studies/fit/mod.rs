@@ -264,8 +264,8 @@ impl Fit {
     /// `scenario` with these values of the keys.
     fn at(&self, scenario: &Scenario, theta: &[f64]) -> Result<Scenario, SessionError> {
         let keys = self.free.iter().zip(theta);
-        let values = keys.map(|(free, theta)| (&free.key, format!("{:e}", free.value(*theta))));
-        Ok(scenario.with_all(&values.collect::<Vec<_>>())?)
+        let values = keys.map(|(free, theta)| (free.key.as_str(), free.value(*theta)));
+        Ok(scenario.with_numbers(values)?)
     }
 
     /// What may be fitted beside the keys. A trace on one side of its zero may begin at the axis or run through it.

@@ -16,7 +16,8 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::{Integrator, placing};
+use crate::scenario::spec::Passage;
+use crate::simulation::placing;
 
 /// The order by which the next rung is chosen.
 const EXPECTED_ORDER: f64 = 1.7;
@@ -362,7 +363,7 @@ impl Ladder<'_> {
     /// The shape that nodes are placed for; `None` if the scenario says where they lie.
     fn placing(&self) -> Option<&Indenter> {
         let setup = self.scenario.setup();
-        let is_open = self.scenario.value("numerics.grid").is_none();
+        let is_open = self.scenario.spec().numerics.grid.is_none();
         (setup.method == AbelMethod::Product && is_open).then_some(&setup.indenter)
     }
 
@@ -431,8 +432,8 @@ fn first(scenario: &Scenario, cycles: f64, accuracy: f64) -> Level {
     let turns = setup.drive.frequency_ratio().max(1.0);
     let period = setup.drive.repeats_after().map(f64::from);
     let is_long = period.is_some_and(|period| cycles >= WORTH_JUMPING * period);
-    let jumps = match scenario.value("numerics.integrator") {
-        Some(_) => matches!(setup.integrator, Integrator::CycleJump { .. }),
+    let jumps = match scenario.spec().numerics.integrator {
+        Some(passage) => passage == Passage::CycleJump,
         None => is_long && setup.wear.is_some() && setup.drive.tangential().is_some(),
     };
     let points = (20.0 * finer.powf(0.4)).round() as usize;

@@ -1,6 +1,7 @@
 //! How finely a scenario is computed: cells, steps and the tolerance of jumps.
 
 use crate::math::grid::{MAX_CELLS, MIN_CELLS, RadialGrid};
+use crate::scenario::spec::{Numerics, Passage};
 use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Spacing};
 
@@ -105,23 +106,16 @@ impl Level {
         ]
     }
 
-    /// The keys of a scenario and their values.
-    pub fn keys(&self) -> Vec<(&'static str, String)> {
-        let jumps = |tolerance| Integrator::CycleJump { tolerance };
-        let integrator = self.tolerance.map_or(Integrator::Direct, jumps);
-        let mut keys = vec![
-            ("numerics.points", self.points.to_string()),
-            ("numerics.steps_per_cycle", self.steps.to_string()),
-            ("numerics.integrator", integrator.name().to_owned()),
-        ];
-        let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
-        keys.extend(tolerance.map(|tolerance| ("numerics.tolerance", tolerance)));
-        // Last: another number of points would take their place.
-        if let Some(grid) = &self.nodes {
-            let nodes: Vec<String> = grid.nodes().iter().map(|r| format!("{r:e}")).collect();
-            keys.push(("numerics.nodes", format!("[{}]", nodes.join(", "))));
-        }
-        keys
+    /// Puts the numerics of a scenario on this level.
+    pub fn set(&self, numerics: &mut Numerics) {
+        numerics.accuracy = None;
+        numerics.points = Some(self.points);
+        numerics.steps_per_cycle = Some(self.steps);
+        let jumps = self.tolerance.map(|_| Passage::CycleJump);
+        numerics.integrator = jumps.or(Some(Passage::Direct));
+        numerics.tolerance = self.tolerance.or(numerics.tolerance);
+        numerics.nodes = self.nodes.as_ref().map(|grid| grid.nodes().to_vec());
+        numerics.grid = numerics.grid.filter(|_| self.nodes.is_none());
     }
 
     /// The scenario on this level; its changes stay.
@@ -129,7 +123,7 @@ impl Level {
     /// # Errors
     /// If the scenario's method or shape does not allow this many cells.
     pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, Refusal> {
-        scenario.with_all(&self.keys())
+        scenario.edited(|spec| self.set(&mut spec.numerics))
     }
 }
 

@@ -5,8 +5,8 @@ use super::level::Level;
 use super::outcome::Difference;
 use crate::reading::Quantity;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::spec::Passage;
 use crate::scenario::{Scenario, USUAL_ACCURACY};
-use crate::simulation::Integrator;
 
 /// Cycles over which an accuracy is met for a run without an end.
 const WITHOUT_END: f64 = 100.0;
@@ -103,7 +103,7 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
     match search(scenario, None, budget, &|| true) {
         Ok(found) if is_watched(scenario) => Ok(Resolved {
             scenario: (found.scenario)
-                .with_all(&[("numerics.integrator", Integrator::Direct.name())])?,
+                .edited(|spec| spec.numerics.integrator = Some(Passage::Direct))?,
             ..found
         }),
         Ok(found) => Ok(found),
@@ -141,7 +141,7 @@ fn in_time(budget: Budget) -> String {
 
 /// Whether the cycles of a run are what a screen is there for, though it could jump over them.
 fn is_watched(scenario: &Scenario) -> bool {
-    let is_open = scenario.accuracy().is_some() && scenario.value("numerics.integrator").is_none();
+    let is_open = scenario.accuracy().is_some() && scenario.spec().numerics.integrator.is_none();
     is_open && scenario.run().cycles.is_none_or(|cycles| cycles < WATCHED)
 }
 

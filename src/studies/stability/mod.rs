@@ -5,8 +5,9 @@
 //! profile alone would not show it.
 
 use crate::math::abel::AbelMethod;
+use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Change, Scenario};
+use crate::simulation::Stability;
 use crate::studies::refinement::Level;
 use predict::predict;
 
@@ -103,15 +104,18 @@ impl Study {
     }
 
     fn start(&self, setting: Setting, wear_number: f64) -> Result<Session, SessionError> {
-        let stability = if setting.guard { "sub-step" } else { "off" };
-        let mut keys = vec![
-            ("numerics.method", setting.method.name().to_owned()),
-            ("numerics.stability", stability.to_owned()),
-            ("wear.coefficient", format!("{:e}", wear_number * self.unit)),
-        ];
-        keys.extend(Level::new(setting.points, setting.steps, None).keys());
-        let changes = keys.iter().map(|(key, value)| Change::new(0.0, key, value));
-        Session::start(self.scenario.after(&changes.collect::<Vec<_>>())?)
+        let scenario = self.scenario.with_changes(Vec::new()).edited(|spec| {
+            let guarded = setting.guard.then_some(Stability::SubStep);
+            let numerics = &mut spec.numerics;
+            (numerics.method, numerics.stability) =
+                (Some(setting.method), guarded.or(Some(Stability::Off)));
+            Level::new(setting.points, setting.steps, None).set(numerics);
+            if let Some(wear) = &mut spec.wear {
+                wear.coefficient = Some(wear_number * self.unit);
+                wear.coefficient_per_load = None;
+            }
+        });
+        Session::start(scenario?)
     }
 
     /// Runs one setting at one wear number; `None` if `go_on` said no.

@@ -67,7 +67,7 @@ impl Range {
     /// The study of a scenario over this range, each point run for this many cycles.
     pub(super) fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
         let base = scenario.with_changes(Vec::new());
-        let base = base.with("run.cycles", &cycles.to_string())?;
+        let base = base.edited(|spec| spec.run.cycles = Some(cycles))?;
         let ratio = self.to / self.from;
         let spread = match self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
             true => "logspace",

@@ -5,7 +5,8 @@ use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
 
 /// Factor by which each key press refines cells and steps.
@@ -13,9 +14,6 @@ const STRIDE: f64 = 1.5;
 
 /// Minimum number of cells reached by the key.
 const COARSEST: usize = 8;
-
-/// Laws that keys step through.
-const LAWS: [&str; 2] = ["archard", "power"];
 
 impl Worker {
     /// Changes the transform method by this many places, that of the comparison if there is one.
@@ -31,7 +29,7 @@ impl Worker {
                 .notice("a line contact has the method product only");
         }
         let method = shifted(methods, setup.method, places);
-        self.change("numerics.method", method.name());
+        self.edit(|spec| spec.numerics.method = Some(method));
     }
 
     /// Changes the wear law by this many places.
@@ -39,7 +37,11 @@ impl Worker {
         let told = "this scenario has no wear, so it has no wear law to change";
         match self.run.simulation().setup().wear {
             None => self.screen.notice(told),
-            Some(now) => self.change("wear.law", shifted(&LAWS, now.name(), places)),
+            Some(_) => self.edit(|spec| {
+                if let Some(wear) = &mut spec.wear {
+                    wear.law = wear.law.map(|now| shifted(&Law::ALL, now, places));
+                }
+            }),
         }
     }
 
@@ -55,17 +57,29 @@ impl Worker {
             let told = format!("N = {}: this is the {end} level", now.points);
             return self.screen.notice(&told);
         }
-        let mut changes = next.keys();
-        changes.retain(|(key, _)| *key != "numerics.integrator");
         let Level { points, steps, .. } = next;
         let done = format!("N = {points}, {steps} steps per cycle; a estimates the error");
-        self.change_all(&changes, &done);
+        self.change_by(|run| {
+            run.edit(|spec| next.set(&mut spec.numerics))?;
+            Ok(done)
+        });
+    }
+
+    /// Changes parts of the scenario from here on.
+    fn edit(&mut self, edit: impl FnOnce(&mut Spec)) {
+        self.change_by(|run| {
+            let edits = run.edit(edit)?.into_iter();
+            let keys = edits.map(|(key, value)| format!("{key} = {}", value.trim_matches('"')));
+            Ok(at_cycle(run, &keys.collect::<Vec<_>>().join(", ")))
+        });
     }
 
     /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
     pub fn change(&mut self, key: &str, value: &str) {
-        let done = format!("{key} = {value} at cycle {:.2}", self.run.cycle());
-        self.change_all(&assignments(key, value), &done);
+        self.change_by(|run| {
+            run.change_all(&assignments(key, value))?;
+            Ok(at_cycle(run, &format!("{key} = {value}")))
+        });
     }
 
     /// Changes a key from here on; the run as it was before the first such change goes on as a ghost.
@@ -83,13 +97,13 @@ impl Worker {
         self.before = None;
     }
 
-    /// Changes keys from here on, and tells the user what was `done`.
-    fn change_all(&mut self, changes: &[(impl AsRef<str>, impl AsRef<str>)], done: &str) {
+    /// Has `change` change the run from here on, and tells the user what it has done.
+    fn change_by(&mut self, change: impl FnOnce(&mut Session) -> Result<String, SessionError>) {
         self.keep();
-        let changed = self.run.session.change_all(changes);
-        if self.screen.or_notice(changed).is_none() {
+        let changed = change(&mut self.run.session);
+        let Some(done) = self.screen.or_notice(changed) else {
             return;
-        }
+        };
         let branched = self.branch();
         self.renew();
         if matches!(self.activity, Activity::Stopped(_)) {
@@ -151,6 +165,11 @@ impl Worker {
             self.activity = Activity::Paused;
         }
     }
+}
+
+/// What was `done`, and when.
+fn at_cycle(run: &Session, done: &str) -> String {
+    format!("{done} at cycle {:.2}", run.simulation().cycle())
 }
 
 /// The keys and values of `KEY` and `VALUE, KEY=VALUE, ...`; words that a key knows stand in quotes.

@@ -12,7 +12,7 @@
 //! A constant offset of u_x shifts both minima against each other and cancels. ≤ 0 means that
 //! no point sticks for good (loss of contact included).
 
-use super::special::positive_part;
+use mdr_tui::oracle::special::positive_part;
 use std::f64::consts::TAU;
 
 /// The ratio of the two frequencies.

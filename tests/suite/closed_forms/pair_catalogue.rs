@@ -160,8 +160,8 @@ impl Pair {
 
 #[cfg(test)]
 mod tests {
-    use super::super::quadrature::integrate;
     use super::*;
+    use mdr_tui::oracle::quadrature::integrate;
     use std::f64::consts::{FRAC_PI_2, PI};
 
     /// (2) of any function, x = r sin t, broken at the kinks.

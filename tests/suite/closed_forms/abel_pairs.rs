@@ -10,8 +10,9 @@
 //! (1) and (2) keep it, (3) divides it by m. Radii are non-negative; parameters positive.
 //! [`super::pair_catalogue`] lists them, ready for a conformance suite.
 
-use super::power_law::{displacement_integral, pressure_integral};
-use super::special::{angle_beyond, bessel_i0_scaled, dawson, erf, kappa, leg};
+use super::special::{bessel_i0_scaled, dawson, erf};
+use mdr_tui::oracle::power_law::{displacement_integral, pressure_integral};
+use mdr_tui::oracle::special::{angle_beyond, kappa, leg};
 use std::f64::consts::PI;
 
 // (1) ------------------------------------------------------------------------------------------
@@ -123,8 +124,8 @@ pub fn p_of_cut_gauss(a: f64, sigma: f64, r: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::quadrature::integrate;
     use super::*;
+    use mdr_tui::oracle::quadrature::integrate;
     use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
     fn close(value: f64, exact: f64, relative: f64, what: &str) {

@@ -1,7 +1,7 @@
 //! Where the bodies of the cross-section lie: the heights of indenter and half-space along the motion, what is magnified,
 //! and where that is on the screen.
 
-use super::stress_map::Shades;
+use super::stress_map::Shares;
 use super::*;
 use crate::charts::magnification;
 use crate::reading::Zone;
@@ -98,7 +98,7 @@ pub struct Section<'a> {
     /// m, on the scale of the surfaces.
     pub thick: f64,
     pub tall: f64,
-    pub stress: Option<Shades>,
+    pub stress: Option<Shares>,
 }
 
 impl<'a> Section<'a> {
@@ -119,7 +119,7 @@ impl<'a> Section<'a> {
         let half = (high - low) / (2.0 * f64::from(area.height));
         let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
-        let [columns, rows] = [area.width, 2 * area.height].map(usize::from);
+        let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
             of,
             theme: *theme,
@@ -134,7 +134,7 @@ impl<'a> Section<'a> {
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
-            stress: of.stress.samples(of.calm, columns, rows, width),
+            stress: of.drawn.shares(of.stress, of.calm, room, width),
         };
         section.tall = high - section.cut(0.0).surface;
         Some(section)

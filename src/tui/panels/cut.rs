@@ -148,10 +148,12 @@ impl<'a> Section<'a> {
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
         let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
-        // Far from the contact nothing is lifted.
-        let lifted = match r - moment.contact_radius {
-            beyond if beyond > 0.0 => sunk(r) * back / sunk(moment.contact_radius).max(sunk(r)),
-            _ => 1.0,
+        // Far from the contact nothing is lifted, and nothing at all while the bodies are apart.
+        let deepest = sunk(moment.contact_radius).max(sunk(r));
+        let lifted = match r > moment.contact_radius {
+            true if deepest > 0.0 => sunk(r) * back / deepest,
+            true => 0.0,
+            false => 1.0,
         };
         let surface = self.lift * lifted - sunk(r) * back;
         // Nothing of the half-space is worn unless the scenario says so.

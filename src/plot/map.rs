@@ -3,9 +3,9 @@
 use ratatui::style::Color;
 
 use super::axis::{Axis, Scale};
-use super::colormap::ColorMap;
+use super::colormap::{ColorMap, indexed};
 use super::shades::{self, SHADES};
-use super::theme::{Role, Theme};
+use super::theme::{Look, Role, Theme};
 use crate::math::scan::range;
 
 /// How many words a map can tell apart.
@@ -68,21 +68,29 @@ impl Map {
             return (None, ' ');
         }
         if self.words.is_empty() {
-            let shade = shades::shade(self.share(value, range), [0.0, 1.0]);
-            return (shades::color(theme, self.colors, shade), SIGNS[shade]);
+            let share = self.share(value, range).clamp(0.0, 1.0);
+            return (
+                shades::color(theme, self.colors, share),
+                shades::sign(SIGNS, share),
+            );
         }
         let (sign, role) = SWATCHES[value as usize % WORDS];
         (theme.style(role).fg, sign)
     }
 }
 
-/// The colour of signs on a ground: the dark blues of the cube, with which maps begin, hide what is black.
+/// The colour of signs on a ground: white on the dark blues with which maps begin, black on what is bright.
 pub(super) fn ink_on(ground: Color) -> Color {
-    match ground {
-        Color::Indexed(16..=28) => Color::Indexed(231),
-        Color::Blue => Color::White,
-        Color::Reset => Color::Reset,
-        _ => Color::Black,
+    let rgb = match ground {
+        Color::Reset => return Color::Reset,
+        Color::Blue => return Color::White,
+        Color::Indexed(index) => indexed(index),
+        Color::Rgb(red, green, blue) => [red, green, blue],
+        _ => return Color::Black,
+    };
+    match Look::on(rgb) {
+        Look::Light => Color::Black,
+        _ => Color::Indexed(231),
     }
 }
 
@@ -90,7 +98,7 @@ pub(super) fn ink_on(ground: Color) -> Color {
 mod tests {
     use super::*;
     use crate::plot::Marker;
-    use crate::plot::theme::{Depth, Look};
+    use crate::plot::theme::Depth;
 
     /// G. Machado et al. (2009): what a deuteranope sees of linear red, green and blue.
     const DEUTERANOPE: [[f64; 3]; 3] = [
@@ -132,10 +140,13 @@ mod tests {
 
     #[test]
     fn signs_are_seen_on_both_ends_of_the_colours() {
-        let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
-        let ground = |shade| shades::color(&theme, ColorMap::Sequential, shade).expect("a colour");
-        let inks = [0, 2, 7, SHADES - 1].map(|shade| ink_on(ground(shade)));
-        let [white, black] = [Color::Indexed(231), Color::Black];
-        assert_eq!(inks, [white, white, black, black]);
+        let theme = Theme::new(Look::Dark, Marker::Braille);
+        for depth in [Depth::Indexed, Depth::True] {
+            let theme = theme.with_depth(depth);
+            let ground = |share| shades::color(&theme, ColorMap::Sequential, share);
+            let inks = [0.0, 0.2, 0.6, 1.0].map(|share| ink_on(ground(share).expect("a colour")));
+            let [white, black] = [Color::Indexed(231), Color::Black];
+            assert_eq!(inks, [white, white, black, black], "{depth:?}");
+        }
     }
 }

@@ -10,7 +10,7 @@ use ratatui::style::{Color, Modifier};
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
-use super::colormap::{NAMED, Rgb, mixed};
+use super::colormap::{NAMED, Rgb, indexed, mixed};
 use crate::scenario::escape;
 
 /// What the terminal's own colours look like.
@@ -50,15 +50,7 @@ fn shown(color: Color, own: Rgb) -> Rgb {
     let named = || NAMED.iter().find(|(name, _)| *name == color);
     match color {
         Color::Rgb(r, g, b) => [r, g, b],
-        Color::Indexed(index @ 0..=15) => NAMED[usize::from(index)].1,
-        Color::Indexed(index @ 16..=231) => {
-            let at = index - 16;
-            [at / 36, at / 6 % 6, at % 6].map(|level| match level {
-                0 => 0,
-                level => 55 + 40 * level,
-            })
-        }
-        Color::Indexed(grey) => [8 + 10 * (grey - 232); 3],
+        Color::Indexed(index) => indexed(index),
         _ => named().map_or(own, |(_, rgb)| *rgb),
     }
 }

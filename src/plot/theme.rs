@@ -113,15 +113,19 @@ fn luminance(color: [u8; 3]) -> f64 {
 pub enum Depth {
     /// The sixteen that its user has chosen.
     Sixteen,
-    /// The cube of 256, or more.
+    /// The cube of 256.
     Indexed,
+    /// All of red, green and blue: the shades of maps and stresses flow into each other.
+    True,
 }
 
 impl Depth {
     /// Reads the variables COLORTERM and TERM.
     pub fn of(colorterm: &str, term: &str) -> Self {
         let is_true = matches!(colorterm, "truecolor" | "24bit") || term.ends_with("-direct");
-        if is_true || term.contains("256color") {
+        if is_true {
+            Self::True
+        } else if term.contains("256color") {
             Self::Indexed
         } else {
             Self::Sixteen
@@ -205,7 +209,7 @@ impl Theme {
         } else {
             dark
         };
-        (self.depth == Depth::Indexed).then_some(Color::Indexed(number))
+        (self.depth != Depth::Sixteen).then_some(Color::Indexed(number))
     }
 
     /// The style of a role.
@@ -239,7 +243,7 @@ impl Theme {
 mod tests {
     use super::*;
 
-    const DEPTHS: [Depth; 2] = [Depth::Sixteen, Depth::Indexed];
+    const DEPTHS: [Depth; 3] = [Depth::Sixteen, Depth::Indexed, Depth::True];
 
     #[test]
     fn no_two_curves_of_a_plot_share_a_colour() {
@@ -333,8 +337,8 @@ mod tests {
             ("", "xterm", Depth::Sixteen),
             ("", "linux", Depth::Sixteen),
             ("", "tmux-256color", Depth::Indexed),
-            ("truecolor", "xterm", Depth::Indexed),
-            ("24bit", "xterm", Depth::Indexed),
+            ("truecolor", "xterm", Depth::True),
+            ("24bit", "xterm-256color", Depth::True),
         ] {
             assert_eq!(Depth::of(colorterm, term), depth, "{colorterm} {term}");
         }

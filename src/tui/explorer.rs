@@ -11,7 +11,7 @@ use super::cursor::{self, Abscissa, Cursor, abscissa};
 use super::frame::Frame;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
-use super::panels::{Panel, StressMap, numbers};
+use super::panels::{Drawn, Panel, StressMap, numbers};
 use super::present::SpeedUp;
 use super::stage::Stage;
 use super::undo::Past;
@@ -59,6 +59,8 @@ pub struct Explorer {
     pub charts: LiveCharts,
     /// The stress in the half-space.
     pub stress: StressMap,
+    /// Its samples on the screen.
+    pub drawn: Drawn,
     /// The cursor.
     pub cursor: Cursor,
     /// How a lecture speeds up.
@@ -92,6 +94,7 @@ impl Explorer {
             stage: Stage::default(),
             charts: LiveCharts::default(),
             stress: StressMap::default(),
+            drawn: Drawn::default(),
             cursor: Cursor::default(),
             speed_up: SpeedUp::default(),
             notice: None,

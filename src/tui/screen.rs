@@ -88,6 +88,7 @@ fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
             frame: explorer.calm.shown(panel, &explorer.stage, frame),
             calm: explorer.calm.of(frame),
             stress: explorer.stress,
+            drawn: &explorer.drawn,
             bounds: charts.bounds(panel),
             role,
         };

@@ -84,13 +84,18 @@ fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
         format!(" (indenter {indenter}, half-space {half_space})")
     });
     let bodies = bodies.unwrap_or_default();
-    let a = value(seen.moment.contact_radius);
-    match sticking(&seen.moment) {
+    let (radius, c) = (seen.moment.contact_radius, sticking(&seen.moment));
+    let a = value(radius);
+    match c.map(&value) {
+        _ if radius <= 0.0 => format!("Worn {depth} deep{bodies}."),
         Some(c) => {
-            let ring = format!("in the ring from c ({}) to a ({a})", value(c));
-            format!("Worn {depth} deep{bodies} {ring}, nothing inside c.")
+            format!(
+                "Worn {depth} deep{bodies} in the ring from c ({c}) to a ({a}), nothing inside c."
+            )
         }
-        None => format!("Worn {depth} deep{bodies}; the contact (a {a}) slides as a whole."),
+        None => {
+            format!("Worn {depth} deep{bodies}; all of the contact (a {a}) slips in each cycle.")
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where the bodies of the cross-section lie: the heights of indenter and half-space along the motion, what is magnified,
 //! and where that is on the screen.
 
-use super::stress_map::Shades;
+use super::stress_map::Shares;
 use super::*;
 use crate::charts::magnification;
 use crate::reading::Zone;
@@ -98,7 +98,7 @@ pub struct Section<'a> {
     /// m, on the scale of the surfaces.
     pub thick: f64,
     pub tall: f64,
-    pub stress: Option<Shades>,
+    pub stress: Option<Shares>,
 }
 
 impl<'a> Section<'a> {
@@ -119,7 +119,7 @@ impl<'a> Section<'a> {
         let half = (high - low) / (2.0 * f64::from(area.height));
         let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
-        let [columns, rows] = [area.width, 2 * area.height].map(usize::from);
+        let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
             of,
             theme: *theme,
@@ -134,7 +134,7 @@ impl<'a> Section<'a> {
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
-            stress: of.stress.samples(of.calm, columns, rows, width),
+            stress: of.drawn.shares(of.stress, of.calm, room, width),
         };
         section.tall = high - section.cut(0.0).surface;
         Some(section)
@@ -148,10 +148,12 @@ impl<'a> Section<'a> {
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
         let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
-        // Far from the contact nothing is lifted.
-        let lifted = match r - moment.contact_radius {
-            beyond if beyond > 0.0 => sunk(r) * back / sunk(moment.contact_radius).max(sunk(r)),
-            _ => 1.0,
+        // Far from the contact nothing is lifted, and nothing at all while the bodies are apart.
+        let deepest = sunk(moment.contact_radius).max(sunk(r));
+        let lifted = match r > moment.contact_radius {
+            true if deepest > 0.0 => sunk(r) * back / deepest,
+            true => 0.0,
+            false => 1.0,
         };
         let surface = self.lift * lifted - sunk(r) * back;
         // Nothing of the half-space is worn unless the scenario says so.

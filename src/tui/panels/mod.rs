@@ -25,7 +25,7 @@ mod section;
 mod stress_map;
 
 pub use caption::contact_state;
-pub use stress_map::StressMap;
+pub use stress_map::{Drawn, StressMap};
 
 /// A panel that no chart can be.
 pub struct Picture {
@@ -45,6 +45,8 @@ pub struct Shown<'a> {
     pub calm: &'a Frame,
     /// Which stress is shown.
     pub stress: StressMap,
+    /// Its samples on the screen.
+    pub drawn: &'a Drawn,
     /// The values that its scale holds.
     pub bounds: Option<[f64; 2]>,
     /// The role of its title.

@@ -45,9 +45,9 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
         return (theme.style(role).fg, sign);
     }
     let depth = interpolate(&seen.radii, &seen.wear, r);
-    let shade = shades::shade(depth, [0.0, deepest]);
-    let color = shades::color(theme, ColorMap::Sequential, shade);
-    (color, shades::SIGNS[shade])
+    let share = shades::share(depth, [0.0, deepest]);
+    let color = shades::color(theme, ColorMap::Sequential, share);
+    (color, shades::sign(shades::SIGNS, share))
 }
 
 /// The depths that the colours span, m.

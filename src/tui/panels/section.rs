@@ -169,8 +169,8 @@ impl Section<'_> {
             }
             // Where the indenter was, under the hatching.
             Matter::Worn => theme.indexed([58, 229]).or(Some(Color::Black)),
-            Matter::HalfSpace => match self.shade(cut, column, z) {
-                Some(shade) => shades::color(theme, self.of.stress.colors(), shade),
+            Matter::HalfSpace => match self.share(cut, column, z) {
+                Some(share) => shades::color(theme, self.of.stress.colors(), share),
                 None => theme.style(Role::Open).fg,
             },
             // What slips glows.
@@ -182,8 +182,8 @@ impl Section<'_> {
         }
     }
 
-    /// The shade of the stress at height `z`.
-    fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
+    /// The share of its range that the stress has at height `z`.
+    fn share(&self, cut: &Cut, column: usize, z: f64) -> Option<f64> {
         let below = ((cut.surface - z) / self.half).max(0.0) as usize;
         Some(self.stress.as_ref()?(column, below))
     }
@@ -195,8 +195,8 @@ impl Section<'_> {
         let [is_contact, is_above] =
             [lower, upper].map(|matter| matches!(matter, Matter::Contact(_)));
         let shown = if is_contact { lower } else { upper };
-        if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
-            return (shades::SIGNS[shade], Style::new());
+        if let (Matter::HalfSpace, Some(share)) = (shown, self.share(cut, column, top - half)) {
+            return (shades::sign(shades::SIGNS, share), Style::new());
         }
         // Letters tell what sticks from what slips: half blocks of one colour would not.
         if theme.ascii() || is_contact || is_above || upper == lower {

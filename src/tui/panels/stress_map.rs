@@ -1,5 +1,8 @@
 //! The stresses inside the half-space as colours: which one is shown, in what range, and on which samples.
 
+use std::cell::RefCell;
+use std::iter::zip;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::*;
@@ -126,13 +129,16 @@ impl StressMap {
         [0, 1].map(|k| format!("{}{}", names[k], of_cycle[k]))
     }
 
-    /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
-    fn values(self, frame: &Frame) -> Option<Values> {
-        let (_, _, origin) = QUANTITIES[self.shown];
-        let is_of_cycle = self.over_cycle || matches!(origin, Origin::Cycle);
+    /// The loads whose stresses are shown.
+    fn loads(self, frame: &Frame) -> Vec<Arc<SpringLoad>> {
+        let is_of_cycle = self.over_cycle || matches!(QUANTITIES[self.shown].2, Origin::Cycle);
         let earlier = frame.cycle_loads.iter().filter(|_| is_of_cycle);
-        let loads: Vec<Arc<SpringLoad>> = earlier.chain(&frame.load).cloned().collect();
-        match origin {
+        earlier.chain(&frame.load).cloned().collect()
+    }
+
+    /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
+    fn values(self, loads: Vec<Arc<SpringLoad>>) -> Option<Values> {
+        match QUANTITIES[self.shown].2 {
             _ if loads.is_empty() => None,
             Origin::Moment(of) => Some(values_of(loads, of)),
             Origin::Cycle => {
@@ -149,7 +155,7 @@ impl StressMap {
         let load = frame.load.as_deref()?;
         let (values, mut largest) = match QUANTITIES[self.shown].2 {
             Origin::Nowhere => return None,
-            Origin::Cycle => (self.values(frame)?, 0.0),
+            Origin::Cycle => (self.values(self.loads(frame))?, 0.0),
             Origin::Moment(of) => (
                 values_of(vec![frame.load.clone()?], of),
                 load.largest(of).value,
@@ -171,25 +177,81 @@ impl StressMap {
         (top > 0.0).then_some(([lowest, largest], [low, top]))
     }
 
-    /// Returns the shades on samples: `columns` over x symmetrical about the axis, `rows` downwards from the surface,
-    /// both `size` apart (m). `None` without contact, and where no stress is shown.
-    pub fn samples(self, frame: &Frame, columns: usize, rows: usize, size: f64) -> Option<Shades> {
-        let of = self.values(frame).filter(|_| columns > 0)?;
+    /// Returns shares of the range on samples: `columns` over x symmetrical about the axis, `rows` downwards from the
+    /// surface, both `size` apart (m). `None` without contact, and where no stress is shown.
+    fn samples(
+        self,
+        loads: Vec<Arc<SpringLoad>>,
+        [columns, rows]: [usize; 2],
+        size: f64,
+    ) -> Option<Vec<f64>> {
+        let of = self.values(loads).filter(|_| columns > 0)?;
         let range = self.bounds()?;
-        let mut shades = vec![0; columns * rows];
-        for (row, shades) in shades.chunks_mut(columns).enumerate() {
+        let mut shares = vec![0.0; columns * rows];
+        for (row, shares) in shares.chunks_mut(columns).enumerate() {
             let z = (row as f64 + 0.5) * size;
             for column in columns / 2..columns {
                 let r = (column as f64 + 0.5 - columns as f64 / 2.0) * size;
-                let [right, left] = of(r, z).map(|value| shades::shade(value, range));
-                (shades[column], shades[columns - 1 - column]) = (right, left);
+                let [right, left] = of(r, z).map(|value| shades::share(value, range));
+                (shares[column], shares[columns - 1 - column]) = (right, left);
             }
         }
+        Some(shares)
+    }
+}
+
+/// The samples that were drawn last: they are computed again only for another stress, load or size.
+#[derive(Debug, Default)]
+pub struct Drawn(RefCell<Option<(Key, Rc<[f64]>)>>);
+
+/// What samples depend on.
+#[derive(Debug)]
+struct Key {
+    map: StressMap,
+    loads: Vec<Arc<SpringLoad>>,
+    room: [usize; 2],
+    size: f64,
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        let [ours, theirs] =
+            [self, other].map(|key| (key.map, key.room, key.size, key.loads.len()));
+        ours == theirs && zip(&self.loads, &other.loads).all(|(a, b)| Arc::ptr_eq(a, b))
+    }
+}
+
+impl Drawn {
+    /// Returns the shares of the range that `map` has in a frame, in `[columns, rows]` of samples `size` apart (m). `None`
+    /// without contact, and where no stress is shown.
+    pub fn shares(
+        &self,
+        map: StressMap,
+        frame: &Frame,
+        room: [usize; 2],
+        size: f64,
+    ) -> Option<Shares> {
+        let loads = map.loads(frame);
+        let key = Key {
+            map,
+            loads,
+            room,
+            size,
+        };
+        let mut drawn = self.0.borrow_mut();
+        if drawn.as_ref().is_none_or(|(known, _)| *known != key) {
+            *drawn = None;
+            let shares = map.samples(key.loads.clone(), room, size)?;
+            *drawn = Some((key, shares.into()));
+        }
+        let (_, shares) = drawn.as_ref()?;
+        let (shares, [columns, rows]) = (Rc::clone(shares), room);
         Some(Box::new(move |column, below| {
-            shades[below.min(rows - 1) * columns + column]
+            shares[below.min(rows - 1) * columns + column]
         }))
     }
 }
 
-/// The shade of a stress in a column, this many samples below the surface; the last row continues downwards.
-pub type Shades = Box<dyn Fn(usize, usize) -> usize>;
+/// The share of the range that a stress has in a column, this many samples below the surface; the last row continues
+/// downwards.
+pub type Shares = Box<dyn Fn(usize, usize) -> f64>;

@@ -1,4 +1,4 @@
-//! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
+//! Pressure p(r) and shear stress τ(r). On a screen τ is drawn as τ/μ, which meets ±p where the contact slips.
 
 use super::*;
 
@@ -27,13 +27,13 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let columns = state.column("r_m").zip(state.column("p_Pa"));
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
-    // What τ is divided by; on paper it is drawn as it is.
+    // τ is divided by μ on a screen, but not on paper.
     let (name, divisor) = match &run.live {
         None => ("τ", Some(1.0)),
         Some(_) if is_log => ("|τ|/μ", run.friction()),
         Some(_) => ("τ/μ", run.friction()),
     };
-    // A logarithmic ordinate shows the size of τ.
+    // On a logarithmic ordinate, |τ| is drawn.
     let scaled = |shear: f64| {
         let shear = shear / divisor.unwrap_or(1.0);
         if is_log { shear.abs() } else { shear }
@@ -53,7 +53,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     if let Some(shear) = shear.filter(is_seen) {
         let shear = shear.iter().copied().map(scaled).collect();
         let shear = curve(name, shear, Role::Shear);
-        // Dashes: where the contact slips the pressure lies under it, and is still seen.
+        // Dashed, so that the pressure shows through where the contact slips and both coincide.
         chart = chart.curve(shear.dashed_if(run.live.is_some()));
         chart.y.is_symmetric = true;
     }

@@ -1,4 +1,4 @@
-//! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
+//! Charts of a sweep's table: a map over two axes, curves over one axis, or points of a sampled design.
 
 use std::iter;
 
@@ -13,22 +13,22 @@ use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{self, Design};
 use crate::traces::unit_of;
 
-/// The most charts of a sheet that nobody chose the columns of.
+/// Maximum number of charts by default.
 const MOST_CHARTS: usize = 4;
 
-/// Positive values whose ends have this ratio or a larger one are shown on a logarithmic scale.
+/// Positive values with at least this ratio of largest to smallest get a logarithmic scale.
 const DECADES: f64 = 100.0;
 
-/// How much of the data's extent is left free beside curves with symbols.
+/// Free space beside curves with symbols, relative to the data's extent.
 const MARGIN: f64 = 0.04;
 
-/// What interrupts a line.
+/// Interrupts a line.
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
-/// The column of the words.
+/// The column of the running condition, which holds words.
 const REGIME: &str = "regime";
 
-/// Quantities whose estimated error studies can record, and the column that holds it, relative to the quantity.
+/// Quantities whose estimated error studies can record, and the column of that relative error.
 const ERRORS: [(&str, &str); 5] = [
     ("scar_depth_m", "estimated_error_deepest"),
     ("wear_volume_m3", "estimated_error_volume"),
@@ -37,10 +37,10 @@ const ERRORS: [(&str, &str); 5] = [
     ("contact_radius_m", "estimated_error_contact_radius"),
 ];
 
-/// The sheet of a study that is called `name`: a chart for each of `columns`, or for the first ones.
+/// Makes the sheet of the study called `name`: one chart for each of `columns`, or for the default ones.
 ///
 /// # Errors
-/// In one line, a column that the study does not have, or of which no point has a value.
+/// Names, in one line, a column that the study lacks or that has no values.
 pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, String> {
     let study = &slice.study;
     let known: Vec<&str> = study.columns.iter().map(|column| column.name).collect();
@@ -79,7 +79,7 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
     })
 }
 
-/// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
+/// Returns the default columns: for a map the first one and the regimes, for curves all but the errors.
 fn usual<'a>(slice: &Slice, known: &[&'a str]) -> Vec<&'a str> {
     let named = known.iter().copied();
     let regime = named.clone().filter(|name| *name == REGIME);
@@ -90,7 +90,7 @@ fn usual<'a>(slice: &Slice, known: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// What a caption needs.
+/// Returns the facts for a caption.
 fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     let study = &slice.study;
     let mut facts = vec![
@@ -113,14 +113,14 @@ fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     facts
 }
 
-/// Numbers of the values of a study's axis; the places of words.
+/// Returns the positions of an axis' values: the numbers themselves, or the indices of words.
 fn places(axis: &sweep::Axis) -> Vec<f64> {
     let all = 0..axis.count();
     all.map(|place| axis.number(place).unwrap_or(place as f64))
         .collect()
 }
 
-/// An axis of a study in words, with its unit.
+/// Returns an axis of a study with its title and unit.
 pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     let unit = slice.study.unit(axis);
     let label = schema::find(&axis.key).and_then(|known| known.label);
@@ -136,7 +136,7 @@ pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     Axis::new(label, unit).scale(axis.spread)
 }
 
-/// A column of a study in words, with its unit; logarithmic where its `values` span decades.
+/// Returns an axis for a column, with its title and unit; logarithmic if its `values` span decades.
 pub fn quantity(column: &str, values: &[f64]) -> Axis {
     let label = scalars::find(column)
         .map_or(column, |scalar| scalar.meaning)
@@ -148,7 +148,7 @@ pub fn quantity(column: &str, values: &[f64]) -> Axis {
     })
 }
 
-/// The values of a column at points; those of the regimes are the numbers of their words.
+/// Returns a column's values at the given points; for the regime, the index of the word.
 fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> Vec<f64> {
     let value = |point| match column {
         REGIME => slice.regime(point).map(|regime| f64::from(regime as u8)),
@@ -159,7 +159,7 @@ fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> V
         .collect()
 }
 
-/// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
+/// Makes the chart of a column over the shown axes: a curve, or a map with closed-form borders and criteria.
 pub fn chart(slice: &Slice, column: &str, lines: [Vec<Line>; 2]) -> Chart {
     match slice.y() {
         Some(upwards) => map(slice, upwards, column, lines),
@@ -167,7 +167,7 @@ pub fn chart(slice: &Slice, column: &str, lines: [Vec<Line>; 2]) -> Chart {
     }
 }
 
-/// An axis of a map, its places, and the edges between them.
+/// Returns an axis of a map, its positions, and the edges between them.
 fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
     let (shown, places) = (paper_axis(slice, axis), places(axis));
     let edges = shown.edges(&places);
@@ -176,7 +176,7 @@ fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
     (shown.bounds(bounds), places, edges)
 }
 
-/// A column over two axes as colours, with a letter at the end of each line.
+/// Makes a chart of a column as colours over two axes, with a letter at the end of each line.
 fn map(
     slice: &Slice,
     upwards: &sweep::Axis,
@@ -198,7 +198,7 @@ fn map(
         },
         places: [xs, ys],
     });
-    // The value of a word is its place.
+    // The value of a word is its index.
     let value = |axis: &sweep::Axis, place: f64| axis.value_at(place).unwrap_or(place);
     let spot = |[x, y]: [f64; 2]| (value(slice.x(), x), value(upwards, y));
     let criteria = criteria.into_iter().enumerate();
@@ -219,8 +219,8 @@ fn map(
     chart
 }
 
-/// The edges of a map's cells between points of different regimes, with gaps; `None` without any, and where the
-/// `column` itself shows them.
+/// Returns the edges between cells of different regimes, with gaps; `None` if there are none, or if `column` itself
+/// shows the regimes.
 fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
     let upwards = slice.y().filter(|_| column != REGIME)?;
     let [(_, _, across), (_, _, up)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
@@ -244,8 +244,8 @@ fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
     (!xs.is_empty()).then(|| Curve::new(name, xs, ys, Role::Border(2)))
 }
 
-/// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
-/// one axis alone tells the points apart.
+/// Makes a chart of a column over the first axis, one symbol per point, with error bars if the study recorded them. The
+/// points are joined if only one axis distinguishes them.
 fn points(slice: &Slice, column: &str) -> Chart {
     let places = places(slice.x());
     let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);

@@ -1,5 +1,5 @@
-//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
-//! imported here; each of them begins with `use super::*`.
+//! Panels: the charts on the screen, and pictures made of characters, one per file. This module imports what they
+//! share; each of them begins with `use super::*`.
 
 use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::prelude::*;
@@ -27,25 +27,25 @@ mod stress_map;
 pub use caption::contact_state;
 pub use stress_map::StressMap;
 
-/// A panel that no chart can be.
+/// A panel that is not a chart.
 pub struct Picture {
     /// Its names and needs.
     recipe: Recipe,
-    /// Draws it below a rule with the title.
+    /// Draws it, with its title in a rule above.
     pub draw: fn(&Shown, Canvas),
-    /// The values that it must hold.
+    /// The range of values that its scale must include.
     extent: fn(&Frame) -> Option<[f64; 2]>,
 }
 
-/// What a picture is drawn of.
+/// What a picture shows.
 pub struct Shown<'a> {
     /// The frame of the panel.
     pub frame: &'a Frame,
-    /// The frame of what changes more calmly: stresses and words.
+    /// The frame for what changes more calmly: stresses and text.
     pub calm: &'a Frame,
-    /// Which stress is shown.
+    /// The stress to show.
     pub stress: StressMap,
-    /// The values that its scale holds.
+    /// The range of its scale.
     pub bounds: Option<[f64; 2]>,
     /// The role of its title.
     pub role: Role,
@@ -64,14 +64,14 @@ macro_rules! panels {
             /// All panels, in reading order.
             pub const ALL: [Self; [$($what),*].len()] = [$(Self::$name),*];
 
-            /// Everything that is declared of it.
+            /// Returns its recipe.
             pub fn recipe(self) -> &'static Recipe {
                 match self {
                     $(Self::$name => &$recipe,)*
                 }
             }
 
-            /// How it is drawn, if it is no chart.
+            /// Returns how to draw it, if it is not a chart.
             pub fn picture(self) -> Option<&'static Picture> {
                 match self {
                     $(Self::$name => $picture,)*
@@ -102,13 +102,13 @@ panels! {
 }
 
 impl Panel {
-    /// The one with a title.
+    /// Returns the panel with this title.
     pub fn titled(title: &str) -> Option<Self> {
         let mut panels = Self::ALL.into_iter();
         panels.find(|panel| panel.recipe().title == title)
     }
 
-    /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
+    /// Returns the smallest and largest ordinate that its scale must include, from its chart if it has one.
     pub fn extent(self, frame: &Frame, chart: Option<&Chart>) -> Option<[f64; 2]> {
         match self.picture() {
             Some(picture) => (picture.extent)(frame),
@@ -116,7 +116,7 @@ impl Panel {
         }
     }
 
-    /// The abscissa under a place of the screen, where the panel in `area` has its chart there.
+    /// Returns the abscissa at a place of the screen, if the panel in `area` has its chart there.
     pub fn abscissa_at(
         self,
         chart: &Chart,
@@ -130,8 +130,8 @@ impl Panel {
     }
 }
 
-/// The smallest and largest ordinate of a live chart: given ones, or those of the run's own curves and of other
-/// sources.
+/// Returns the smallest and largest ordinate of a live chart: given bounds, or the range of the run's curves and of
+/// overlays.
 fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     if chart.y.bounds.is_some() {
         return chart.y.bounds;
@@ -153,8 +153,8 @@ fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     }
 }
 
-/// How far the axis must reach for a curve, by the width that its values take on the abscissa: what stands above
-/// that in a narrow place is clipped, and marked in the plot.
+/// Returns how far the axis must reach for a curve, judging by the width that its values take on the abscissa: a higher
+/// value in a narrow place is clipped, and marked in the plot.
 pub fn spread_top(curve: &Curve) -> f64 {
     let xs = &curve.xs;
     let x = |k: usize| xs[k.min(xs.len() - 1)];
@@ -178,7 +178,8 @@ mod tests {
         values[50] = 1e6;
         let high = top(&radii, &values);
         assert!((10.0..20.0).contains(&high), "{high}");
-        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, half of them in its last thousandth.
+        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, with half of the nodes in the last
+        // thousandth.
         let outer = (1..100).map(|k| 1.0 - 1e-3 * 0.9_f64.powi(k));
         let radii: Vec<f64> = (0..100)
             .map(|k| 0.00999 * f64::from(k))

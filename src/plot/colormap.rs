@@ -5,7 +5,7 @@ use ratatui::style::Color;
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
 
-/// The colours of a terminal that have names, by their numbers, and what they look like where that is not known.
+/// The terminal's named colours, by number, with their usual RGB values for when the real ones are unknown.
 pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::Black, [0, 0, 0]),
     (Color::Red, [0xcd, 0x31, 0x31]),
@@ -25,7 +25,7 @@ pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::White, [0xff, 0xff, 0xff]),
 ];
 
-/// Which colours.
+/// The choice of colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorMap {
     /// Dark to bright, for values that begin at zero.
@@ -58,7 +58,7 @@ const DIVERGING: [Rgb; 7] = [
     [178, 24, 43],
 ];
 
-/// The colour at a `share` of the way from one to another.
+/// Returns the colour at a `share` of the way from one colour to another.
 pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
     [0, 1, 2].map(|k| {
         let [from, to] = [from[k], to[k]].map(f64::from);
@@ -67,7 +67,7 @@ pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
 }
 
 impl ColorMap {
-    /// The colour at a share of the range, 0 to 1.
+    /// Returns the colour at a share of the range, 0 to 1.
     pub fn color(self, share: f64) -> Rgb {
         let stops: &[Rgb] = match self {
             Self::Sequential => &SEQUENTIAL,
@@ -79,7 +79,7 @@ impl ColorMap {
         mixed(stops[before], stops[before + 1], at - before as f64)
     }
 
-    /// The range of colours for values from `low` up to `high`: colours of both signs have white at zero.
+    /// Returns the range of colours for values from `low` to `high`; diverging colours have white at zero.
     pub fn range(self, [low, high]: [f64; 2]) -> [f64; 2] {
         let size = low.abs().max(high.abs());
         match self {

@@ -1,4 +1,4 @@
-//! Values as shades: colours of the terminal, or signs where it has none.
+//! Values as shades: colours of the terminal, or characters if it has none.
 
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Style};
@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use super::colormap::{ColorMap, NAMED};
 use super::theme::{Depth, Look, Theme};
 
-/// How many there are: few, so that only the lines between them change from frame to frame.
+/// The number of shades: few, so that only the lines between them change from frame to frame.
 pub const SHADES: usize = 12;
 
 /// Signs from low to high: of values that begin with nothing.
@@ -29,18 +29,18 @@ const DIVERGING_ON_LIGHT: [u8; SHADES] = [67, 68, 110, 152, 254, 255, 255, 224, 
 const SIXTEEN: [u8; SHADES] = [4, 4, 12, 12, 6, 6, 14, 2, 10, 10, 3, 11];
 const SIXTEEN_DIVERGING: [u8; SHADES] = [4, 4, 12, 12, 14, 7, 7, 11, 9, 9, 1, 1];
 
-/// Whether blocks and colours can be drawn.
+/// Whether the terminal can show blocks and colours.
 pub fn has_blocks(theme: &Theme) -> bool {
     theme.colored() && !theme.ascii()
 }
 
-/// The shade of a value between `low` and `high`, from 0.
+/// Returns the shade of a value between `low` and `high`, counted from 0.
 pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
     let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
     ((share * SHADES as f64) as usize).min(SHADES - 1)
 }
 
-/// The colour of a shade; `None` where the terminal has none.
+/// Returns the colour of a shade; `None` if the terminal has none.
 pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     let is_light = theme.look == Look::Light;
     let number = match (theme.depth, map) {
@@ -73,7 +73,7 @@ pub fn key(
     from.chain(shades).chain([Span::raw(to)]).collect()
 }
 
-/// Colours the upper and the lower half of a cell; what has no colour stays as it is.
+/// Colours the upper and the lower half of a cell; a half without a colour stays unchanged.
 pub fn paint_halves(cell: &mut Cell, halves: [Option<Color>; 2]) {
     match halves {
         [None, None] => return,
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
     use crate::plot::Marker;
 
-    /// What a terminal of 256 colours shows: a cube of 6×6×6 colours, then 24 greys.
+    /// Returns the colour that a terminal of 256 colours shows: a cube of 6×6×6 colours, then 24 greys.
     fn rgb(index: u8) -> [u8; 3] {
         match index {
             232.. => [8 + 10 * (index - 232); 3],
@@ -121,7 +121,7 @@ mod tests {
                 let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
                 let mut told: Vec<_> = (0..SHADES).map(|k| color(&theme, map, k)).collect();
                 told.dedup();
-                // The two beside zero of a diverging map share their grey.
+                // The two shades beside zero in a diverging map share a grey.
                 let shared = usize::from(map == ColorMap::Diverging);
                 assert_eq!(told.len(), SHADES - shared, "{told:?}");
             }

@@ -7,7 +7,7 @@ use crate::charts::magnification;
 use crate::reading::Zone;
 use crate::simulation::drive::Control;
 
-/// The picture is this many times as wide as the domain: the sides of the bodies are seen.
+/// The picture is this many times as wide as the domain, so that the sides of the bodies are visible.
 const WIDER: f64 = 1.35;
 
 /// The amplitude of the motion takes up to this share of the picture's width, and no more columns than this: each is
@@ -20,10 +20,10 @@ const FARTHEST: f64 = 4.0;
 const WEAR: f64 = 0.4;
 const LEAST_WEAR: f64 = 2.0;
 
-/// Rows from which on the contact surface is drawn two half cells thick, and lines show what sticks.
+/// Minimum rows for a contact surface two half cells thick, and for lines that show what sticks.
 pub const LARGE: u16 = 14;
 
-/// What is at a place of the cut.
+/// What is at a point of the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Matter {
     Air,
@@ -35,18 +35,18 @@ pub enum Matter {
     HalfSpace,
 }
 
-/// Heights over the undeformed surface, m, at one place along the motion.
+/// Heights above the undeformed surface, m, at one place along the motion.
 pub struct Cut {
     indenter: f64,
     unworn: f64,
     pub surface: f64,
-    /// Where the half-space would end had it not worn.
+    /// The surface of the half-space as if it had not worn.
     unworn_surface: f64,
     zone: Zone,
 }
 
 impl Cut {
-    /// What is at height `z`, where the surface of contact is drawn `thick` (m).
+    /// Returns what is at height `z`, if the contact surface is drawn `thick` (m).
     pub fn matter(&self, z: f64, thick: f64) -> Matter {
         let is_open = self.zone == Zone::Open;
         match z {
@@ -102,7 +102,7 @@ pub struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    /// The cut; `None` where there is nothing to draw.
+    /// Makes the cut; `None` if there is nothing to draw.
     pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
         let seen = &frame.observation;
@@ -133,7 +133,7 @@ impl<'a> Section<'a> {
             lift: seen.moment.depth - whole(seen.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
-            // The bodies move with every frame, the stress below changes more calmly.
+            // The bodies move in every frame; the stress below them changes more calmly.
             stress: of.stress.samples(of.calm, columns, rows, width),
         };
         section.tall = high - section.cut(0.0).surface;
@@ -154,7 +154,7 @@ impl<'a> Section<'a> {
             _ => 1.0,
         };
         let surface = self.lift * lifted - sunk(r) * back;
-        // Nothing of the half-space is worn unless the scenario says so.
+        // The half-space wears only if the scenario says so.
         let share = scenario.wear_share().unwrap_or(1.0);
         let wear = |r: f64| match r <= edge {
             true => self.wear * interpolate(&seen.radii, &seen.wear, r),
@@ -162,7 +162,7 @@ impl<'a> Section<'a> {
         };
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
-        // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
+        // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
         let along = (x - self.given_way(moment.contact_radius, r)).abs();
         let unworn = match (x - self.shift).abs() > rim {
             true => f64::INFINITY,
@@ -177,7 +177,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// How far the indenter is shifted at `r`: not where it touches, and as a whole some way from there.
+    /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
     fn given_way(&self, contact: f64, r: f64) -> f64 {
         let way = 4.0 * self.shift.abs();
         match r - contact {
@@ -187,7 +187,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A title with what is magnified, the wear first, as far as `room` cells suffice.
+    /// Returns a title with the magnifications, the wear's first, as far as `room` cells allow.
     pub fn title(&self, title: &str, room: usize) -> String {
         let heights = self.width / self.half;
         let factors = [
@@ -205,7 +205,7 @@ impl<'a> Section<'a> {
         title
     }
 
-    /// The column at `x`, m, where the picture has one.
+    /// Returns the column at `x`, m, if it is in the picture.
     pub fn column(&self, x: f64) -> Option<u16> {
         let at = (x / self.width + f64::from(self.area.width) / 2.0).floor();
         (at >= 0.0 && at < f64::from(self.area.width)).then(|| self.area.x + at as u16)
@@ -223,12 +223,12 @@ impl<'a> Section<'a> {
     }
 }
 
-/// The nearest multiple of a step.
+/// Returns the nearest multiple of a step.
 pub fn whole(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 
-/// The amplitude of u_x, m: the one that is prescribed, or that of the last cycle.
+/// Returns the amplitude of u_x, m: the prescribed one, or else the amplitude of the last cycle.
 fn amplitude(frame: &Frame) -> f64 {
     if let Some(Control::Displacement(shift)) = frame.facts.scenario.setup().drive.tangential() {
         return shift.amplitude();

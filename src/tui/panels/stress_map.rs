@@ -1,4 +1,4 @@
-//! The stresses inside the half-space as colours: which one is shown, in what range, and on which samples.
+//! The stresses inside the half-space as colours: which of them is shown, in what range, and at which points.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::tui::held::Held;
 const PLACES: u32 = 14;
 const REACH: f64 = 1.2;
 
-/// Where a shown quantity comes from.
+/// The source of a shown quantity.
 #[derive(Debug, Clone, Copy)]
 enum Origin {
     /// From a load, Pa; over a cycle its largest value.
@@ -36,7 +36,7 @@ const QUANTITIES: [([&str; 2], ColorMap, Origin); 6] = [
 /// Values at (r, z) and at (−r, z), Pa.
 type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
 
-/// The largest value under several loads.
+/// Returns the largest value under several loads.
 fn values_of(loads: Vec<Arc<SpringLoad>>, of: fn(&Stress) -> f64) -> Values {
     Box::new(move |r, z| {
         let each = loads.iter().map(|load| load.mirrored(r, z));
@@ -49,11 +49,11 @@ fn values_of(loads: Vec<Arc<SpringLoad>>, of: fn(&Stress) -> f64) -> Values {
 /// What the half-space shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StressMap {
-    /// Which of the quantities.
+    /// The index of the shown quantity.
     shown: usize,
-    /// Its largest value in the last cycle instead of the present one.
+    /// Whether to show its largest value in the last cycle instead of the present one.
     over_cycle: bool,
-    /// The range of the colours, Pa; `None` where nothing is shown.
+    /// The range of the colours, Pa; `None` if nothing is shown.
     held: Option<Held>,
     /// Whether a stress was below or above that range since it was last judged.
     beyond: [bool; 2],
@@ -66,23 +66,23 @@ impl StressMap {
         self.forget_range();
     }
 
-    /// Shows the largest stress of a cycle, or that of the moment.
+    /// Toggles between the largest stress of a cycle and the present stress.
     pub fn toggle_cycle(&mut self) {
         self.over_cycle ^= true;
         self.forget_range();
     }
 
-    /// Another stress or another run is to come.
+    /// Drops the range before another stress or another run is shown.
     pub fn forget_range(&mut self) {
         self.held = None;
     }
 
-    /// The range of the colours, Pa; `None` where nothing is shown.
+    /// Returns the range of the colours, Pa; `None` if nothing is shown.
     pub fn bounds(self) -> Option<[f64; 2]> {
         Some(self.colors().range(self.held?.bounds))
     }
 
-    /// The ends of the range in words, marked where stresses lie beyond them.
+    /// Returns the ends of the range as text, marked if stresses lie beyond them.
     pub fn ends(self) -> Option<[String; 2]> {
         let [low, high] = self.bounds()?.map(|end| format_value(end, "Pa", 3));
         let mark = |is_beyond, sign: &str, end| match is_beyond {
@@ -93,10 +93,10 @@ impl StressMap {
         Some([mark(below, "≤", low), mark(above, "≥", high)])
     }
 
-    /// The colours follow the stress as the scales of the plots follow their data.
+    /// Updates the range of the colours, which follows the stress as the scales of plots follow their data.
     pub fn follow(&mut self, frame: &Frame) {
         let (cycle, before) = (frame.observation.moment.cycle, self.held);
-        // Without contact, the range is that of the contact before.
+        // Without contact, the range stays the same.
         let Some(([low, high], range)) = self.extent(frame) else {
             return;
         };
@@ -111,12 +111,12 @@ impl StressMap {
         }
     }
 
-    /// Its colours.
+    /// Returns its colours.
     pub fn colors(self) -> ColorMap {
         QUANTITIES[self.shown].1
     }
 
-    /// The title of the map, and one for little room.
+    /// Returns the title of the map, and a shorter one for little room.
     pub fn names(self) -> [String; 2] {
         let (names, _, origin) = QUANTITIES[self.shown];
         let of_cycle = match self.over_cycle && !matches!(origin, Origin::Cycle) {
@@ -163,7 +163,7 @@ impl StressMap {
         largest = seen.iter().copied().fold(largest, f64::max);
         let sizes = seen.iter().map(|value| [value.abs(), 1.0]);
         let top = scan::robust_top(sizes.chain([[largest, 0.1]]));
-        // Nothing is in tension, or no cycle has been seen yet.
+        // Nothing is in tension, or there has been no complete cycle yet.
         let low = match self.colors() {
             ColorMap::Diverging => -top,
             ColorMap::Sequential => 0.0,
@@ -191,5 +191,5 @@ impl StressMap {
     }
 }
 
-/// The shade of a stress in a column, this many samples below the surface; the last row continues downwards.
+/// Returns the shade of a stress by column and by samples below the surface; the last row continues downwards.
 pub type Shades = Box<dyn Fn(usize, usize) -> usize>;

@@ -8,7 +8,7 @@ use crate::scenario::columns::{Columns, OWN};
 pub struct Axes {
     /// The abscissa's column.
     pub x: &'static str,
-    /// The ordinate's column.
+    /// The ordinate's.
     pub y: &'static str,
     /// The ordinate's symbol.
     pub symbol: &'static str,
@@ -36,7 +36,7 @@ impl Axes {
     /// The smallest c in each cycle, over cycles.
     pub const STICK: Self = Self::new("cycle", "permanent_stick_radius_m", "c");
 
-    /// A curve of column `y` over column `x`.
+    /// These columns.
     pub const fn new(x: &'static str, y: &'static str, symbol: &'static str) -> Self {
         Self { x, y, symbol }
     }
@@ -52,14 +52,14 @@ impl Axes {
     }
 }
 
-/// Returns the unit at the end of a column's name.
+/// The unit that ends the name of a column.
 pub fn unit_of(column: &str) -> &'static str {
     let ends_with = |unit: &str| column.strip_suffix(unit)?.strip_suffix('_');
     let found = OWN.iter().find(|(unit, _)| ends_with(unit).is_some());
     found.map_or("", |(_, unit)| unit)
 }
 
-/// A table of numbers: header lines and columns, each named with its unit at the end.
+/// A table of this program: header lines and columns of numbers, each named with its unit at the end.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// The `# key: value` lines.
@@ -68,7 +68,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Makes a table from its header and named columns of equal length.
+    /// A table from memory: its header and named columns of one length.
     pub fn of_columns<N: Into<String>>(
         header: Vec<(String, String)>,
         columns: impl IntoIterator<Item = (N, Vec<f64>)>,
@@ -93,7 +93,7 @@ impl Table {
         Self::of_columns(header, columns)
     }
 
-    /// Returns the column of this name.
+    /// A column, if there is one of that name.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let (_, values) = self.columns.iter().find(|(column, _)| column == name)?;
         Some(values)
@@ -121,7 +121,7 @@ impl Table {
         self.column("cycle")?.last().copied()
     }
 
-    /// Reads the columns of a file in SI units; fields that are not numbers become NaN.
+    /// The columns of a file, in SI units; fields that are no numbers become NaN.
     pub fn of_file(columns: &Columns) -> Self {
         Self::of_columns(columns.header.clone(), columns.all())
     }

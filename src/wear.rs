@@ -1,4 +1,4 @@
-//! Wear laws: how much the surface recedes where a stress acts during slip.
+//! Wear laws: how much the surface recedes where a stress slips.
 
 use std::hint::select_unpredictable as select;
 
@@ -80,7 +80,7 @@ impl WearLaw {
         }
     }
 
-    /// Returns the powers; `None` for Archard's law.
+    /// The powers that wear goes by; none under Archard's law.
     pub fn powers(&self) -> Option<Powers> {
         self.powers
     }
@@ -90,18 +90,18 @@ impl WearLaw {
         self.powers.is_none()
     }
 
-    /// Returns the exponent m of the stress.
+    /// By which power of the stress a surface wears: m.
     pub fn stress_exponent(&self) -> f64 {
         self.powers.map_or(1.0, |powers| powers.stress_exponent)
     }
 
-    /// Returns the exponent n of the slip rate.
+    /// By which power of the slip rate a surface wears: n.
     pub fn slip_rate_exponent(&self) -> f64 {
         self.powers.map_or(1.0, |powers| powers.slip_rate_exponent)
     }
 
-    /// Writes ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node depends on its stress `tau`
-    /// (Pa) at a slip `slip` (m) over `duration` (s); 0 where stress or slip is zero.
+    /// ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node answers to its
+    /// stress `tau` (Pa) at a slip `slip` (m) over `duration` (s); 0 where nothing works.
     #[inline(always)]
     pub fn sensitivity(&self, tau: &[f64], slip: &[f64], duration: f64, answers: &mut [f64]) {
         let points = answers.iter_mut().zip(tau.iter().zip(slip));
@@ -128,11 +128,11 @@ impl WearLaw {
         }
     }
 
-    /// Writes the wear (m) of one step into `wear`, from the stress `tau` (Pa) and the slip `slip` (m) of each node and
-    /// the `duration` (s).
+    /// Writes the wear (m) of one step into `wear`: stress `tau` (Pa) and slip `slip` (m) at the nodes,
+    /// over a time of `duration` (s).
     ///
-    /// Friction resists slip, so τ·s cannot be negative; where rounding or the transform's error makes it negative,
-    /// nothing wears.
+    /// Friction resists slip, so τ·s is never negative; where rounding or a transform's own error
+    /// makes it so, nothing wears.
     #[inline(always)]
     pub fn wear(&self, tau: &[f64], slip: &[f64], duration: f64, wear: &mut [f64]) {
         let points = wear.iter_mut().zip(tau.iter().zip(slip));
@@ -159,7 +159,7 @@ impl WearLaw {
     }
 }
 
-/// max(v, 0), but NaN stays NaN, so that a broken state is noticed.
+/// max(v, 0), but NaN stays NaN: a broken state must be seen, not hidden.
 #[inline(always)]
 fn positive_part(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }

@@ -59,10 +59,10 @@ const NO_HISTORY: &str = "there is no history.csv";
 /// Makes a chart of a run, or returns why there is nothing to show.
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
-/// Everything about a chart except its data.
+/// Everything that there is to know of a chart but its data.
 #[derive(Debug, Clone, Copy)]
 pub struct Recipe {
-    /// The name on the command line; empty for charts that exist only on the screen.
+    /// The name on the command line, for charts that a paper can have.
     pub name: &'static str,
     /// The title.
     pub title: &'static str,
@@ -86,12 +86,12 @@ pub struct Recipe {
     pub text: &'static str,
     /// The symbols in the chart, with their meaning.
     pub symbols: Symbols,
-    /// The function that makes it.
+    /// How it is made.
     pub make: Make,
 }
 
 impl Recipe {
-    /// A recipe with default values for everything but `make`.
+    /// A recipe that is nothing but made.
     pub const fn new(make: Make) -> Self {
         Self {
             name: "",
@@ -109,7 +109,7 @@ impl Recipe {
         }
     }
 
-    /// Makes the chart of a run.
+    /// The chart of a run.
     ///
     /// # Errors
     /// Says why there is nothing to show.
@@ -130,7 +130,7 @@ impl Recipe {
             }
         }
         chart.curves.sort_by_key(|curve| match curve.role {
-            // On paper, overlaid curves from other sources lie on top of the run's.
+            // On paper, curves of other sources lie over those of the run.
             Role::Ghost(k) if run.live.is_none() => k + 1,
             // On a screen, closed forms lie below what they explain.
             _ => usize::from(run.live.is_some() && !curve.is_theory),
@@ -147,12 +147,12 @@ impl Recipe {
         chart.map_err(|why| Refusal::new(format_args!("no chart {}", self.name), why))
     }
 
-    /// Whether its abscissa is the radius, which the cursor moves along.
+    /// Whether its abscissa is the radius, which has the cursor.
     pub fn is_over_r(&self) -> bool {
         self.overlays.first().is_some_and(|axes| axes.over_r())
     }
 
-    /// Whether the chart can show data of `ghost`.
+    /// Whether the chart has a place for what `ghost` holds.
     pub fn shows(&self, ghost: &Ghost) -> bool {
         let mut overlays = self.overlays.iter();
         overlays.any(|axes| ghost.trace(*axes).is_some())
@@ -191,7 +191,7 @@ fn over_r(run: &Run, abscissa: &'static str, (label, unit): (&'static str, &'sta
     }
 }
 
-/// Returns a column over the radius for every state, named by its cycle; a single state is named `alone`.
+/// A column over the radius at every state, by the states' cycles where there are several; else under this name.
 fn of_states(run: &Run, column: &str, alone: &str, role: Role) -> Vec<Curve> {
     let count = run.states.len();
     let states = run.states.iter().enumerate();
@@ -235,13 +235,13 @@ fn over_cycles(run: &Run, y: Axis) -> Chart {
     Chart::new("", cycles, y)
 }
 
-/// Returns a column of the history over cycles.
+/// A column of the history over its cycles.
 fn series(run: &Run, column: &str, name: &str, role: Role) -> Result<Curve, &'static str> {
     let [cycles, values] = run.over_cycles(["cycle", column]).ok_or(NO_HISTORY)?;
     Ok(Curve::new(name, cycles, values, role))
 }
 
-/// Returns a column of the history over complete cycles; the incomplete one is kept only if there is no other.
+/// A column of the history over its finished cycles: the unfinished one only if there is no other.
 fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'static str> {
     let mut curve = series(run, column, "", role)?;
     let is_open = run.live.as_ref().is_some_and(|live| live.is_within_a_cycle);

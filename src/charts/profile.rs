@@ -60,7 +60,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             vec![worn.magnified(times, column("f_m")).filled(unworn)]
         }
         None => {
-            // The inset shows wear too small to see in the profile. Visible wear gets no inset, which would cover it.
+            // What a page hides in the profile: wear that is seen there would lie under its inset.
             let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
             let inset = of_states(run, "wear_m", "", Role::Profile);
             let deepest = inset.iter().map(Curve::highest).fold(0.0, f64::max);

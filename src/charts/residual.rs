@@ -15,7 +15,7 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    // The history holds 1 − V/(k E_d), which is missing under laws in which wear is not proportional to the work.
+    // The history has 1 − V/(k E_d); it is missing under laws that do not follow energy.
     let mut differences = series(run, "energy_residual", "", Role::Profile)?;
     for value in &mut differences.ys {
         *value *= -1e3;

@@ -10,7 +10,7 @@ use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::{Loop, Table};
 
-/// What is known only of a run on the screen.
+/// What a run has only while it is on a screen.
 #[derive(Debug, Clone)]
 pub struct Live {
     /// The present moment.
@@ -59,7 +59,7 @@ pub struct Run {
     pub indenter: Option<Indenter>,
     /// Whether the contact is round or a line.
     pub geometry: Geometry,
-    /// What is known only of a run on the screen; `None` on paper.
+    /// What belongs to a screen, of a run at one moment; `None` on paper.
     pub live: Option<Live>,
 }
 
@@ -175,8 +175,8 @@ impl Run {
         zones
     }
 
-    /// Returns columns of the history over cycles. For a finished run in which most rows end a cycle, the other rows
-    /// are left out, because they are at other phases of the motion.
+    /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
+    /// they lie at other phases of the motion.
     pub(super) fn over_cycles<const N: usize>(&self, names: [&str; N]) -> Option<[Vec<f64>; N]> {
         let history = self.history.as_ref()?;
         let cycles = history.column("cycle")?;

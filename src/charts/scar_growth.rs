@@ -21,7 +21,7 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// The columns of the overlays.
+/// The columns.
 const DEPTH: Axes = Axes::new("dissipated_energy_J", "scar_depth_m", "depth");
 const RADIUS: Axes = Axes::new("dissipated_energy_J", "scar_radius_m", "radius");
 

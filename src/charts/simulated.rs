@@ -7,7 +7,7 @@ use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::traces::{Loop, Table};
 
-/// The columns of the charts over cycles.
+/// What the charts over cycles show.
 const OVER_CYCLES: [&str; 7] = [
     "cycle",
     "contact_radius_m",

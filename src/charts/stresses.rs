@@ -27,7 +27,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let columns = state.column("r_m").zip(state.column("p_Pa"));
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
-    // τ is divided by μ on a screen, but not on paper.
+    // What τ is divided by; on paper it is drawn as it is.
     let (name, divisor) = match &run.live {
         None => ("τ", Some(1.0)),
         Some(_) if is_log => ("|τ|/μ", run.friction()),
@@ -53,7 +53,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     if let Some(shear) = shear.filter(is_seen) {
         let shear = shear.iter().copied().map(scaled).collect();
         let shear = curve(name, shear, Role::Shear);
-        // Dashed, so that the pressure shows through where the contact slips and both coincide.
+        // Dashes: where the contact slips the pressure lies under it, and is still seen.
         chart = chart.curve(shear.dashed_if(run.live.is_some()));
         chart.y.is_symmetric = true;
     }

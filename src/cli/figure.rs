@@ -214,7 +214,7 @@ fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]
     Ok(())
 }
 
-/// Reads the curves of a file or a directory, or runs a scenario to the end of the figure's run.
+/// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
 fn ghost(given: &OsStr, run: &Run) -> Result<Ghost> {
     let path = Path::new(given);
     let ending = path.extension();

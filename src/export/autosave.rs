@@ -33,7 +33,7 @@ const STALE: Duration = Duration::from_secs(3600);
 pub struct Autosave {
     /// The run's own file.
     home: Option<PathBuf>,
-    /// The directory for fallback files.
+    /// Where free places are.
     directory: Option<PathBuf>,
     /// The fallback file, in use since `home` failed or if there is no `home`.
     elsewhere: Option<Target>,
@@ -46,8 +46,8 @@ pub struct Autosave {
 }
 
 impl Autosave {
-    /// Saves to `home`; falls back to a new file in `directory`. Saves once per interval `every`, or only on request if
-    /// `every` is 0.
+    /// Saves to `home`; falls back to a new file in `directory`. Once per interval `every`, or only on request if that
+    /// is 0.
     pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Duration) -> Self {
         Self {
             home,

@@ -135,7 +135,7 @@ impl Claim {
         }
     }
 
-    /// Opens and locks the file and writes this process into it, or returns the owner.
+    /// The file, locked and with this process in it, or who has it.
     fn locked(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
         loop {
             let (mut file, is_made_here) = match safe_open::open(path, true) {

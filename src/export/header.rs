@@ -6,7 +6,7 @@ pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
-/// Returns the top of a file about the present state of `session`: the header and the names of the columns.
+/// How a file begins that tells of the present state of `session`: the header and the names of the columns.
 pub fn head(session: &Session, names: &[&str]) -> String {
     let entries = entries(session);
     let lines = entries.iter().map(|(key, value)| line(key, value));
@@ -29,7 +29,7 @@ pub fn line(key: &str, value: &str) -> String {
     format!("# {}: {}\n", printable(key), printable(value))
 }
 
-/// Header line of a run whose error is unknown.
+/// Key and value of the line of a run whose error is not known.
 pub const UNMEASURED: (&str, &str) = ("estimated_error", "not measured (--estimate-error)");
 
 /// Returns the keys and values of a file's header for the present state of `session`.

@@ -16,7 +16,7 @@ use crate::scenario::session::Session;
 
 pub use crate::scenario::scalars::HISTORY as COLUMNS;
 
-/// Buffered rows are written to the file when they exceed this size, bytes.
+/// Rows buffered in memory before they are written, bytes.
 const CHUNK: usize = 64 << 10;
 
 /// The rows recorded so far, as text.
@@ -28,7 +28,7 @@ pub struct History {
     written: u64,
     checksum: u32,
     last_cycle: Option<f64>,
-    /// Additional columns, after the standard ones.
+    /// Columns after the ones that every history has.
     further: Vec<String>,
 }
 
@@ -51,13 +51,13 @@ impl History {
         })
     }
 
-    /// Returns the names of all columns.
+    /// The names of all columns.
     fn names(&self) -> impl Iterator<Item = &str> {
         let further = self.further.iter().map(String::as_str);
         COLUMNS.into_iter().chain(further)
     }
 
-    /// Returns the columns with their values at the present moment of `session`.
+    /// The columns of the present moment of `session` with their values.
     pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
         let reading = Reading::new(session);
         let values = self.names().map(|name| (name, reading.value(name)));
@@ -207,7 +207,7 @@ fn foreign() -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, "holds rows of another run")
 }
 
-/// Returns the fields of a moment, in the order of the columns.
+/// The fields of a moment, in the order of the columns.
 pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
     COLUMNS.map(|name| scalars::cell(&reading.value(name)))
 }

@@ -4,7 +4,7 @@ use super::header::{field, table};
 use crate::scenario::session::Session;
 use crate::simulation::{PeriodPoint, Simulation};
 
-/// The columns, in order; the last one is empty unless the rig is compliant.
+/// The columns, in order; the last one stays empty without a rig that yields.
 pub const COLUMNS: [&str; 4] = ["cycle", "u_x_m", "F_x_N", "rig_displacement_m"];
 
 /// Periods of up to this many cycles are written whole; of longer ones, only the last cycle.

@@ -20,7 +20,7 @@ pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 /// The name of the file with the history's rows, until the run ends.
 pub const RUN_ROWS: &str = ".mdr-tui-history";
 
-/// The directory of one run. No other process can claim it until this is dropped.
+/// The directory of one run's files. No other process claims it before this is dropped.
 #[derive(Debug)]
 pub struct RunDirectory {
     path: PathBuf,
@@ -180,7 +180,7 @@ impl RunDirectory {
         remove(&self.rows())
     }
 
-    /// Writes one of the run's files as a whole.
+    /// Writes one of the run's files, whole.
     pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), WriteError> {
         write_whole(&self.path.join(name), contents.as_ref())
     }

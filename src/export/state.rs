@@ -4,7 +4,7 @@ use super::header::{self, number};
 use crate::reading::{Curves, Observation};
 use crate::scenario::session::Session;
 
-/// Additional columns if the scenario divides the wear between the two bodies.
+/// The columns that follow where the scenario shares the wear between both bodies.
 const COLUMNS_OF_BODIES: [&str; 2] = ["wear_indenter_m", "wear_half_space_m"];
 
 /// Returns the whole file for the present state of `session`.
@@ -25,7 +25,7 @@ pub fn table(session: &Session) -> String {
     header::table(session, &names, rows)
 }
 
-/// Returns the numeric columns with their names, in the order of the file, as far as they were computed.
+/// The columns of numbers with their names, in the order of the file, as far as they were asked for.
 pub fn columns(seen: &Observation) -> Vec<(&'static str, Vec<f64>)> {
     // The compression of the springs: d − g in contact, 0 elsewhere.
     let pressed = |g: &f64| (seen.moment.depth - g).max(0.0);

@@ -128,7 +128,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// The system's error; an existing file is then unchanged.
+    /// If the system refuses; what was there before is then there still.
     pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
         self.write_with(|out| out.write_all(contents))
     }

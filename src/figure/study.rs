@@ -25,10 +25,10 @@ const MARGIN: f64 = 0.04;
 /// Interrupts a line.
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
-/// The column of the running condition, which holds words.
+/// The column of the words.
 const REGIME: &str = "regime";
 
-/// Quantities whose estimated error studies can record, and the column of that relative error.
+/// Quantities whose estimated error studies can record, and the column that holds it, relative to the quantity.
 const ERRORS: [(&str, &str); 5] = [
     ("scar_depth_m", "estimated_error_deepest"),
     ("wear_volume_m3", "estimated_error_volume"),
@@ -79,7 +79,7 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
     })
 }
 
-/// Returns the default columns: for a map the first one and the regimes, for curves all but the errors.
+/// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
 fn usual<'a>(slice: &Slice, known: &[&'a str]) -> Vec<&'a str> {
     let named = known.iter().copied();
     let regime = named.clone().filter(|name| *name == REGIME);
@@ -136,7 +136,7 @@ pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     Axis::new(label, unit).scale(axis.spread)
 }
 
-/// Returns an axis for a column, with its title and unit; logarithmic if its `values` span decades.
+/// A column of a study in words, with its unit; logarithmic where its `values` span decades.
 pub fn quantity(column: &str, values: &[f64]) -> Axis {
     let label = scalars::find(column)
         .map_or(column, |scalar| scalar.meaning)
@@ -148,7 +148,7 @@ pub fn quantity(column: &str, values: &[f64]) -> Axis {
     })
 }
 
-/// Returns a column's values at the given points; for the regime, the index of the word.
+/// The values of a column at points; those of the regimes are the numbers of their words.
 fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> Vec<f64> {
     let value = |point| match column {
         REGIME => slice.regime(point).map(|regime| f64::from(regime as u8)),
@@ -159,7 +159,7 @@ fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> V
         .collect()
 }
 
-/// Makes the chart of a column over the shown axes: a curve, or a map with closed-form borders and criteria.
+/// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
 pub fn chart(slice: &Slice, column: &str, lines: [Vec<Line>; 2]) -> Chart {
     match slice.y() {
         Some(upwards) => map(slice, upwards, column, lines),
@@ -219,8 +219,8 @@ fn map(
     chart
 }
 
-/// Returns the edges between cells of different regimes, with gaps; `None` if there are none, or if `column` itself
-/// shows the regimes.
+/// The edges of a map's cells between points of different regimes, with gaps; `None` without any, and where the
+/// `column` itself shows them.
 fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
     let upwards = slice.y().filter(|_| column != REGIME)?;
     let [(_, _, across), (_, _, up)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
@@ -244,8 +244,8 @@ fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
     (!xs.is_empty()).then(|| Curve::new(name, xs, ys, Role::Border(2)))
 }
 
-/// Makes a chart of a column over the first axis, one symbol per point, with error bars if the study recorded them. The
-/// points are joined if only one axis distinguishes them.
+/// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
+/// one axis alone tells the points apart.
 fn points(slice: &Slice, column: &str) -> Chart {
     let places = places(slice.x());
     let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);

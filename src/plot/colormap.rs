@@ -25,7 +25,7 @@ pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::White, [0xff, 0xff, 0xff]),
 ];
 
-/// The choice of colours.
+/// Which colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorMap {
     /// Dark to bright, for values that begin at zero.
@@ -58,7 +58,7 @@ const DIVERGING: [Rgb; 7] = [
     [178, 24, 43],
 ];
 
-/// Returns the colour at a `share` of the way from one colour to another.
+/// The colour at a `share` of the way from one to another.
 pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
     [0, 1, 2].map(|k| {
         let [from, to] = [from[k], to[k]].map(f64::from);

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use super::colormap::{ColorMap, NAMED};
 use super::theme::{Depth, Look, Theme};
 
-/// The number of shades: few, so that only the lines between them change from frame to frame.
+/// How many there are: few, so that only the lines between them change from frame to frame.
 pub const SHADES: usize = 12;
 
 /// Signs from low to high: of values that begin with nothing.
@@ -34,13 +34,13 @@ pub fn has_blocks(theme: &Theme) -> bool {
     theme.colored() && !theme.ascii()
 }
 
-/// Returns the shade of a value between `low` and `high`, counted from 0.
+/// The shade of a value between `low` and `high`, from 0.
 pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
     let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
     ((share * SHADES as f64) as usize).min(SHADES - 1)
 }
 
-/// Returns the colour of a shade; `None` if the terminal has none.
+/// The colour of a shade; `None` where the terminal has none.
 pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
     let is_light = theme.look == Look::Light;
     let number = match (theme.depth, map) {
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
     use crate::plot::Marker;
 
-    /// Returns the colour that a terminal of 256 colours shows: a cube of 6×6×6 colours, then 24 greys.
+    /// What a terminal of 256 colours shows: a cube of 6×6×6 colours, then 24 greys.
     fn rgb(index: u8) -> [u8; 3] {
         match index {
             232.. => [8 + 10 * (index - 232); 3],

@@ -158,7 +158,7 @@ pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
     format!("{}, N = {}", method.spoken(), grid.cells())
 }
 
-/// Returns what a run can be compared with: every other method, and itself on half the cells.
+/// What a run can be compared with: every other method, and itself on half the cells.
 fn choices(session: &Session) -> Vec<(&'static str, String)> {
     let setup = session.simulation().setup();
     let mut others = AbelMethod::of(setup.geometry).to_vec();

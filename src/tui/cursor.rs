@@ -7,7 +7,7 @@ use super::panels::Panel;
 /// An abscissa, named by its column. Charts over the same one share the cursor's position.
 pub type Abscissa = &'static str;
 
-/// The abscissa of charts over r.
+/// The one of charts over r.
 pub const RADIUS: Abscissa = "r_m";
 
 /// Returns the abscissa of a panel; the cursor of pictures moves along the radius.

@@ -25,11 +25,11 @@ pub struct Source {
 }
 
 impl Source {
-    /// Loads the directory or CSV file `given`, or else starts it as a scenario, for comparison with a contact that
-    /// reaches as far as `reach`, m.
+    /// What `given` names, which is to be shown over a contact that reaches as far as `reach`, m: a
+    /// directory or a CSV file, or else a scenario.
     ///
     /// # Errors
-    /// If it cannot be read, is rejected as measured data, or cannot be run.
+    /// What cannot be read, is refused as measured data, or cannot be run.
     pub fn load(given: impl AsRef<OsStr>, reach: f64) -> Result<Self, SessionError> {
         let path = Path::new(&given);
         let ending = path.extension();

@@ -99,7 +99,7 @@ impl LiveCharts {
         self.held.get(&axis).map(|held| held.bounds)
     }
 
-    /// Returns the chart of a panel as made for its frame, or makes it from `frame`.
+    /// The chart of a panel: as it was made when the frame came, else of `frame`.
     pub(super) fn get(&self, panel: Panel, frame: &Frame) -> Cow<'_, Made> {
         match self.charts.get(&panel) {
             Some(chart) => Cow::Borrowed(chart),

@@ -76,7 +76,7 @@ type Merge = fn(f64, f64) -> f64;
 
 const LAST: Merge = |_, later| later;
 
-/// The columns of the record, named as in `history.csv` where they exist there.
+/// The columns of a history, by their names in `history.csv` where they are there.
 pub const COLUMNS: [(&str, Merge); 11] = [
     ("cycle", LAST),
     ("contact_radius_m", f64::max),
@@ -87,7 +87,7 @@ pub const COLUMNS: [(&str, Merge); 11] = [
     ("dissipated_energy_J", LAST),
     ("energy_residual", LAST),
     ("step_cost_s", f64::max),
-    // Values of the last complete cycle.
+    // Of the last whole cycle.
     ("u_x_amplitude_m", LAST),
     ("mean_F_z_N", LAST),
 ];

@@ -29,7 +29,8 @@ impl<'a> Forecast<'a> {
         self.setup.indenter.ball_radius().is_some()
     }
 
-    /// Returns the amplitude at which the whole contact slips, m, for any shape: u_t = (μ E*/G*) d (Ciavarella, Jäger).
+    /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
+    /// and Jäger.
     fn threshold(&self) -> f64 {
         Unworn::of(self.setup).deepest() / self.setup.material.stick_ratio()
     }
@@ -41,7 +42,7 @@ impl<'a> Forecast<'a> {
         let depth = unworn.deepest();
         let mean = unworn.mean_pressure(depth);
         let (what, pressure, place) = match self.is_ball() {
-            // Hertz: p0 = 3/2 of the mean pressure.
+            // Hertz: p0 = 3/2 of the mean.
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
             false => ("mean pressure", mean, ""),
         };
@@ -61,7 +62,7 @@ impl<'a> Forecast<'a> {
         if share >= 1.0 {
             return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
         }
-        // c² = a² (1 − U/u_t) for the sphere of Cattaneo and Mindlin; a punch slips nowhere or everywhere.
+        // c² = a² (1 − U/u_t) of Cattaneo and Mindlin's sphere; a punch slips nowhere or everywhere.
         match self.is_ball() {
             true => format!(
                 "partial slip: a ring outside {:.0} % of the contact radius; all slips from an amplitude of {threshold}",

@@ -147,7 +147,7 @@ impl Interview {
 
     fn answers(&self) -> Result<Draft> {
         let mut draft = Draft::default();
-        // Questions not asked yet have their defaults, so that the contact can already be described.
+        // What is not asked yet has its default, so that the contact can be described already.
         for question in ["stroke", "friction", "frequency", "cycles"].map(question) {
             let usual = question.read(&question.default).map_err(Refusal::from)?;
             draft.answer(question, &usual);
@@ -183,8 +183,7 @@ impl Interview {
         Ok(draft)
     }
 
-    /// Asks one of two questions: the one whose option is given, or whose item the user chooses. Returns it with its
-    /// answer.
+    /// One of two questions, and its answer: the one whose option is given, or whose item the user chooses.
     fn one_of(
         &self,
         both: [&str; 2],

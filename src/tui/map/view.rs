@@ -118,7 +118,7 @@ impl View {
         [self.slice.at[self.slice.x], y]
     }
 
-    /// Returns the name of the column; empty if the study has none.
+    /// The name of the column; empty if the study has none.
     pub fn column(&self) -> &'static str {
         let column = self.slice.study.columns.get(self.column);
         column.map_or("", |column| column.name)

@@ -171,7 +171,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     }
     let speed = speed(frame);
     let said = phase(&frame.observation.moment, speed);
-    // The text keeps its place when the motion turns.
+    // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
     on(&mut canvas, start, area.y, &said);
     match speed {
@@ -184,7 +184,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
     let worn = canvas.printable(&worn(seen, |depth| value(depth, "m")));
-    // The obvious part is left out if there is no room for it.
+    // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
     let worn = match worn.rsplit_once(", ") {
         Some((brief, _)) if Line::raw(worn.as_str()).width() > room => brief,

@@ -17,7 +17,7 @@ const NARROWEST: u16 = 17;
 /// The title of the difference.
 const DIFFERENCE: &str = "difference of f";
 
-/// The explanation of a comparison, which replaces all panels.
+/// The explanation of a comparison, which takes the place of all panels.
 pub static RECIPE: Recipe = Recipe {
     title: "comparison",
     text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \

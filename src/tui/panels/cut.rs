@@ -133,7 +133,7 @@ impl<'a> Section<'a> {
             lift: seen.moment.depth - whole(seen.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
-            // The bodies move in every frame; the stress below them changes more calmly.
+            // The bodies move with every frame, the stress below changes more calmly.
             stress: of.stress.samples(of.calm, columns, rows, width),
         };
         section.tall = high - section.cut(0.0).surface;

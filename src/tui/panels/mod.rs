@@ -27,13 +27,13 @@ mod stress_map;
 pub use caption::contact_state;
 pub use stress_map::StressMap;
 
-/// A panel that is not a chart.
+/// A panel that no chart can be.
 pub struct Picture {
     /// Its names and needs.
     recipe: Recipe,
-    /// Draws it, with its title in a rule above.
+    /// Draws it below a rule with the title.
     pub draw: fn(&Shown, Canvas),
-    /// The range of values that its scale must include.
+    /// The values that it must hold.
     extent: fn(&Frame) -> Option<[f64; 2]>,
 }
 
@@ -45,7 +45,7 @@ pub struct Shown<'a> {
     pub calm: &'a Frame,
     /// The stress to show.
     pub stress: StressMap,
-    /// The range of its scale.
+    /// The values that its scale holds.
     pub bounds: Option<[f64; 2]>,
     /// The role of its title.
     pub role: Role,
@@ -64,14 +64,14 @@ macro_rules! panels {
             /// All panels, in reading order.
             pub const ALL: [Self; [$($what),*].len()] = [$(Self::$name),*];
 
-            /// Returns its recipe.
+            /// Everything that is declared of it.
             pub fn recipe(self) -> &'static Recipe {
                 match self {
                     $(Self::$name => &$recipe,)*
                 }
             }
 
-            /// Returns how to draw it, if it is not a chart.
+            /// How it is drawn, if it is no chart.
             pub fn picture(self) -> Option<&'static Picture> {
                 match self {
                     $(Self::$name => $picture,)*
@@ -102,13 +102,13 @@ panels! {
 }
 
 impl Panel {
-    /// Returns the panel with this title.
+    /// The one with a title.
     pub fn titled(title: &str) -> Option<Self> {
         let mut panels = Self::ALL.into_iter();
         panels.find(|panel| panel.recipe().title == title)
     }
 
-    /// Returns the smallest and largest ordinate that its scale must include, from its chart if it has one.
+    /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
     pub fn extent(self, frame: &Frame, chart: Option<&Chart>) -> Option<[f64; 2]> {
         match self.picture() {
             Some(picture) => (picture.extent)(frame),
@@ -116,7 +116,7 @@ impl Panel {
         }
     }
 
-    /// Returns the abscissa at a place of the screen, if the panel in `area` has its chart there.
+    /// The abscissa under a place of the screen, where the panel in `area` has its chart there.
     pub fn abscissa_at(
         self,
         chart: &Chart,
@@ -130,8 +130,8 @@ impl Panel {
     }
 }
 
-/// Returns the smallest and largest ordinate of a live chart: given bounds, or the range of the run's curves and of
-/// overlays.
+/// The smallest and largest ordinate of a live chart: given ones, or those of the run's own curves and of other
+/// sources.
 fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     if chart.y.bounds.is_some() {
         return chart.y.bounds;

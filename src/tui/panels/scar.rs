@@ -1,5 +1,5 @@
-//! The scar from above: a disc in half blocks. Its left half shows stick and slip, its right half the worn depth in
-//! colours.
+//! The scar from above: a disc in half blocks; its left half shows stick and slip, its right half
+//! the worn depth in colours.
 //!
 //! ```text
 //!         ▄▄▄▄▄▄▄▄▄          left: stick in the middle, slip around it, open outside

@@ -182,7 +182,7 @@ impl Section<'_> {
         }
     }
 
-    /// Returns the shade of the stress at height `z`.
+    /// The shade of the stress at height `z`.
     fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
         let below = ((cut.surface - z) / self.half).max(0.0) as usize;
         Some(self.stress.as_ref()?(column, below))

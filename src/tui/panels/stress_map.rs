@@ -191,5 +191,5 @@ impl StressMap {
     }
 }
 
-/// Returns the shade of a stress by column and by samples below the surface; the last row continues downwards.
+/// The shade of a stress in a column, this many samples below the surface; the last row continues downwards.
 pub type Shades = Box<dyn Fn(usize, usize) -> usize>;

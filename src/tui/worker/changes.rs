@@ -14,7 +14,7 @@ const STRIDE: f64 = 1.5;
 /// Minimum number of cells that the key can reach.
 const COARSEST: usize = 8;
 
-/// The laws that the key steps through.
+/// Laws that keys step through.
 const LAWS: [&str; 2] = ["archard", "power"];
 
 impl Worker {
@@ -153,7 +153,7 @@ impl Worker {
     }
 }
 
-/// Splits `KEY` and `VALUE, KEY=VALUE, ...` into keys and values, and quotes the values of choices.
+/// The keys and values of `KEY` and `VALUE, KEY=VALUE, ...`; words that a key knows stand in quotes.
 fn assignments(key: &str, value: &str) -> Vec<(String, String)> {
     let mut parts: Vec<(String, String)> = Vec::new();
     let whole = format!("{key}={value}");

@@ -1,4 +1,4 @@
-//! Values over two axes as colours.
+//! Values over two axes, drawn as colours.
 
 use ratatui::style::Color;
 
@@ -11,11 +11,11 @@ use crate::math::scan::range;
 /// Maximum number of words that a map can distinguish.
 pub const WORDS: usize = 4;
 
-/// Characters from low to high, in a terminal without colours: the lowest value is told from a blank.
+/// Characters from low to high, in a terminal without colours; even the lowest value differs from a blank.
 pub const SIGNS: [char; SHADES] = ['.', ':', '-', '=', '+', 'c', 'o', 'x', '*', '%', '#', '@'];
 
-/// The characters and roles of words in a terminal. Of running conditions, stick and slip have the colours that they
-/// have in all panels, and any kind of colour vision tells the one between them from both.
+/// The characters and roles of words in a terminal. For running conditions, stick and slip have the same colours as in
+/// all panels, and people with any kind of colour vision can tell the third colour from both.
 pub const SWATCHES: [(char, Role); WORDS] = [
     ('s', Role::Stick),
     ('~', Role::Pressure),
@@ -30,12 +30,11 @@ pub struct Map {
     pub quantity: Axis,
     /// The abscissae and the ordinates of the grid, monotonic.
     pub places: [Vec<f64>; 2],
-    /// The values, abscissa by abscissa for each ordinate.
+    /// The values, row by row: all abscissae for the first ordinate, then for the next.
     pub values: Vec<f64>,
     /// The colours.
     pub colors: ColorMap,
-    /// The words that the values are the numbers of, from 0 on, at most [`WORDS`];
-    /// empty where the values are quantities.
+    /// The words for the values 0, 1, …, at most [`WORDS`]; empty if the values are quantities.
     pub words: Vec<&'static str>,
 }
 

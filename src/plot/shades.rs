@@ -13,19 +13,19 @@ pub const SHADES: usize = 12;
 /// Signs from low to high: of values that begin with nothing.
 pub const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
 
-/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest:
-/// blues, so that the colours of stick, slip and wear stand out, and any kind of colour vision tells them apart.
-/// On a light background they begin at the other end.
+/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest. They
+/// are blues, so that the colours of stick, slip and wear stand out and people with any kind of colour vision can tell
+/// them apart. On a light background their order is reversed.
 const SEQUENTIAL: [u8; SHADES] = [17, 18, 24, 25, 31, 32, 38, 74, 80, 116, 152, 195];
 
-/// The shades of values of both signs on a dark background: brighter with the size, and grey at zero, where white
+/// The shades of values of both signs on a dark background: brighter for larger sizes, and grey at zero, where white
 /// would be the brightest of all.
 const DIVERGING: [u8; SHADES] = [117, 75, 33, 26, 24, 237, 237, 88, 124, 160, 203, 217];
 
-/// The same on a light background: those nearest to the colours of [`ColorMap::Diverging`].
+/// The same on a light background: the colours nearest to [`ColorMap::Diverging`].
 const DIVERGING_ON_LIGHT: [u8; SHADES] = [67, 68, 110, 152, 254, 255, 255, 224, 223, 216, 167, 131];
 
-/// Shades of terminals that have sixteen colours, by the colours' numbers: neighbours share one.
+/// Shades for terminals with sixteen colours, by number; some neighbours share one.
 const SIXTEEN: [u8; SHADES] = [4, 4, 12, 12, 6, 6, 14, 2, 10, 10, 3, 11];
 const SIXTEEN_DIVERGING: [u8; SHADES] = [4, 4, 12, 12, 14, 7, 7, 11, 9, 9, 1, 1];
 

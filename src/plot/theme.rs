@@ -1,11 +1,10 @@
 //! Colours: one per quantity, the same in every panel.
 //!
-//! Explanatory text (titles, ticks, names, keys) has the terminal's default foreground: one of the
-//! bright colours may be the background, as "bright black" is in Solarized. Rules and frames are
-//! dim. Quantities have the colours of M. Okabe and K. Ito (2008), which people with any kind of
-//! colour vision tell apart, some darker on a light background, as the nearest of the cube that every
-//! terminal of 256 colours has: its names are half as long on the wire as red, green and blue. A
-//! terminal of sixteen colours gets the plain ones, which its user has chosen.
+//! Explanatory text (titles, ticks, names, keys) has the terminal's default foreground, because one of the bright
+//! colours may be the background, as "bright black" is in Solarized. Rules and frames are dim. Quantities have the
+//! colours of M. Okabe and K. Ito (2008), which people with any kind of colour vision can tell apart; some are darker
+//! on a light background. They are rounded to the cube of every 256-colour terminal, whose codes are half as long on
+//! the wire as red, green and blue. A terminal of sixteen colours gets the plain ones, as its user has chosen them.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
@@ -15,8 +14,7 @@ use super::units::to_ascii;
 use crate::math::scan::shifted;
 use crate::reading::Zone;
 
-/// Quantities and parts of the screen that have a style of their own: the same quantity has the same colour in
-/// every chart.
+/// Quantities and parts of the screen with a style. The same quantity has the same colour in every chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Role {
     /// The unworn profile, and past states.
@@ -145,8 +143,8 @@ pub struct Theme {
 /// A colour of the cube of 256, for a dark and for a light background.
 pub type Pair = [u8; 2];
 
-/// The palette after Okabe and Ito. On white their yellow and their sky blue are too pale for a line;
-/// their orange and purple are darkened.
+/// The palette of Okabe and Ito. On white, their yellow and sky blue are too pale for a line; their orange and purple
+/// are darkened.
 const ORANGE: Pair = [178, 130];
 const SKY: Pair = [74, 25];
 const GREEN: Pair = [36, 29];
@@ -188,8 +186,7 @@ impl Theme {
         self.marker == Marker::Ascii
     }
 
-    /// A text from outside as this terminal can show it: no control characters, and ASCII where it
-    /// must be.
+    /// Returns a text as this terminal can show it: without control characters, and in ASCII if necessary.
     pub fn printable(&self, text: &str) -> String {
         let text = text.replace(char::is_control, " ");
         match self.ascii() {

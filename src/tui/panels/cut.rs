@@ -1,5 +1,5 @@
-//! Where the bodies of the cross-section lie: the heights of indenter and half-space along the motion, what is magnified,
-//! and where that is on the screen.
+//! Places the bodies of the cross-section: the heights of indenter and half-space along the motion, what is magnified,
+//! and where it is on the screen.
 
 use super::stress_map::Shades;
 use super::*;
@@ -10,13 +10,13 @@ use crate::simulation::drive::Control;
 /// The picture is this many times as wide as the domain, so that the sides of the bodies are visible.
 const WIDER: f64 = 1.35;
 
-/// The amplitude of the motion takes up to this share of the picture's width, and no more columns than this: each is
-/// redrawn in the flanks.
+/// Maximum amplitude of the motion, as a fraction of the picture's width and in columns, because each column of the
+/// flanks is redrawn.
 const SWING: f64 = 0.025;
 const FARTHEST: f64 = 4.0;
 
-/// The wear takes up to this share of the picture's height, but is magnified at least so much: in true size what is lost
-/// has no room, where the bodies touch.
+/// Maximum height of the wear, as a fraction of the picture's height, and its minimum magnification: in true size the
+/// lost material has no room where the bodies touch.
 const WEAR: f64 = 0.4;
 const LEAST_WEAR: f64 = 2.0;
 
@@ -61,8 +61,8 @@ impl Cut {
     }
 }
 
-/// The heights that the picture spans, m: all of the indenter's flank within the domain, and as much
-/// of the half-space.
+/// Returns the heights that the picture spans, m: the whole indenter's flank within the domain, and as much of the
+/// half-space.
 pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
     let depth = frame.observation.moment.depth;
     if frame.observation.depression.is_empty() {
@@ -76,9 +76,9 @@ pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
 
-/// A frame as a cut in an area: its lengths, m, and how much is magnified.
+/// A frame as a cut in an area: its lengths, m, and the magnifications.
 pub struct Section<'a> {
-    /// Of what, and the look of the terminal.
+    /// What to draw, and the look of the terminal.
     pub of: &'a Shown<'a>,
     pub theme: Theme,
     pub area: Rect,
@@ -87,14 +87,14 @@ pub struct Section<'a> {
     pub half: f64,
     /// The height of the upper edge.
     pub high: f64,
-    /// How many times the wear is drawn, in heights of the picture; and the motion, in its widths.
+    /// The magnification of the wear, in heights of the picture, and of the motion, in its widths.
     wear: f64,
     pub motion: f64,
-    /// The shift of the indenter as it is drawn, and how much higher both bodies are drawn: the indenter moves by
-    /// whole columns and rows, so that a small motion does not redraw everything with every frame.
+    /// The drawn shift of the indenter, and how far both bodies are lifted. The indenter moves by whole columns and
+    /// rows, so that a small motion does not redraw everything in every frame.
     pub shift: f64,
     lift: f64,
-    /// The height of the drawn surface of contact, and that from the lowest place of the indenter to the upper edge,
+    /// The drawn height of the contact surface, and the height from the lowest point of the indenter to the upper edge,
     /// m, on the scale of the surfaces.
     pub thick: f64,
     pub tall: f64,
@@ -140,8 +140,8 @@ impl<'a> Section<'a> {
         Some(section)
     }
 
-    /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
-    /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
+    /// Returns the cut at `x`, with magnified wear and a shifted indenter. Beyond the domain the indenter continues
+    /// unworn, and the surface recovers in proportion to 1/r, as under a point load.
     pub fn cut(&self, x: f64) -> Cut {
         let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
         let indenter = &scenario.setup().indenter;
@@ -211,8 +211,8 @@ impl<'a> Section<'a> {
         (at >= 0.0 && at < f64::from(self.area.width)).then(|| self.area.x + at as u16)
     }
 
-    /// The rows of the lower end of the indenter and of the surface of the half-space at `x`, m: the last whole
-    /// ones of what is above.
+    /// Returns the rows of the indenter's lower end and of the half-space's surface at `x`, m: the last whole rows
+    /// above them.
     pub fn rows_above(&self, x: f64) -> Option<[u16; 2]> {
         let cut = self.cut(x);
         let row = |z: f64| {

@@ -1,6 +1,6 @@
-//! A cut through indenter and half-space: one body pressed into the other, with the stress under
-//! the contact. Zoomed it is the contact itself, large: the indenter follows its motion, and captions
-//! tell the phase of the cycle ([`super::caption`]).
+//! A cut through indenter and half-space: one body pressed into the other, with the stress below the contact. When
+//! zoomed, it shows the contact large: the indenter follows its motion, and captions describe the phase of the cycle
+//! ([`super::caption`]).
 //!
 //! ```text
 //!  ████████████████████████████████    indenter: heights exaggerated, shifted by its magnified motion
@@ -9,11 +9,11 @@
 //!  ░░░░░░░░░░▄▄▄▄▄▄▄▄▄▄▄▄▄▄░░░░░░░░    half-space: the stress inside, in true lengths
 //! ```
 //!
-//! Heights of the surfaces are exaggerated, each body's surface to an eighth of a cell. Below the surface
-//! lengths are true: a half cell is about as high as a column is wide, and both stand for the same length,
-//! so the stress lies under the contact as it does in the material. The motion is magnified too: short lines
-//! on both bodies stay in one where the contact sticks, and part where it slips. The flanks of the indenter
-//! move with it; between them the contact stays closed.
+//! Heights of the surfaces are exaggerated; each body's surface is drawn to an eighth of a cell. Below the surface
+//! lengths are true: half a cell is about as high as a column is wide, and both represent the same length, so the
+//! stress lies under the contact as it does in the material. The motion is magnified, too: short lines on both bodies
+//! stay aligned where the contact sticks, and separate where it slips. The flanks of the indenter move with it; between
+//! them the contact stays closed.
 
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
 use super::*;

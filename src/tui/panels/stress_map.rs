@@ -7,14 +7,14 @@ use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
 use crate::tui::held::Held;
 
-/// Places across and down that set the range of the colours, over this many contact radii.
+/// The number of points across and down that set the range of the colours, and their extent in contact radii.
 const PLACES: u32 = 14;
 const REACH: f64 = 1.2;
 
 /// The source of a shown quantity.
 #[derive(Debug, Clone, Copy)]
 enum Origin {
-    /// From a load, Pa; over a cycle its largest value.
+    /// From a load, Pa; over a cycle, the largest value.
     Moment(fn(&Stress) -> f64),
     /// From the loads of a whole cycle: the Smith–Watson–Topper stress amplitude.
     Cycle,
@@ -22,7 +22,7 @@ enum Origin {
     Nowhere,
 }
 
-/// What the half-space can show, in the order in which a key leads to it: a name, one for little room, the colours.
+/// The quantities that the half-space can show, in the order of the key: a name, a short name, and the colours.
 #[rustfmt::skip]
 const QUANTITIES: [([&str; 2], ColorMap, Origin); 6] = [
     (["von Mises stress", "von Mises"], ColorMap::Sequential, Origin::Moment(Stress::von_mises)),
@@ -55,7 +55,7 @@ pub struct StressMap {
     over_cycle: bool,
     /// The range of the colours, Pa; `None` if nothing is shown.
     held: Option<Held>,
-    /// Whether a stress was below or above that range since it was last judged.
+    /// Whether stresses were below or above that range since it was last checked.
     beyond: [bool; 2],
 }
 
@@ -143,8 +143,8 @@ impl StressMap {
         }
     }
 
-    /// The smallest and the largest stress, Pa, and the range that the colours must have: what is larger in a small part
-    /// of the picture, under an edge or at a border of stick, does not count.
+    /// Returns the smallest and the largest stress, Pa, and the range that the colours must cover. Larger values in a
+    /// small part of the picture, under an edge or at a border of stick, do not count.
     fn extent(self, frame: &Frame) -> Option<([f64; 2], [f64; 2])> {
         let load = frame.load.as_deref()?;
         let (values, mut largest) = match QUANTITIES[self.shown].2 {

@@ -4,26 +4,27 @@ use std::hint::select_unpredictable as select;
 
 use crate::math::invalid::{Invalid, non_negative, positive};
 
-/// A local law of wear, written as a rate so that the result does not depend on the step's size.
+/// A local wear law, written as a rate so that the result does not depend on the step size.
 ///
-/// Eq. (15) of the paper, Archard's law: Δf = k τ Δs, wear in proportion to frictional work; or by [`Powers`].
+/// Archard's law, Eq. (15) of the paper: Δf = k τ Δs, wear proportional to frictional work. Or a power law, see
+/// [`Powers`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WearLaw {
     /// k, 1/Pa.
     coefficient: f64,
-    /// None: Archard's law.
+    /// `None` for Archard's law.
     powers: Option<Powers>,
 }
 
 /// Δf = k τ_ref (τ/τ_ref)^m v_ref (|ṡ|/v_ref)^n Δt.
 ///
-/// A power of the slip *rate*: a power n ≠ 1 of the slip increment itself would change the wear
-/// by 2^(n−1) when the step is halved. m = n = 1 is Archard's law.
+/// The power applies to the slip *rate*: a power n ≠ 1 of the slip increment itself would change the wear by 2^(n−1)
+/// when the step is halved. m = n = 1 is Archard's law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Powers {
-    /// m.
+    /// The exponent m of the stress.
     pub stress_exponent: f64,
-    /// n.
+    /// The exponent n of the slip rate.
     pub slip_rate_exponent: f64,
     /// τ_ref, Pa.
     pub reference_stress: f64,
@@ -84,7 +85,7 @@ impl WearLaw {
         self.powers
     }
 
-    /// Whether wear is k times the frictional work, so that V = k E_d can be watched.
+    /// Whether wear is k times the frictional work, so that V = k E_d can be checked.
     pub fn follows_energy(&self) -> bool {
         self.powers.is_none()
     }

@@ -5,7 +5,7 @@ use ratatui::style::Color;
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
 
-/// The colours of a terminal that have names, by their numbers, and what they look like where that is not known.
+/// The terminal's named colours, by number, with their usual RGB values for when the real ones are unknown.
 pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::Black, [0, 0, 0]),
     (Color::Red, [0xcd, 0x31, 0x31]),
@@ -85,7 +85,7 @@ pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
 }
 
 impl ColorMap {
-    /// The colour at a share of the range, 0 to 1.
+    /// Returns the colour at a share of the range, 0 to 1.
     pub fn color(self, share: f64) -> Rgb {
         match self {
             Self::Sequential => between(&SEQUENTIAL, share),
@@ -93,7 +93,7 @@ impl ColorMap {
         }
     }
 
-    /// The range of colours for values from `low` up to `high`: colours of both signs have white at zero.
+    /// Returns the range of colours for values from `low` to `high`; diverging colours have white at zero.
     pub fn range(self, [low, high]: [f64; 2]) -> [f64; 2] {
         let size = low.abs().max(high.abs());
         match self {

@@ -1,4 +1,4 @@
-//! Values as shades: colours of the terminal, or signs where it has none.
+//! Values as shades: colours of the terminal, or characters if it has none.
 
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Style};
@@ -17,23 +17,23 @@ const FINE_SHADES: f64 = 36.0;
 /// Signs from low to high: of values that begin with nothing.
 pub const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
 
-/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest:
-/// blues, so that the colours of stick, slip and wear stand out, and any kind of colour vision tells them apart.
-/// On a light background they begin at the other end.
+/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest. They
+/// are blues, so that the colours of stick, slip and wear stand out and people with any kind of colour vision can tell
+/// them apart. On a light background their order is reversed.
 const SEQUENTIAL: [u8; SHADES] = [17, 18, 24, 25, 31, 32, 38, 74, 80, 116, 152, 195];
 
-/// The shades of values of both signs on a dark background: brighter with the size, and grey at zero, where white
+/// The shades of values of both signs on a dark background: brighter for larger sizes, and grey at zero, where white
 /// would be the brightest of all.
 const DIVERGING: [u8; SHADES] = [117, 75, 33, 26, 24, 237, 237, 88, 124, 160, 203, 217];
 
-/// The same on a light background: those nearest to the colours of [`ColorMap::Diverging`].
+/// The same on a light background: the colours nearest to [`ColorMap::Diverging`].
 const DIVERGING_ON_LIGHT: [u8; SHADES] = [67, 68, 110, 152, 254, 255, 255, 224, 223, 216, 167, 131];
 
-/// Shades of terminals that have sixteen colours, by the colours' numbers: neighbours share one.
+/// Shades for terminals with sixteen colours, by number; some neighbours share one.
 const SIXTEEN: [u8; SHADES] = [4, 4, 12, 12, 6, 6, 14, 2, 10, 10, 3, 11];
 const SIXTEEN_DIVERGING: [u8; SHADES] = [4, 4, 12, 12, 14, 7, 7, 11, 9, 9, 1, 1];
 
-/// Whether blocks and colours can be drawn.
+/// Whether the terminal can show blocks and colours.
 pub fn has_blocks(theme: &Theme) -> bool {
     theme.colored() && !theme.ascii()
 }
@@ -97,7 +97,7 @@ pub fn key(
     from.chain(shades).chain([Span::raw(to)]).collect()
 }
 
-/// Colours the upper and the lower half of a cell; what has no colour stays as it is.
+/// Colours the upper and the lower half of a cell; a half without a colour stays unchanged.
 pub fn paint_halves(cell: &mut Cell, halves: [Option<Color>; 2]) {
     match halves {
         [None, None] => return,
@@ -139,7 +139,7 @@ mod tests {
                 let shades = (0..SHADES).map(|shade| color(&theme, map, share(shade)));
                 let mut told: Vec<_> = shades.collect();
                 told.dedup();
-                // The two beside zero of a diverging map share their grey.
+                // The two shades beside zero in a diverging map share a grey.
                 let shared = usize::from(map == ColorMap::Diverging);
                 assert_eq!(told.len(), SHADES - shared, "{told:?}");
             }

@@ -1,5 +1,5 @@
-//! Tables that a scenario reads from files: read once, when the scenario is loaded, and stored in
-//! it as lists of numbers. So the scenario of a run, or a checkpoint, needs no other file.
+//! Embeds tables from files: they are read once, when the scenario is loaded, and stored in it as lists of numbers, so
+//! that the scenario of a run, or a checkpoint, needs no other file.
 
 use std::path::Path;
 
@@ -10,8 +10,8 @@ use super::columns::Columns;
 use super::error::{Origin, Refusal};
 use super::{schema, values};
 
-/// Reads the files that `table` names, relative to the `directory` of the scenario's file, and puts
-/// their columns in their place. Values that are not paths stay, for the check of all keys to reject.
+/// Reads the files named in `table`, relative to the `directory` of the scenario's file, and replaces them by their
+/// columns. Values that are not paths stay; the check of all keys rejects them.
 pub(super) fn files(
     table: &mut Table,
     directory: &Path,

@@ -12,12 +12,12 @@ use crate::reading::{CycleFigures, Moment, Quantity};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
-/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null where
-/// it is not defined at this moment.
+/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null if it
+/// is undefined at this moment.
 pub use serde_json::Value;
 
-/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
-/// the same bits, nothing where the value is missing.
+/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to the same bits, an empty
+/// field for a missing value.
 pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -39,13 +39,13 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// Returns a number as a field, empty where it is not known.
+/// Returns a number as a field, empty if NaN.
 pub fn field(value: f64) -> String {
     cell(&value.into())
 }
 
-/// The present moment of a session, read for some scalars. What several scalars need is computed
-/// once, and the pressure only if a scalar asks for it.
+/// Reads scalars at the present moment of a session. Intermediate results that several scalars need are computed once,
+/// and the pressure only if a scalar needs it.
 #[derive(Debug)]
 pub struct Reading<'a> {
     session: &'a Session,
@@ -71,23 +71,23 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The scalar of this name; missing where there is none.
+    /// Returns the scalar of this name; null for an unknown name.
     pub fn value(&self, name: &str) -> Value {
         find(name).map_or(Value::Null, |scalar| scalar.read(self))
     }
 
-    /// The same as a number; NaN where it is none at this moment.
+    /// As [`value`](Self::value), but as a number; NaN if it is not a number at this moment.
     pub fn number(&self, name: &str) -> f64 {
         self.value(name).as_f64().unwrap_or(f64::NAN)
     }
 
-    /// p(r), Pa: one transform the first time.
+    /// Returns p(r), Pa; computed once, by one transform.
     fn pressure(&self) -> &[f64] {
         self.pressure
             .get_or_init(|| self.session.simulation().pressure())
     }
 
-    /// A figure of the last complete period; after a jump, a period is stepped for it.
+    /// Returns a figure of the last complete period; after a jump, a period is stepped for it.
     fn figure(&self, of: fn(&CycleFigures) -> Option<f64>) -> Value {
         self.figures().as_ref().and_then(of).into()
     }
@@ -96,7 +96,7 @@ impl<'a> Reading<'a> {
         self.figures.get_or_init(|| self.session.cycle_figures())
     }
 
-    /// The loads of a steady cycle, which is stepped the first time.
+    /// Returns the loads of a steady-state cycle, which is stepped once.
     fn stresses(&self) -> Option<&StressCycle> {
         let simulation = self.session.simulation();
         let stresses = self.stresses.get_or_init(|| StressCycle::of(simulation));
@@ -111,13 +111,13 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// Where the Smith–Watson–Topper parameter is largest.
+    /// Finds where the Smith–Watson–Topper parameter is largest.
     fn swt(&self, of: fn(&Peak) -> f64) -> Option<f64> {
         let find = || Some(self.stresses()?.largest(|at| at.swt));
         self.swt.get_or_init(find).as_ref().map(of)
     }
 
-    /// Where Crossland's parameter is largest.
+    /// Finds where Crossland's parameter is largest.
     fn crossland(&self, of: fn(&Peak) -> f64) -> Option<f64> {
         let find = || {
             let limits = self.limits()?;
@@ -126,7 +126,7 @@ impl<'a> Reading<'a> {
         self.crossland.get_or_init(find).as_ref().map(of)
     }
 
-    /// The estimated error that the headers of the run's files state.
+    /// Returns the estimated error stated in the headers of the run's files.
     fn stated(&self, quantity: Quantity) -> Value {
         let mut stated = self.session.statements().iter();
         let found = stated.find(|(known, _)| known == quantity.column());
@@ -144,7 +144,7 @@ impl<'a> Reading<'a> {
 pub struct Scalar {
     /// The name of the column; ends with the unit, if there is one.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// Its meaning, in one line.
     pub meaning: &'static str,
     read: fn(&Reading) -> Value,
 }
@@ -165,7 +165,7 @@ pub fn find(name: &str) -> Option<&'static Scalar> {
 ///
 /// # Errors
 ///
-/// In one line, the unknown name with the nearest known one.
+/// For an unknown name, a line with the nearest known one.
 pub fn named(name: &str) -> Result<&'static Scalar, String> {
     find(name).ok_or_else(|| {
         let hint = nearest::hint(name, SCALARS.iter().map(|scalar| scalar.name));
@@ -173,12 +173,12 @@ pub fn named(name: &str) -> Result<&'static Scalar, String> {
     })
 }
 
-/// Makes the list of all scalars, and of the names of those in every history.
+/// Makes the list of all scalars, and the list of names in every history.
 macro_rules! scalars {
     (history { $($column:literal, $of:literal, |$row:ident| $value:expr;)* }
      further { $($name:literal, $meaning:literal, |$r:ident| $read:expr;)* }
      stated { $($quantity:ident),* }) => {
-        /// All scalars; those of `history.csv` stand first, in the order of its columns.
+        /// All scalars; the columns of `history.csv` come first, in order.
         pub const SCALARS: &[Scalar] = &[
             $(Scalar { name: $column, meaning: $of, read: |$row| Value::from($value) },)*
             $(Scalar { name: $name, meaning: $meaning, read: |$r| Value::from($read) },)*
@@ -253,7 +253,7 @@ scalars! {
     }
 }
 
-/// The outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
+/// Returns the outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
 pub fn scar_radius(simulation: &Simulation) -> Option<f64> {
     let worn = simulation.worn_depth();
     let edge = 1e-3 * largest(worn);
@@ -262,7 +262,7 @@ pub fn scar_radius(simulation: &Simulation) -> Option<f64> {
     let Some(next) = nodes.get(outermost + 1) else {
         return Some(nodes[outermost]);
     };
-    // Between this node and the next the depth falls through the edge.
+    // Interpolates: the depth crosses the threshold between this node and the next.
     let share = (worn[outermost] - edge) / (worn[outermost] - worn[outermost + 1]);
     Some(nodes[outermost] + share * (next - nodes[outermost]))
 }

@@ -28,7 +28,7 @@ use crate::math::abel::kink;
 use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::{vectorized, write_each};
 
-/// What a step wears, and by what.
+/// The wear of a step and its causes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Increment {
     /// Slip of the springs, m.
@@ -37,28 +37,28 @@ pub(super) struct Increment {
     pub surface_slip: Vec<f64>,
     /// The stress that wears, Pa.
     pub shear: Vec<f64>,
-    /// The nodes that may wear: further in nothing slips, further out nothing presses.
+    /// The nodes that may wear: further in nothing slips, further out nothing is loaded.
     pub nodes: Range<usize>,
-    /// Worn depth, m; 0 but for these nodes.
+    /// Worn depth, m; 0 outside these nodes.
     pub depth: Vec<f64>,
-    /// How stiffly each of these nodes answers to its wear.
+    /// Stiffness of each of these nodes.
     pub stiffness: Vec<f64>,
     /// Work of friction, J.
     pub friction_work: f64,
-    /// What rubs: a line load, N/m, or its work on the slip, J/m.
+    /// Friction: a line load, N/m, or its work on the slip, J/m.
     rubbing: Field,
-    /// τ at both ends of a step, Pa, where it has been computed.
+    /// τ at both ends of a step, Pa, if it has been computed.
     shear_at_ends: [Vec<f64>; 2],
-    /// A load without its dome, N/m, while it is transformed.
+    /// Buffer for a load without its dome, N/m.
     pub rest: Vec<f64>,
-    /// What springs do within the step, where the normal load changes.
+    /// The springs within the step, if the normal load changes.
     within: Within,
 }
 
 impl Increment {
     pub fn new(model: &Model) -> Self {
         let springs = model.springs();
-        // Without wear no stress is needed to wear by.
+        // Without wear no stress is needed.
         let wearing = if model.setup.wear.is_some() {
             springs
         } else {
@@ -77,7 +77,7 @@ impl Increment {
         }
     }
 
-    /// Wears by `shear` and `surface_slip` in a time of `seconds`.
+    /// Computes the wear from `shear` and `surface_slip` over `seconds`.
     pub fn wear(&mut self, model: &Model, seconds: f64) {
         let nodes = self.nodes.clone();
         self.depth[..nodes.start].fill(0.0);
@@ -96,7 +96,7 @@ impl Increment {
         );
     }
 
-    /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
+    /// Computes the stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
     ///
     /// Wear that answers to the stress with ∂Δf/∂τ feeds back with z at a node with cells of the width h, ρ the
     /// [largest eigenvalue](response) of the response of p to wear. That is what limits an explicit step.
@@ -121,8 +121,8 @@ impl Increment {
         )
     }
 
-    /// Lets every node wear what an implicit step with its own response alone would, Δf/(1 + z): monotone for any z.
-    /// The work of friction goes down with the stress that is left at the end of the step.
+    /// Reduces the wear of every node to that of an implicit step, Δf/(1 + z), which is monotone for any z. The
+    /// friction work is reduced in proportion to the stress left at the end of the step.
     pub fn damp(&mut self, model: &Model) {
         let explicit = model.volume(&self.depth);
         let nodes = self.nodes.clone();
@@ -194,11 +194,11 @@ impl Increment {
     /// The work of friction 2∫ q_x Δs dx of explicit Euler, the integrand falling to zero at the contact's edge.
     pub fn rub_explicitly(&mut self, model: &Model, contact: &Contact) {
         if model.setup.geometry.is_line() {
-            // Its work is no integral of the product.
+            // Its work is not an integral of the product.
             return self.rub(model, [contact, contact]);
         }
         let modulus = model.setup.material.tangential_modulus();
-        // Springs that stick do no work, those out of contact bear nothing.
+        // Springs that stick do no work, and those out of contact carry nothing.
         let end = contact.normal.nodes;
         let states = &contact.spring_state[..end];
         let first = leading(states, |&state| state == SpringState::Stick);
@@ -221,8 +221,8 @@ impl Increment {
             kink::polyline(cell, ends, &[edge], kinks);
         }
         let work = model.foundation.force(&self.rubbing, *normal);
-        // On a contact of a cell or two, a cusp and the edge may take off more than there is: friction gives nothing
-        // back.
+        // On a contact of a cell or two, corrections for cusp and edge may exceed the work itself, but friction returns
+        // no energy.
         self.friction_work = work.clamp(0.0, f64::INFINITY);
     }
 
@@ -233,7 +233,7 @@ impl Increment {
         let nodes = (before.max(after) + 1).min(self.surface_slip.len());
         let surface_slip = &mut self.surface_slip[..nodes];
         model.plan.displacement(&self.slip, surface_slip);
-        // Nothing slips within the innermost spring that does.
+        // Nothing slips inside the innermost slipping spring.
         self.surface_slip[..stuck].fill(0.0);
         self.nodes = stuck.min(nodes)..nodes;
     }

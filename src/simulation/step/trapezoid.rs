@@ -19,7 +19,7 @@
 //!
 //! # Stability
 //!
-//! At the [stiffness](super::super::wear::Increment::stiffness) z, steps stay clean up to z = 0.7. One beyond is
+//! At the [stiffness](super::super::wear::Increment::stiffness) z, steps stay clean up to z = 0.7. Stiffer ones are
 //! taken in [sub-steps](super::substep).
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps per cycle at K = 0.3, and from 50 to 400
@@ -38,14 +38,14 @@ use crate::math::scan::leading;
 /// The farthest extrapolation of the profile, in lengths of the step before.
 const FARTHEST: f64 = 4.0;
 
-/// Closer to the limit errors ring, and make springs slip that would not have.
+/// Closer to the limit errors oscillate, and make springs slip that otherwise would not.
 pub(super) const BOUNDS: Bounds = Bounds {
     stiff: 0.7,
     aim: 0.35,
 };
 
-/// How far the profile is extrapolated over a step from `state` that takes `duration` cycles, in lengths of the step
-/// before.
+/// Returns how far the profile is extrapolated over a step from `state` that takes `duration` cycles, in lengths of the
+/// previous step.
 pub(super) fn ahead(state: &State, duration: f64) -> f64 {
     if state.last.duration > 0.0 {
         (duration / state.last.duration).min(FARTHEST)
@@ -54,7 +54,7 @@ pub(super) fn ahead(state: &State, duration: f64) -> f64 {
     }
 }
 
-/// What a step wears whose contact has been solved, into `scratch.increment`, and its pressure at the end.
+/// Computes the wear of a step whose contact has been solved, into `scratch.increment`, and its pressure at the end.
 pub(super) fn wear(
     model: &Model,
     state: &State,

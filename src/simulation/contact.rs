@@ -24,7 +24,7 @@ const HARDLY_BENT: f64 = 1e-6;
 /// A solved contact: the state and loads of all springs at one moment.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contact {
-    /// Depth d = u_z, m; of a line contact that of its springs, P/(E*L).
+    /// Depth d = u_z, m; in a line contact the depth of its springs, P/(E*L).
     pub depth: f64,
     /// Tangential displacement of the indenter u_x⁽⁰⁾, m; in a line contact against a point at the gauge length.
     pub shift: f64,

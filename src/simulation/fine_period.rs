@@ -6,15 +6,15 @@
 //!
 //! # Method
 //!
-//! - The springs start as the state left them. A first passage through the period settles them, the second one is the
-//!   result: a steady cycle on the present profile, after jumps and after direct steps alike.
+//! - The springs start from the state. A first passage through the period settles them, the second one is the
+//!   result: a steady-state cycle on the present profile, after jumps and direct steps alike.
 //! - Steps end where the motion turns and where contact is made or lost. Between these, a step is halved until the
 //!   triangle of its ends and its middle in the (u, F_x) plane is small compared with the loop's area.
 //! - Without a common period of the two motions, the passage covers the last tangential cycle, and the springs settle
 //!   during the cycles before it.
 //!
-//! At a held depth each point is exact but for the grid, so that the area is that of the closed forms; with a moving
-//! depth the error is of second order in the step.
+//! At a held depth each point is exact except for the grid, so the area matches the closed forms; with a moving depth
+//! the error is of second order in the step.
 
 use super::contact::{Contact, Problem};
 use super::moments::{Touch, rounding};
@@ -24,8 +24,8 @@ use super::{Cause, Simulation};
 /// Pairs of steps per cycle of the faster motion, before halving.
 const FEWEST: f64 = 20.0;
 
-/// The same in the first passage where the depth is held: there only the turning points settle the springs, and the
-/// others tell the loop's area.
+/// The same in the first passage at a held depth: only the turning points settle the springs, the other points merely
+/// trace the loop.
 const FEWEST_TO_SETTLE: f64 = 4.0;
 
 /// Steps are halved until they miss about this fraction of the loop's area.
@@ -53,7 +53,7 @@ pub struct PeriodPoint {
     pub cycle: f64,
     /// u_x⁽⁰⁾, m.
     pub shift: f64,
-    /// What the sensor of a rig sees, the displacement of its actuator, m: u_x⁽⁰⁾ on a stiff one.
+    /// Displacement of the rig's actuator, m, which its sensor sees: u_x⁽⁰⁾ on a stiff rig.
     pub sensed: f64,
     /// F_x, N.
     pub tangential_force: f64,

@@ -36,13 +36,14 @@ impl Profile {
         profile
     }
 
-    /// Becomes that of a worn depth (m), whose 1D image (m) is given with it.
+    /// Sets the profile of a worn depth (m), given with its 1D image (m).
     pub fn find(&mut self, model: &Model, [wear, image]: [&[f64]; 2]) {
         model.profile(image, 0.0, &[], &mut self.g);
         self.end_scar(model, |j| wear[j]);
     }
 
-    /// Becomes that of a worn depth (m) and its 1D image (m), with `ahead` times what both grew by in the last step on top.
+    /// Sets the profile of a worn depth (m) and its 1D image (m), plus `ahead` times the growth of both in the last
+    /// step.
     pub fn extrapolate(
         &mut self,
         model: &Model,
@@ -79,9 +80,9 @@ impl Profile {
     }
 }
 
-/// The last worn node, and the t = r² (m²) in the cell behind it where the scar ends: that node itself at a rim. `None`
-/// elsewhere if the wear does not reach the tip: where something sticks for ever the load falls to zero outside of what
-/// is worn.
+/// Returns the last worn node, and t = r² (m²) in the cell behind it where the scar ends: at a rim, the node itself.
+/// `None` elsewhere if the wear does not reach the tip: around a permanent stick zone the load falls to zero outside
+/// the worn part.
 fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
     let t = model.grid.squares();
     if model.setup.method != AbelMethod::Product {

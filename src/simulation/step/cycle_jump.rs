@@ -35,7 +35,7 @@ use crate::math::scan::largest;
 /// Minimum saving of a jump: cycles covered per cycle of evaluation.
 const WORTH: f64 = 1.5;
 
-/// A run whose wear up to its goal is at most this part of the error that a jump may have goes there at once.
+/// A run goes to its goal at once if its wear up to there is at most this fraction of the allowed error of a jump.
 const QUIET: f64 = 0.1;
 
 /// Maximum number of stages of a jump.
@@ -53,7 +53,7 @@ const PEAK: f64 = 10.0;
 /// Maximum error of the friction work by a jump, relative to all of it, however shallow the scar is.
 const LEAST_CERTAIN: f64 = 1e-4;
 
-/// The part of the domain beyond which a contact is given room before a jump is made shorter for the want of it.
+/// A contact beyond this fraction of the domain gets a wider domain before a jump is shortened for lack of room.
 const NEAR_EDGE: f64 = 0.8;
 
 /// Maximum number of periods stepped directly before another try.
@@ -90,10 +90,10 @@ pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
         && state.cycle % period == 0.0
 }
 
-/// Jumps over at most `most` cycles, into `next`; where jumps do not pay, `next` is `state` with a rest.
+/// Jumps over at most `most` cycles, into `next`; if jumps do not pay, `next` is `state` with a rest.
 ///
-/// The first try is as long as it would be without a goal. A run that is saved where a jump has ended, its own goal far
-/// away, is repeated with that cycle as its goal: a shorter first try, rejected, would lead to other jumps.
+/// The first try is as long as it would be without a goal. A run saved at the end of a jump towards a distant goal is
+/// repeated with that cycle as its goal; a shorter first try, if rejected, would lead to other jumps.
 pub(in super::super) fn jump(
     model: &Model,
     state: &State,
@@ -163,8 +163,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// A jump over all of the `most` cycles up to the goal, where they wear next to nothing: one stable Euler step,
-    /// which takes V and k E_d alike.
+    /// Jumps over all of the `most` cycles up to the goal if they wear almost nothing: one stable Euler step, which
+    /// advances V and k E_d alike.
     fn quiet(&mut self, memory: &mut State, most: f64) -> Option<Jump> {
         let (state, first, setup) = (self.state, self.first, &self.model.setup);
         let Integrator::CycleJump { tolerance } = setup.integrator else {
@@ -189,7 +189,7 @@ impl Search<'_> {
         }
         self.model.plan.image(&jump.wear, &mut jump.image);
         memory.stats.transforms += 1;
-        // The contact at the goal is that of a cycle on its profile.
+        // The contact at the goal results from a cycle on its profile.
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
         let steady = steady_cycle::cycle(
             self.model,
@@ -213,7 +213,7 @@ impl Search<'_> {
             return Err(Refused::TooShort(0.0));
         };
         let period = f64::from(setup.drive.cycles_to_settle());
-        // Under a held force the depth of indentation grows with the scar, and says nothing of the contact.
+        // Under a held force the depth of indentation grows with the scar, and says nothing about the contact.
         let depth = setup.depth_scale(first.elastic_depth);
         let near_edge = NEAR_EDGE * setup.grid.radius();
         let mut length = if state.jump.length > 0.0 {
@@ -235,7 +235,7 @@ impl Search<'_> {
             let tried = self.attempt(memory, covered, stages);
             let error = match &tried {
                 Ok(jump) => error(state, first, jump, tolerance * depth, tolerance),
-                // The state before the jump still has the springs as they were.
+                // The state before the jump still has the springs unchanged.
                 Err(cause) if cause.lacks_room() && state.contact.normal.radius > near_edge => {
                     return Err(Refused::WithoutRoom);
                 }
@@ -324,8 +324,8 @@ struct Jump {
     steady: SteadyCycle,
 }
 
-/// The error of a jump in units of what is allowed: that of the worn depth, by its rms over the nodes that
-/// wear and its largest value, and that of the friction work relative to all the work so far.
+/// Returns the error of a jump relative to the allowed one: of the worn depth, by its rms over the wearing nodes and
+/// its largest value, and of the friction work relative to all the work so far.
 fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, tolerance: f64) -> f64 {
     let covered = jump.covered;
     let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);

@@ -170,8 +170,8 @@ fn refuse(model: &Model, depth: f64, wear: &[f64], radii: &[f64]) -> Result<(), 
     let setup = &model.setup;
     let depth = match setup.geometry {
         Geometry::Round => setup.depth_scale(depth.max(least_depth(setup))),
-        // A strip that slides as a whole wears on whatever its springs carry, until the flanks of the indenter
-        // touch; where there are none, as far as it is a half-plane.
+        // A strip in gross slip wears on whatever its springs carry, until the flanks of the indenter touch; without
+        // flanks, as far as it acts as a half-plane.
         Geometry::Line { .. } => match setup.indenter.rim() {
             None => model.unworn[model.nodes() - 1].max(depth),
             Some(rim) => rim,
@@ -196,8 +196,8 @@ fn refuse(model: &Model, depth: f64, wear: &[f64], radii: &[f64]) -> Result<(), 
     Ok(())
 }
 
-/// What the largest force of the motion presses any contact on the domain by at least, m, where the force is
-/// prescribed: where contact is lost, the present depth says nothing of what can touch.
+/// Returns a lower bound, m, on the depth at the largest prescribed force of the motion, for any contact on the domain:
+/// when contact is lost, the present depth says nothing about what can touch.
 fn least_depth(setup: &Setup) -> f64 {
     match setup.drive.normal() {
         Control::Displacement(_) => 0.0,

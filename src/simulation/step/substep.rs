@@ -22,8 +22,9 @@ use super::{Bounds, Scratch, accept, euler, trapezoid};
 /// Factor by which a sub-step may exceed the previous one.
 const GROWTH: f64 = 1.5;
 
-/// The smallest sub-step, in steps. The wear of a slip instability is limited in these, and what merely is stiff, on
-/// narrow cells, must not reach them: it would lose wear (6 % of V at K = 300 and 12 steps with 3e-3, 2e-5 so).
+/// Smallest sub-step, in steps. The wear of a slip instability is limited in these; steps that are merely stiff, on
+/// narrow cells, must not reach them, as they would lose wear (6 % of V at K = 300 and 12 steps with 3e-3, 2e-5 with
+/// this value).
 const SMALLEST: f64 = 1e-4;
 
 /// How a step or a sub-step is taken.

@@ -18,7 +18,7 @@ use crate::scenario::Scenario;
 use crate::scenario::session::SessionError;
 use crate::studies::measured::Measured;
 
-/// The least error of a data set, relative to its own size: exact data must not weigh without end.
+/// Minimum error of a data set, relative to its own size: exact data must not get infinite weight.
 const LEAST_ERROR: f64 = 1e-4;
 
 /// The standard deviation of normal noise in medians of its size.
@@ -27,13 +27,13 @@ const OF_MEDIAN: f64 = 1.4826;
 /// Starts that are tried around the given ones, in e-folds of each key: factors of 10 and 100.
 const STARTS: [f64; 5] = [0.0, -LN_10, LN_10, -2.0 * LN_10, 2.0 * LN_10];
 
-/// So many keys are varied together in search of a start, more of them one by one.
+/// Up to this many keys are varied together in the search for a start; more of them one at a time.
 const TOGETHER: usize = 2;
 
 /// Starts from which the minimum is sought.
 const BEST_STARTS: usize = 2;
 
-/// A scar without so much of its points beyond its edge shows no baseline.
+/// A scar needs at least this share of its points beyond its edge to show a baseline.
 const BASELINE: f64 = 0.08;
 
 /// A run of the coarse search ends at so many times the steps of the shortest one, but not before [`ENOUGH_STEPS`].
@@ -43,7 +43,7 @@ const ENOUGH_STEPS: u64 = 10_000;
 /// A step of the search changes Σz² by less than this part of it at the minimum: in the coarse search, and after it.
 const TOLERANCES: [f64; 2] = [1e-4, 1e-6];
 
-/// Runs that are remembered.
+/// Number of runs remembered.
 const REMEMBERED: usize = 8;
 
 type Responses = Rc<Vec<Response>>;
@@ -56,11 +56,11 @@ pub(super) struct Search<'a> {
     pub nuisances: Vec<Nuisances>,
     /// σ of each point.
     pub errors: Vec<f64>,
-    /// Whether it only seeks where the minimum lies.
+    /// Whether it only looks for the region of the minimum.
     pub is_coarse: bool,
     on_run: &'a dyn Fn(),
     in_time: &'a dyn Fn() -> bool,
-    /// The fewest steps that a run has needed.
+    /// Smallest number of steps of a run.
     fewest_steps: Cell<u64>,
     remembered: RefCell<Vec<(Vec<u64>, Responses)>>,
 }
@@ -68,7 +68,7 @@ pub(super) struct Search<'a> {
 /// A minimum.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
-    /// The keys, positive ones by their logarithms.
+    /// The keys, positive ones as logarithms.
     pub theta: Vec<f64>,
     /// Level, shift and tilt of each data set.
     pub nuisances: Vec<[f64; 3]>,
@@ -76,7 +76,7 @@ pub(super) struct Found {
     pub simulated: Vec<Vec<f64>>,
     /// The deviations in units of the errors.
     pub z: Vec<f64>,
-    /// −2 ln of the likelihood, but for a constant.
+    /// −2 ln of the likelihood, up to a constant.
     pub objective: f64,
 }
 
@@ -460,7 +460,7 @@ fn first_errors(set: &Measured) -> Vec<f64> {
     given.unwrap_or_else(|| vec![size; set.values.len()])
 }
 
-/// Measured less simulated.
+/// Returns measured minus simulated values.
 pub(super) fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
     let pairs = measured.values.iter().zip(simulated);
     pairs.map(|(value, simulated)| value - simulated).collect()

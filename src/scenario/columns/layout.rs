@@ -187,7 +187,7 @@ fn is_decimal_comma(field: &str) -> bool {
     field.contains(',') && number(field).is_some()
 }
 
-/// Counts the numbers in proper rows, minus fields that contain numbers but for this separator.
+/// Counts the numbers in rows of several fields, minus the fields that only begin like a number.
 fn score(rows: &[Row]) -> i64 {
     let worth = |field: &str| match number(field) {
         Some(_) => 1,

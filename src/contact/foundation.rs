@@ -89,7 +89,7 @@ impl WinklerFoundation {
         2.0 * (kinked + self.cusp_integral(&load.nodal, contact))
     }
 
-    /// Returns the dome with `beyond` filled in: the excess of its integral over the polyline.
+    /// A dome with what its integral has beyond that of its polyline.
     pub fn measured(&self, dome: Dome) -> Dome {
         let Dome { edge, last, .. } = dome;
         if self.geometry.is_line() {

@@ -104,9 +104,9 @@ fn ends_at(scar: f64, squares: &[f64], k: usize) -> bool {
     k >= 2 && scar > squares[k - 2] && scar <= squares[k]
 }
 
-/// Returns where the contact ends under spring loads `q`, t = x² in m²: at the end of the scar, or further out where
-/// the dome of the loads inside passes through the last one, a spring that has just touched and not worn yet. The edge
-/// lies no further out than the last two loads fall to zero on a line in t.
+/// Where the contact of springs under the loads `q` ends, t = x² in m²: with the scar, or where the dome of the loads
+/// further in falls through the last one, if that has just touched and not worn yet; in any case where the last two loads
+/// fall to zero on a line in t, at the latest.
 fn edge_of_scar(q: &[f64], squares: &[f64], scar: f64) -> f64 {
     let last = q.len() - 1;
     let (from, load) = (squares[last], q[last]);

@@ -151,12 +151,12 @@ pub fn take_along_late(
     }
 }
 
-/// Finds the borders of stick and slip between springs. Writes the kinks of u_x (m) at these borders and at the
-/// contact's edge, and returns the radius within which every spring sticks, m.
+/// Finds the borders of stick and slip between springs: writes the kinks of u_x (m) that they and
+/// the contact's edge make, and returns the radius within which every spring sticks, m.
 ///
-/// At a border the line of the sticking springs meets the line of the limits, μ q_z/G*. The slope of the first line
-/// comes from the previous displacement of a spring that stuck then and slips now, or else from the last cell that
-/// sticks.
+/// At a border the line of the springs that stick meets the line of the limits, μ q_z/G*. A spring
+/// that stuck in the step before and slips now tells the slope of the first line by where it stood;
+/// else the last cell that sticks does.
 pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState]) -> f64 {
     let contact_radius = input.contact.radius;
     let Field {
@@ -216,7 +216,7 @@ pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState])
     stick_radius.unwrap_or(contact_radius).min(contact_radius)
 }
 
-/// A cell whose two springs have different states.
+/// A cell whose two springs do different things.
 struct Cell<'a> {
     input: SlipInput<'a>,
     spring: &'a [f64],

@@ -43,7 +43,7 @@ pub fn stages_for(stiffness: f64) -> usize {
     MOST
 }
 
-/// Computes T, T′ and T″ at w₀ from those of the two lower degrees.
+/// T, T′ and T″ of a degree at w₀ from those of the two before it.
 fn next(one: [f64; 3], two: [f64; 3]) -> [f64; 3] {
     [
         2.0 * W0 * one[0] - two[0],

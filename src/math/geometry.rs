@@ -18,7 +18,7 @@ use super::abel::worn;
 use super::grid::RadialGrid;
 use super::quadrature::{line_weights, volume_of_revolution, weighted};
 
-/// Plan view of a contact.
+/// The plan of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Geometry {
     /// A disc under a body of revolution; r is the distance from the axis.
@@ -80,7 +80,7 @@ impl Geometry {
         }
     }
 
-    /// Names a length such as a or c, which is a radius in a round contact.
+    /// A name of a, c or the like, which is a radius in a round contact.
     pub fn named(self, name: &str) -> String {
         match self {
             Self::Round => name.to_owned(),

@@ -154,7 +154,7 @@ mod tests {
             let c = CYLINDER.stick_half_width(force);
             let carried = 2.0 * integrate(|x| CYLINDER.shear(force, x), 0.0, a);
             assert!((carried / force - 1.0).abs() < 1e-7, "{carried} {force}");
-            // Each stroke slips by twice the slip at half the force: 4μp s per cycle.
+            // Each stroke slips by twice that of half the force; 4μp s a cycle.
             let work = |x: f64| {
                 let s = CYLINDER.slip(force, x);
                 4.0 * CYLINDER.friction * CYLINDER.pressure(a, x) * s

@@ -1,4 +1,4 @@
-//! Closed forms to test against; they share no code with the code under test.
+//! Closed forms to test against; they share no code with what they test.
 //!
 //! Everything here imports `std` only (and its own neighbours in this folder). Pure functions and
 //! small structs, SI units, `f64`. If a problem has no closed form, the defining integral is
@@ -13,14 +13,15 @@
 //! | [`cattaneo_mindlin`] | partial slip of the paraboloid on first loading |
 //! | [`fretting_loop`] | its loop, energy and wear per cycle; Masing's rule |
 //! | [`partial_slip`] | the same for any one-dimensional profile, by quadrature |
-//! | [`limiting_profile`] | the final shape of a paraboloid after endless fretting |
+//! | [`limiting_profile`] | what is left of a paraboloid after endless fretting |
 //! | [`dual_oscillation`] | permanent stick under normal and tangential oscillation |
 //! | [`line_contact`] | a cylinder on a flat: Hertz, partial slip, limit, gross slip |
 //! | [`half_space`] | stresses inside: Hertz in closed form, any traction by its point forces |
 //! | [`abel_pairs`], [`pair_catalogue`] | analytic pairs of the transforms (1), (2), (3) |
 //! | [`special`], [`quadrature`] | gamma, erf, Dawson, Bessel, bisection; the adaptive integral |
 //!
-//! Arguments outside a function's domain give NaN, never a panic; the items concerned say so.
+//! Arguments outside a function's domain give NaN, never a panic; each item says so where it
+//! can happen.
 
 pub mod abel_pairs;
 pub mod cattaneo_mindlin;

@@ -1,8 +1,8 @@
-//! Special functions for the closed forms: gamma, erf, Dawson's integral, the Bessel function I₀.
+//! Special functions the closed forms need: gamma, erf, Dawson's integral, the Bessel function I₀.
 //!
 //! Sources: Lanczos (1964) with Godfrey's coefficients (g = 7, 9 terms) for Γ; Abramowitz & Stegun
 //! (1964) 7.1.6, 7.1.25 ff. for erf and Dawson, 9.6.12 and 9.7.1 for I₀. Only series with positive
-//! terms are summed, so nothing cancels. Relative error below 2e-14 unless stated.
+//! terms are summed, so nothing cancels. Relative error below 2e-14 where not said otherwise.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, FRAC_PI_2, PI};
 
@@ -82,7 +82,7 @@ pub fn erf(z: f64) -> f64 {
 pub fn dawson(z: f64) -> f64 {
     let square = z * z;
     if z.abs() > 10.0 {
-        // 1/(2z) Σ (2k−1)!! / (2z²)ᵏ, truncated far before its smallest term (k ≈ z² > 100).
+        // 1/(2z) Σ (2k−1)!! / (2z²)ᵏ, cut far before its smallest term (k ≈ z² > 100).
         let (mut term, mut sum) = (1.0, 1.0);
         for k in 1..20u8 {
             term *= (2.0 * f64::from(k) - 1.0) / (2.0 * square);
@@ -126,8 +126,8 @@ pub fn bessel_i0_scaled(y: f64) -> f64 {
     (-y).exp() * sum
 }
 
-/// acosh(a/r) for 0 ≤ r ≤ a, dimensionless: +∞ at r = 0, 0 at r = a, without overflow or loss of digits near r = a. NaN
-/// outside.
+/// acosh(a/r) for 0 ≤ r ≤ a, dimensionless: +∞ at r = 0, 0 at r = a, no overflow, and no loss of
+/// digits near r = a. NaN outside.
 pub fn acosh_ratio(a: f64, r: f64) -> f64 {
     if !(r >= 0.0 && r <= a) {
         return f64::NAN;

@@ -17,7 +17,7 @@ const STEPS_FOR_POWERS: u32 = 50;
 /// Longer strokes, relative to the half-width of a line contact, are not small.
 const LONG_STROKE: f64 = 0.1;
 
-/// g still counts as level if it falls by no more than this fraction of the depth, as noise of a scar does.
+/// By how much of the depth g may fall and still counts as level: noise of a scar.
 const LEVEL: f64 = 0.02;
 
 impl Simulation {
@@ -149,8 +149,8 @@ fn slope(setup: &Setup, radius: f64) -> f64 {
     rise / (radius - inside)
 }
 
-/// Warns of a slip instability: wear lets springs slip on by more than they slipped, at a `pressure` in units of E*. A
-/// quasi-static contact then jumps, and the outcome depends on the cells.
+/// Wear that lets springs slip on by more than they slipped, at a `pressure` in units of E*. Beyond that, a quasi-static
+/// contact jumps, and where it lands depends on the cells.
 fn slip_instability(setup: &Setup, pressure: f64) -> Option<String> {
     let law = setup.wear.filter(|law| law.follows_energy())?;
     setup.drive.tangential()?;

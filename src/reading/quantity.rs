@@ -2,7 +2,7 @@
 
 use strum::{EnumCount, VariantArray};
 
-/// A number that a run reports.
+/// A number that a run gives away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, EnumCount, VariantArray)]
 pub enum Quantity {
     /// The new wear, as a curve.
@@ -44,7 +44,7 @@ impl Quantity {
         }
     }
 
-    /// Returns the key in the headers of files, which is also the name of the column in studies.
+    /// The key in the headers of files, and the name of the column in studies.
     pub const fn column(self) -> &'static str {
         match self {
             Self::WornDepth => "estimated_error",
@@ -59,7 +59,7 @@ impl Quantity {
         }
     }
 
-    /// Defines its error in one line, and what it is relative to.
+    /// What its error is, and relative to what, in one line.
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::WornDepth => {

@@ -47,7 +47,7 @@ pub(super) fn assign(
     Ok(())
 }
 
-/// Drops the keys that the assigned one replaces or makes stale.
+/// Drops the keys whose place the one that is assigned takes, or that do not go with it.
 fn drop_replaced(table: &mut Table, path: &str) {
     let twins = schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins);
     for of in twins {

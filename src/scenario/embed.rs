@@ -10,8 +10,8 @@ use super::columns::Columns;
 use super::error::{Origin, Refusal};
 use super::{schema, values};
 
-/// Reads the files named in `table`, relative to the `directory` of the scenario's file, and replaces them by their
-/// columns. Values that are not paths stay; the check of all keys rejects them.
+/// Reads the files that `table` names, relative to the `directory` of the scenario's file, and puts
+/// their columns in their place. Values that are not paths stay, for the check of all keys to reject.
 pub(super) fn files(
     table: &mut Table,
     directory: &Path,

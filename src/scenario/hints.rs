@@ -8,8 +8,8 @@ use super::nearest::nearest;
 use super::schema::{Kind, Parameter, is_section, parameters};
 use super::values::split;
 
-/// Returns the keys most likely meant by the unknown `path`, each with a remark to show beside its name; empty if none
-/// is close.
+/// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
+/// is nothing near.
 pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let (section, key) = split(path);
     let word = key.to_lowercase();

@@ -60,8 +60,8 @@ pub struct Scenario {
     directory: PathBuf,
     title: String,
     description: String,
-    /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out, except those that
-    /// follow the method.
+    /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out,
+    /// but for those that follow the method.
     table: Table,
     setup: Setup,
     run: RunPlan,
@@ -134,7 +134,8 @@ impl Scenario {
         self.with_all(&[(key, value)])
     }
 
-    /// As [`with`](Self::with), for several keys that are only valid together, such as another shape and its size.
+    /// [`with`](Self::with) for several keys that are only right together, such as another shape
+    /// and its size.
     pub fn with_all(
         &self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
@@ -158,7 +159,7 @@ impl Scenario {
         Self::build(table, origin, &self.origin, &self.directory)
     }
 
-    /// Returns where the domain radius comes from.
+    /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
         let is_given = self.value("numerics.domain_radius").is_some();
         match is_given || self.setup.indenter.rim().is_some() {
@@ -276,7 +277,7 @@ impl Scenario {
     pub fn value(&self, path: &str) -> Option<String> {
         let value = |table: &Table| values::at(table, path).map(values::literal);
         match path.split('.').next() {
-            // Only these two need the whole table; other keys are looked up in place, since some are in every frame.
+            // These two stand apart; the other keys are looked up as they are, for every frame.
             Some("run" | "changes") => value(&self.whole()),
             _ => value(&self.table),
         }
@@ -331,13 +332,13 @@ impl Scenario {
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);
         if scenario.run.stated.is_some() && scenario.statements().is_empty() {
-            // The statements describe the scenario before it was edited.
+            // They are about the scenario before it was edited.
             scenario.run.stated = None;
         }
         Ok(scenario)
     }
 
-    /// Returns all keys, including `[run]` and `[[changes]]`.
+    /// All keys, `[run]` and `[[changes]]` included.
     fn whole(&self) -> Table {
         let mut table = self.table.clone();
         let plan = Value::try_from(&self.run).expect("a plan is a table");

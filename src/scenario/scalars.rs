@@ -71,12 +71,12 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Returns the scalar of this name; null for an unknown name.
+    /// The scalar of this name; missing where there is none.
     pub fn value(&self, name: &str) -> Value {
         find(name).map_or(Value::Null, |scalar| scalar.read(self))
     }
 
-    /// As [`value`](Self::value), but as a number; NaN if it is not a number at this moment.
+    /// The same as a number; NaN where it is none at this moment.
     pub fn number(&self, name: &str) -> f64 {
         self.value(name).as_f64().unwrap_or(f64::NAN)
     }
@@ -126,7 +126,7 @@ impl<'a> Reading<'a> {
         self.crossland.get_or_init(find).as_ref().map(of)
     }
 
-    /// Returns the estimated error stated in the headers of the run's files.
+    /// The estimated error that the headers of the run's files state.
     fn stated(&self, quantity: Quantity) -> Value {
         let mut stated = self.session.statements().iter();
         let found = stated.find(|(known, _)| known == quantity.column());
@@ -144,7 +144,7 @@ impl<'a> Reading<'a> {
 pub struct Scalar {
     /// The name of the column; ends with the unit, if there is one.
     pub name: &'static str,
-    /// Its meaning, in one line.
+    /// What it is, in one line.
     pub meaning: &'static str,
     read: fn(&Reading) -> Value,
 }
@@ -165,7 +165,7 @@ pub fn find(name: &str) -> Option<&'static Scalar> {
 ///
 /// # Errors
 ///
-/// For an unknown name, a line with the nearest known one.
+/// In one line, the unknown name with the nearest known one.
 pub fn named(name: &str) -> Result<&'static Scalar, String> {
     find(name).ok_or_else(|| {
         let hint = nearest::hint(name, SCALARS.iter().map(|scalar| scalar.name));
@@ -173,12 +173,12 @@ pub fn named(name: &str) -> Result<&'static Scalar, String> {
     })
 }
 
-/// Makes the list of all scalars, and the list of names in every history.
+/// Makes the list of all scalars, and of the names of those in every history.
 macro_rules! scalars {
     (history { $($column:literal, $of:literal, |$row:ident| $value:expr;)* }
      further { $($name:literal, $meaning:literal, |$r:ident| $read:expr;)* }
      stated { $($quantity:ident),* }) => {
-        /// All scalars; the columns of `history.csv` come first, in order.
+        /// All scalars; those of `history.csv` stand first, in the order of its columns.
         pub const SCALARS: &[Scalar] = &[
             $(Scalar { name: $column, meaning: $of, read: |$row| Value::from($value) },)*
             $(Scalar { name: $name, meaning: $meaning, read: |$r| Value::from($read) },)*
@@ -253,7 +253,7 @@ scalars! {
     }
 }
 
-/// Returns the outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
+/// The outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
 pub fn scar_radius(simulation: &Simulation) -> Option<f64> {
     let worn = simulation.worn_depth();
     let edge = 1e-3 * largest(worn);

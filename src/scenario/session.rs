@@ -111,7 +111,7 @@ impl Session {
         self.simulation.checks(&self.log)
     }
 
-    /// Returns one line for each way in which the run lies outside the theory, or beyond the resolution of any grid.
+    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees.
     pub fn warnings(&self) -> Vec<String> {
         self.simulation.warnings(&self.log)
     }
@@ -195,7 +195,8 @@ impl Session {
         }
     }
 
-    /// Changes one key of the scenario now, carrying the state over, and records it. On an error nothing changes.
+    /// Changes one key of the scenario now, carrying the state over, and records it.
+    /// On an error nothing has changed.
     pub fn change(&mut self, key: &str, value: &str) -> Result<(), SessionError> {
         self.change_all(&[(key, value)])
     }

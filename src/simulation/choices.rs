@@ -29,7 +29,7 @@ pub enum Scheme {
     Euler,
 }
 
-/// How steps are treated whose wear responds too stiffly to the stress.
+/// What is done about steps whose wear answers too stiffly to the stress.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
 )]

@@ -123,7 +123,7 @@ impl Simulation {
         if model.setup.scar.is_some() {
             state.wear = model.setup.initial_wear(&model.grid);
             model.plan.image(&state.wear, &mut state.image);
-            // The work that wore the scar is unknown.
+            // Nobody knows by which work it was worn.
             state.ledger.initial_volume = scar_volume(&model, &state.wear);
             state.ledger.unexplained_volume = state.ledger.initial_volume;
         }
@@ -379,7 +379,7 @@ impl Simulation {
     pub fn wear_volume(&self) -> f64 {
         match self.setup().scar {
             None => scar_volume(&self.model, &self.state.wear),
-            // The discretisation of the initial scar must not count as wear.
+            // What the cells make of the scar that it began with is no wear.
             Some(_) => self.state.ledger.initial_volume + self.volume_since_start(),
         }
     }

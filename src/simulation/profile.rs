@@ -36,7 +36,7 @@ impl Profile {
         profile
     }
 
-    /// Sets the profile of a worn depth (m), given with its 1D image (m).
+    /// Becomes that of a worn depth (m), whose 1D image (m) is given with it.
     pub fn find(&mut self, model: &Model, [wear, image]: [&[f64]; 2]) {
         model.profile(image, 0.0, &[], &mut self.g);
         self.end_scar(model, |j| wear[j]);
@@ -80,9 +80,9 @@ impl Profile {
     }
 }
 
-/// Returns the last worn node, and t = r² (m²) in the cell behind it where the scar ends: at a rim, the node itself.
-/// `None` elsewhere if the wear does not reach the tip: around a permanent stick zone the load falls to zero outside
-/// the worn part.
+/// The last worn node, and the t = r² (m²) in the cell behind it where the scar ends: that node itself at a rim. `None`
+/// elsewhere if the wear does not reach the tip: where something sticks for ever the load falls to zero outside of what
+/// is worn.
 fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
     let t = model.grid.squares();
     if model.setup.method != AbelMethod::Product {
@@ -105,7 +105,7 @@ fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64
     Some((last, end.min(next)))
 }
 
-/// Returns the volume of the worn depth (m) of a scar, m³.
+/// The volume of the worn depth (m) of a scar, m³.
 pub(super) fn scar_volume(model: &Model, wear: &[f64]) -> f64 {
     let t = model.grid.squares();
     let tail = end_of_scar(model, |j| wear[j]).map_or(0.0, |(last, end)| {

@@ -69,7 +69,7 @@ pub struct SteadyCycle {
     pub friction_work: f64,
     /// The largest compression of a spring, m.
     pub elastic_depth: f64,
-    /// The largest stiffness of a node: a jump of h cycles is explicitly stable if h times this is below 2.
+    /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
     pub stiffness: f64,
     /// The smallest stick radius, m.
     pub stick_radius: f64,

@@ -96,7 +96,7 @@ impl Increment {
         );
     }
 
-    /// Computes the stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
+    /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
     ///
     /// Wear that answers to the stress with ∂Δf/∂τ feeds back with z at a node with cells of the width h, ρ the
     /// [largest eigenvalue](response) of the response of p to wear. That is what limits an explicit step.
@@ -121,8 +121,8 @@ impl Increment {
         )
     }
 
-    /// Reduces the wear of every node to the wear of an implicit step, Δf/(1 + z), which is monotone for any z. The
-    /// friction work is reduced in proportion to the stress left at the end of the step.
+    /// Lets every node wear what an implicit step with its own response alone would, Δf/(1 + z): monotone for any z.
+    /// The work of friction goes down with the stress that is left at the end of the step.
     pub fn damp(&mut self, model: &Model) {
         let explicit = model.volume(&self.depth);
         let nodes = self.nodes.clone();

@@ -74,7 +74,8 @@ impl Ghost {
 
     /// Reads measured data or a table of a run from a CSV file, or all tables of a run's directory.
     ///
-    /// # Errors In one line: a file cannot be read, contains nothing to draw, or is refused as measured data.
+    /// # Errors
+    /// One line: what cannot be read, holds nothing that could be drawn, or is refused as measured data.
     pub fn read(path: &Path) -> Result<Self, Refusal> {
         let name = path.file_name().unwrap_or(path.as_os_str());
         let name = printable(&name.to_string_lossy());

@@ -16,7 +16,7 @@ pub struct Theory {
     /// The permanent stick radius by Melan's theorem, m; `None` without a permanent stick zone.
     pub stick_radius: Option<f64>,
     limit: Option<LimitingProfile>,
-    /// In a line contact: a cylinder under the largest load, and whether it wears to a limit.
+    /// Of a line: a cylinder under the largest load, and whether it wears to a limit.
     cylinder: Option<(Cylinder, bool)>,
     unworn: Option<(PowerLaw, f64)>,
     cattaneo: Option<CattaneoMindlin>,
@@ -131,8 +131,8 @@ impl Theory {
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
-    /// Returns the amplitude of u_x, m, at which gross slip of the unworn indenter begins under `load` (N): u_t = d/κ
-    /// with F ∝ d^((n+1)/n) for a tip ∝ rⁿ.
+    /// The amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N):
+    /// u_t = d/κ with F ∝ d^((n+1)/n) for a tip ∝ rⁿ.
     pub fn gross_slip_amplitude(&self, load: f64) -> Option<f64> {
         let (shape, e_star) = self.unworn.as_ref()?;
         let depth = 1e-6;
@@ -153,7 +153,7 @@ impl Theory {
         Some(over(radii, |r| shape.pressure(*e_star, radius, r)))
     }
 
-    /// Returns τ(r), Pa, of the unworn paraboloid at constant depth, at a cycle and a shift (m).
+    /// τ(r), Pa, of the unworn paraboloid at constant depth, at a cycle and a shift (m).
     pub fn unworn_shear(&self, cycle: f64, shift: f64, radii: &[f64]) -> Option<Vec<f64>> {
         let cattaneo = self.cattaneo.as_ref()?;
         let branch = match cycle {

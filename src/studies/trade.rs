@@ -55,7 +55,7 @@ impl Display for Setting {
 }
 
 impl Setting {
-    /// Returns the keys of a scenario and their values.
+    /// The keys of a scenario and their values.
     pub fn keys(&self) -> Vec<(&'static str, String)> {
         let mut keys = vec![
             ("numerics.method", self.method.name().to_owned()),

@@ -121,7 +121,7 @@ fn accept(
         let worn = &increment.depth[nodes.clone()];
         write_each(after, before, worn, |before, worn| before + worn);
         refuse(model, next.contact.depth, after, &model.grid.nodes()[nodes])?;
-        // The two sides of V = k E_d: wear explained by work, and wear by other laws.
+        // The two sides of V = k E_d: what work explains, and what other laws wore.
         if law.follows_energy() {
             next.ledger.expected_volume += law.coefficient() * increment.friction_work;
         } else {

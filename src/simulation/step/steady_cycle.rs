@@ -33,9 +33,9 @@ use crate::math::vector::add_to;
 /// A motion has just turned if it has moved by less than this fraction of its amplitude since.
 const AT_TURN: f64 = 1e-9;
 
-/// Computes the wear of a cycle, averaged over the period of the motion, once the springs have shaken down on the depth
-/// `worn` (m) with its 1D image (m). Uses and updates the springs of `memory`, but leaves its profile, sums and cycle
-/// unchanged. Overwrites `spare`.
+/// What a cycle does once the springs have shaken down on the depth `worn` (m) with its 1D image (m), on average
+/// over the period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
+/// they are. `spare` is overwritten.
 pub(super) fn cycle(
     model: &Model,
     memory: &mut State,
@@ -200,9 +200,9 @@ fn plain_cycle(
     })
 }
 
-/// Brings indenter and springs back to the last reversal of a steady-state cycle before its end: the springs that slip
-/// in it were at their limits there, and the others move with the indenter. Solving from there shows what slips at the
-/// end of the cycle; solving from the end itself, nothing would move and all would stick.
+/// Brings indenter and springs back to where a steady-state cycle turned last before its end: the springs that slip in
+/// it stood at their limits there, the others move with the indenter. Solved from there, the end of the cycle knows
+/// what slips in it; solved from itself, nothing would move and all would stick.
 fn turn_back(model: &Model, contact: &mut Contact, swing: SpringMotion<'_>) {
     let setup = &model.setup;
     let is_line = setup.geometry.is_line();

@@ -98,7 +98,7 @@ impl Errors {
         errors
     }
 
-    /// Returns how far the minimum moves if z changes by `dz`.
+    /// How far the minimum moves where z changes by `dz`.
     pub fn newton_step(&self, dz: &[f64]) -> Vec<f64> {
         let dot = |row: usize| {
             self.gain

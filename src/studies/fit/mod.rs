@@ -51,13 +51,13 @@ pub use nuisance::NAMES;
 pub use report::{Fitted, Nuisance, SetResult, Value};
 pub use structure::Structure;
 
-/// Cells and steps of the search, if the scenario asks for an accuracy instead.
+/// Cells and steps of the search, where the scenario asks for an accuracy and not for them.
 const COARSE: (usize, u32) = (40, 16);
 
 /// The tolerance of jumps on that level, in units of the depth.
 const COARSE_JUMPS: f64 = 3e-3;
 
-/// Numerics are resolved again if a key has moved by more than this, as a logarithm or relative to its value.
+/// The numerics are resolved again where a key has moved by more than this in a logarithm, or of its value.
 const MOVED: f64 = 0.2;
 
 /// How much finer the run is that tells the numerical error; neither a multiple nor a divisor of the steps.
@@ -340,7 +340,7 @@ impl Fit {
             .zip(found.theta.iter().zip(fitted.errors.newton_step(&dz)))
         {
             value.numerical_error = value.stderr.map(|_| free.error(*theta, step.abs() / SHOWN));
-            // Explicit cells and steps imply that their error is accepted.
+            // Whoever has chosen cells and steps has chosen their error.
             let is_chosen = self.scenario.accuracy().is_none();
             if let (Some(numerical), Some(stderr)) = (value.numerical_error, value.stderr)
                 && numerical > stderr

@@ -12,7 +12,7 @@ use crate::traces::Axes;
 /// Prediction of a run for one data set, at arbitrary points.
 #[derive(Debug, Clone)]
 pub(super) enum Response {
-    /// Worn depth at the nodes, m, and the unworn shape if the profile was measured.
+    /// What has worn at the nodes, m, and the unworn shape where the profile was measured.
     Scar(RadialGrid, Vec<f64>, Option<Indenter>),
     /// One finely stepped cycle.
     Loop(Strokes),
@@ -128,7 +128,7 @@ pub(super) fn simulate(
     Ok((responses, session.simulation().steps()))
 }
 
-/// Returns the increase of an abscissa of histories per cycle.
+/// What one cycle adds to an abscissa of histories.
 pub(super) fn per_cycle(simulation: &Simulation, over: &str) -> f64 {
     let drive = &simulation.setup().drive;
     match over {

@@ -27,13 +27,13 @@ const OF_MEDIAN: f64 = 1.4826;
 /// Starts that are tried around the given ones, in e-folds of each key: factors of 10 and 100.
 const STARTS: [f64; 5] = [0.0, -LN_10, LN_10, -2.0 * LN_10, 2.0 * LN_10];
 
-/// Up to this many keys are varied together in the search for a start; more of them one at a time.
+/// So many keys are varied together in search of a start, more of them one by one.
 const TOGETHER: usize = 2;
 
 /// Starts from which the minimum is sought.
 const BEST_STARTS: usize = 2;
 
-/// A scar needs at least this share of its points beyond its edge to show a baseline.
+/// A scar without so much of its points beyond its edge shows no baseline.
 const BASELINE: f64 = 0.08;
 
 /// A run of the coarse search ends at so many times the steps of the shortest one, but not before [`ENOUGH_STEPS`].
@@ -56,7 +56,7 @@ pub(super) struct Search<'a> {
     pub nuisances: Vec<Nuisances>,
     /// σ of each point.
     pub errors: Vec<f64>,
-    /// Whether it only looks for the region of the minimum.
+    /// Whether it only seeks where the minimum lies.
     pub is_coarse: bool,
     on_run: &'a dyn Fn(),
     in_time: &'a dyn Fn() -> bool,
@@ -76,7 +76,7 @@ pub(super) struct Found {
     pub simulated: Vec<Vec<f64>>,
     /// The deviations in units of the errors.
     pub z: Vec<f64>,
-    /// −2 ln of the likelihood, up to a constant.
+    /// −2 ln of the likelihood, but for a constant.
     pub objective: f64,
 }
 

@@ -13,7 +13,7 @@ const FARTHEST: f64 = 9.3;
 /// each run, and its grid follows the keys, which leaves roughness below 1e-5.
 const STEP: f64 = 3e-3;
 
-/// Residual of every point if the contact cannot be computed: no minimum lies there.
+/// The residual of every point where the contact cannot be computed: no minimum lies there.
 const HOPELESS: f64 = 1e6;
 
 /// A fitted key.

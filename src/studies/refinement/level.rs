@@ -105,7 +105,7 @@ impl Level {
         ]
     }
 
-    /// Returns the keys of a scenario and their values.
+    /// The keys of a scenario and their values.
     pub fn keys(&self) -> Vec<(&'static str, String)> {
         let jumps = |tolerance| Integrator::CycleJump { tolerance };
         let integrator = self.tolerance.map_or(Integrator::Direct, jumps);
@@ -116,7 +116,7 @@ impl Level {
         ];
         let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
         keys.extend(tolerance.map(|tolerance| ("numerics.tolerance", tolerance)));
-        // Must come last: setting the number of points replaces the nodes.
+        // Last: another number of points would take their place.
         if let Some(grid) = &self.nodes {
             let nodes: Vec<String> = grid.nodes().iter().map(|r| format!("{r:e}")).collect();
             keys.push(("numerics.nodes", format!("[{}]", nodes.join(", "))));

@@ -16,7 +16,7 @@ use crate::scenario::scalars::{self, Scalar, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{preset, schema, units, values};
 
-/// Default columns.
+/// The columns of a study that names none.
 const COLUMNS: [&str; 4] = [
     "wear_volume_m3",
     "dissipated_energy_J",

@@ -7,7 +7,7 @@ use super::{Axis, Design, Study, Success};
 use crate::reading::Regime;
 use crate::scenario::Refusal;
 
-/// Published criteria that can be drawn on a map: column, value, and name with the shape it holds for.
+/// The field's criteria that can be laid over a map: column, value, and name with what it holds for.
 const CRITERIA: [(&str, f64, &str); 5] = [
     (
         "energy_ratio",
@@ -198,7 +198,7 @@ impl Slice {
         self.rows[point].as_ref()
     }
 
-    /// Returns a point's field in `column`; `None` without a row, or if the point failed.
+    /// The field of `column` of a point; `None` without a row, or where the point failed.
     pub fn field(&self, point: usize, column: &str) -> Option<&str> {
         let row = self.row(point)?;
         let mut columns = self.study.columns.iter();
@@ -207,7 +207,7 @@ impl Slice {
         (Success::of(row).has_result() && !field.is_empty()).then_some(field)
     }
 
-    /// Returns a point's number in `column`.
+    /// The number in `column` of a point.
     pub fn number(&self, point: usize, column: &str) -> Option<f64> {
         let number: f64 = self.field(point, column)?.parse().ok()?;
         number.is_finite().then_some(number)

@@ -130,8 +130,8 @@ impl WearLaw {
     /// Writes the wear (m) of one step into `wear`, from the stress `tau` (Pa) and the slip `slip` (m) at the nodes
     /// over `duration` (s).
     ///
-    /// Friction resists slip, so τ·s is never negative; where rounding or the error of a transform makes it so, nothing
-    /// wears.
+    /// Friction resists slip, so τ·s is never negative; where rounding
+    /// or the error of a transform makes it so, nothing wears.
     #[inline(always)]
     pub fn wear(&self, tau: &[f64], slip: &[f64], duration: f64, wear: &mut [f64]) {
         let points = wear.iter_mut().zip(tau.iter().zip(slip));

@@ -108,8 +108,8 @@ impl WinklerFoundation {
         Dome { beyond, ..dome }
     }
 
-    /// Returns an upper bound on the force (N) of line loads up to `strongest` (N/m); finite if an f64 can hold the
-    /// force.
+    /// Returns an upper bound on the force (N) of line loads up
+    /// to `strongest` (N/m); finite if an f64 can hold the force.
     pub fn most_force(&self, strongest: f64) -> f64 {
         if let Some(length) = self.geometry.length() {
             return length * strongest;
@@ -180,8 +180,8 @@ impl WinklerFoundation {
         }
     }
 
-    /// Returns the slope of `values` at the tip, x → 0, if there is a cusp and the contact extends beyond it; otherwise
-    /// 0.
+    /// Returns the slope of `values` at the tip, x → 0, if there
+    /// is a cusp and the contact extends beyond it; otherwise 0.
     pub fn cusp(&self, values: &[f64], edge: f64) -> f64 {
         if edge > self.nodes()[3] {
             self.tip.slope(values)

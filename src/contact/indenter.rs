@@ -130,8 +130,8 @@ impl Indenter {
         }
     }
 
-    /// Returns g₀(x), m, in a contact of this `geometry`, whose shape is a body of revolution or the section of a
-    /// cylinder.
+    /// Returns g₀(x), m, in a contact of this `geometry`, whose
+    /// shape is a body of revolution or the section of a cylinder.
     pub fn image(&self, geometry: Geometry, x: f64) -> f64 {
         match geometry {
             Geometry::Round => self.profile_1d(x),

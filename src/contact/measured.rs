@@ -45,7 +45,8 @@ impl MeasuredProfile {
     /// Makes a profile from radii (m, strictly increasing, from the axis or through it) and heights (m), smoothed over
     /// a length `smoothing` (m); 0 for no smoothing.
     ///
-    /// # Errors If the rows do not form a profile, or if the contact would not be a disc: the 1D image must not fall.
+    /// # Errors
+    /// If the rows do not form a profile, or if the contact would not be a disc: the 1D image must not fall.
     pub fn new(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
         let smoothing = non_negative("smoothing", smoothing)?;
         let number = FEWEST..=MOST_POINTS;

@@ -1,7 +1,7 @@
 //! Normal springs: independent and without memory. They touch where the depth exceeds the 1D profile.
 //!
-//! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics and friction, ch. 3: q_z(x) =
-//! E*(d − g(x)) where that is positive; F_z = 2∫₀ᵃ q_z dx.
+//! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics
+//! and friction, ch. 3: q_z(x) = E*(d − g(x)) where that is positive; F_z = 2∫₀ᵃ q_z dx.
 //!
 //! The edge of the contact lies between two springs. The compression d − g is known on both sides of it, negative
 //! outside, so it is interpolated, never extrapolated: exact for a paraboloid and a cone.

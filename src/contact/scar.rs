@@ -19,7 +19,8 @@ pub struct Scar {
 impl Scar {
     /// Makes a scar from radii (m, strictly increasing, 0 or greater) and as many depths (m, 0 or greater).
     ///
-    /// # Errors If the rows do not form a scar; the fields are `initial_radii` and `initial_depths`.
+    /// # Errors
+    /// If the rows do not form a scar; the fields are `initial_radii` and `initial_depths`.
     pub fn new(radii: &[f64], depths: &[f64]) -> Result<Self, Invalid> {
         let columns = ["initial_radii", "initial_depths"];
         check_table((columns[0], radii), (columns[1], depths), FEWEST..=MOST)?;

@@ -43,8 +43,8 @@ impl RadialGrid {
         Ok(Self::from_nodes(nodes, None))
     }
 
-    /// Makes N = `cells` cells from r = 0 to L = `radius` that shrink from both sides towards a node at exactly c =
-    /// `border`.
+    /// Makes N = `cells` cells from r = 0 to L = `radius` that shrink
+    /// from both sides towards a node at exactly c = `border`.
     ///
     /// # Formula
     ///
@@ -70,8 +70,8 @@ impl RadialGrid {
         )
     }
 
-    /// Makes N = `cells` cells from r = 0 to L = `radius`, `within` of them in the ring from c = `border` to a =
-    /// `edge`, where they shrink towards c; the others grow away from the ring on both sides. c and a are nodes.
+    /// Makes N = `cells` cells from r = 0 to L = `radius`, `within` of them in the ring from c = `border` to
+    /// a = `edge`, where they shrink towards c; the others grow away from the ring on both sides. c and a are nodes.
     ///
     /// Resolves rings of slip so thin that a [graded](Self::graded) grid of as many cells would miss them.
     pub fn ringed(
@@ -166,7 +166,8 @@ impl RadialGrid {
 
     /// Returns the same spacing with another number of cells, by linear interpolation of the nodes over their indices.
     ///
-    /// # Errors If a grid cannot have that many cells, or that few.
+    /// # Errors
+    /// If a grid cannot have that many cells, or that few.
     pub fn resampled(&self, cells: usize) -> Result<Self, Invalid> {
         Self::check(cells, self.radius())?;
         let before = &self.nodes;
@@ -248,8 +249,8 @@ impl RadialGrid {
 
     /// Interpolates nodal `values` at `r`; constant beyond the domain's edge.
     ///
-    /// Linear in r² between the nodes, since every profile here is even in r: exact for a constant and for a
-    /// paraboloid.
+    /// Linear in r² between the nodes, since every profile here
+    /// is even in r: exact for a constant and for a paraboloid.
     pub fn interpolate(&self, values: &[f64], r: f64) -> f64 {
         interpolate(&self.nodes, values, r)
     }

@@ -51,7 +51,8 @@ fn checked(field: &'static str, value: f64, holds: bool, rule: &str) -> Result<f
 
 /// Passes two named columns that form a function: an allowed `number` of rows, all finite, the first column increasing.
 ///
-/// # Errors Names the offending column and its value.
+/// # Errors
+/// Names the offending column and its value.
 pub fn check_table(
     (x, xs): (&'static str, &[f64]),
     (y, ys): (&'static str, &[f64]),

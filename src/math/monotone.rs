@@ -1,5 +1,5 @@
-//! A cubic through given points that is monotone wherever the points are. The Abel image of its slope has a closed
-//! form.
+//! A cubic through given points that is monotone wherever the
+//! points are. The Abel image of its slope has a closed form.
 //!
 //! F. N. Fritsch, R. E. Carlson (1980), SIAM J. Numer. Anal. 17, 238–246, give the condition on the
 //! slopes; J. M. Hyman (1983), SIAM J. Sci. Stat. Comput. 4, 645–654, the limiter used here: slopes of the parabola

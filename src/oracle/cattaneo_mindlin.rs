@@ -104,8 +104,8 @@ impl CattaneoMindlin {
         2.0 * self.g_star * u / (PI * (leg(a, r) + leg(c, r)))
     }
 
-    /// s(r), m, at displacement U of the first loading: 0 for r ≤ c; in gross slip U − U_s + μE*r²/(2G*R); NaN for r >
-    /// a, outside the contact.
+    /// s(r), m, at displacement U of the first loading: 0 for r ≤ c; in gross
+    /// slip U − U_s + μE*r²/(2G*R); NaN for r > a, outside the contact.
     pub fn slip(&self, r: f64) -> f64 {
         let (a, c) = (self.contact_radius(), self.stick_radius());
         let lambda = self.mu * self.e_star / self.g_star;

@@ -78,8 +78,8 @@ impl Cylinder {
         scale * (2.0 * m - m * m + log)
     }
 
-    /// The displacement on first loading to Q against a point at depth `gauge`, m; with Q = μP it is the onset of gross
-    /// slip.
+    /// The displacement on first loading to Q against a point at
+    /// depth `gauge`, m; with Q = μP it is the onset of gross slip.
     pub fn shift(&self, force: f64, gauge: f64) -> f64 {
         let stuck = |a: f64| {
             let load = PI * self.e_star * a * a / (4.0 * self.radius);

@@ -6,9 +6,9 @@
 //! - g(x) = κₙ A xⁿ, d = κₙ A aⁿ, F = 2n/(n+1) E* d a,
 //! - p(r) = (E*/π) κₙ n A ∫ᵣᵃ x^(n−1)/√(x²−r²) dx, w(r) = (2/π) ∫₀^min(r,a) (d − g)/√(r²−x²) dx.
 //!
-//! For integer n both integrals have closed forms by I_m = [a^(m−1) √(a²−r²) + (m−1) r² I_(m−2)]/m from I₀ =
-//! acosh(a/r), I₁ = √(a²−r²), and its mirror image for w; for other n they are integrated numerically after x = r cosh
-//! v, x = r sin φ. At r = 0 the pressure is finite for n > 1 and truly infinite for n ≤ 1. At r = a it is 0.
+//! For integer n both integrals have closed forms by I_m = [a^(m−1) √(a²−r²) + (m−1) r² I_(m−2)]/m from
+//! I₀ = acosh(a/r), I₁ = √(a²−r²), and its mirror image for w; for other n they are integrated numerically after
+//! x = r cosh v, x = r sin φ. At r = 0 the pressure is finite for n > 1 and truly infinite for n ≤ 1. At r = a it is 0.
 
 use super::quadrature::integrate;
 use super::special::{acosh_ratio, kappa, leg, positive_part};

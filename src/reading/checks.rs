@@ -1,5 +1,5 @@
-//! The checks of a run. Most compare two independent ways to compute the same number; one compares the cells with the
-//! scar.
+//! The checks of a run. Most compare two independent ways to
+//! compute the same number; one compares the cells with the scar.
 //!
 //! One list serves the status line, the accuracy panel, the header of every file and the end of a run. The guide's
 //! chapter on checks, which the panel also shows, explains each.
@@ -130,8 +130,8 @@ impl Simulation {
         checks
     }
 
-    /// Returns F_x and E_d of the last period, divided by the closed forms of a held load, minus 1; only if nothing
-    /// wears.
+    /// Returns F_x and E_d of the last period, divided by the
+    /// closed forms of a held load, minus 1; only if nothing wears.
     fn closed_forms(&self, log: &Log) -> Option<[f64; 2]> {
         let worn = self.setup().wear.is_some_and(|law| law.coefficient() > 0.0);
         if worn || self.state().wear.iter().any(|&worn| worn > 0.0) {

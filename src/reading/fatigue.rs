@@ -59,8 +59,8 @@ pub struct Fatigue {
 }
 
 impl Fatigue {
-    /// Computes the parameters from the stresses of one place at the moments of a cycle, with ν; all zero without
-    /// stresses.
+    /// Computes the parameters from the stresses of one place at
+    /// the moments of a cycle, with ν; all zero without stresses.
     pub fn of(stresses: &[Stress], poisson: f64) -> Self {
         let hydrostatic = stresses.iter().map(|stress| -stress.pressure());
         Self {

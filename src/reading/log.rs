@@ -106,8 +106,8 @@ impl Log {
         self.balance.residual
     }
 
-    /// Returns where and when the pressure first passed the hardness; `None` if it never did, or if no hardness is
-    /// given.
+    /// Returns where and when the pressure first passed the
+    /// hardness; `None` if it never did, or if no hardness is given.
     pub fn passed_hardness(&self) -> Option<Passed> {
         self.passed_hardness
     }

@@ -20,10 +20,10 @@
 //!   2πσ_yy = −2νF_xxx − zF_xyyz, 2πσ_zz = −zF_xzzz, 2πσ_xz = F_zzz − zF_xxzz.
 //!
 //! Deviation from the sum over springs of the paper: q is linear in x² between two springs, which is exact for a
-//! paraboloid, and the punches of a cell are integrated in closed form. With x dx = −(ζ − z) dζ each product f gives −2
-//! Im(∫ζf dζ − z∫f dζ), and all primitives are in the same symbols: ∫A = L, ∫AB = −B, ∫B = ½(ζB + L), ∫ζA³ = −A, ∫A³ =
-//! −AB, ∫B² = ⅓(ζB² − 2B), ∫AB² = −½B²; ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB, ∫ζB² = ¼(ζ²B² +
-//! L − ζB), ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, even on coarse grids.
+//! paraboloid, and the punches of a cell are integrated in closed form. With x dx = −(ζ − z) dζ each product f gives
+//! −2 Im(∫ζf dζ − z∫f dζ), and all primitives are in the same symbols: ∫A = L, ∫AB = −B, ∫B = ½(ζB + L), ∫ζA³ = −A,
+//! ∫A³ = −AB, ∫B² = ⅓(ζB² − 2B), ∫AB² = −½B²; ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB,
+//! ∫ζB² = ¼(ζ²B² + L − ζB), ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, even on coarse grids.
 //!
 //! # A line contact
 //!

@@ -71,8 +71,8 @@ pub fn open(path: &Path) -> Result<File, Unread> {
         about if !about.is_file() => Err(Unread::Irregular),
         _ => Ok(()),
     };
-    // Merely opening a device may affect it, and opening a pipe waits for its other end, so check first, and never
-    // wait.
+    // Merely opening a device may affect it, and opening a pipe
+    // waits for its other end, so check first, and never wait.
     check(path.metadata())?;
     let file = File::options()
         .read(true)

@@ -76,8 +76,8 @@ impl Unworn<'_> {
     }
 
     /// Returns the depth, m, at which a held normal force and a tangential amplitude U have worn away all that slips.
-    /// Within the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and the part outside carries nothing, F_z =
-    /// 2E* ∫₀ᶜ (d − g) dx. `None` if that exceeds [`ROOM_TO_SINK`] times the depth at the `start` (m).
+    /// Within the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and the part outside carries nothing,
+    /// F_z = 2E* ∫₀ᶜ (d − g) dx. `None` if that exceeds [`ROOM_TO_SINK`] times the depth at the `start` (m).
     fn settled_depth(&self, start: f64) -> Option<f64> {
         let shift = self.drive.tangential()?.displacement()?;
         let yielding = shift.amplitude() * self.material.stick_ratio();

@@ -104,8 +104,8 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Notes an error caused by the key at `path`, if it is that key's first. Errors beyond the maximum are only
-    /// counted.
+    /// Notes an error caused by the key at `path`, if it is that
+    /// key's first. Errors beyond the maximum are only counted.
     pub fn note(&mut self, path: &str, error: impl FnOnce() -> Refusal) {
         if !self.blamed.insert(path.to_owned()) {
             return;

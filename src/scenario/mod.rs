@@ -147,8 +147,8 @@ impl Scenario {
             && self.accuracy().is_none()
             && self.setup.integrator == Integrator::Direct
         {
-            // An accuracy chooses the integrator; a default written out for explicit numbers does not count as a
-            // choice.
+            // An accuracy chooses the integrator; a default written
+            // out for explicit numbers does not count as a choice.
             values::remove(&mut table, "numerics.integrator");
         }
         for (key, value) in assignments {

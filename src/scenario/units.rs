@@ -191,7 +191,8 @@ fn number(text: &str) -> Option<(&str, i32, &str)> {
 
 /// Returns the value of `text` in `unit`; `None` if the text is not a number with a unit.
 ///
-/// # Errors If the unit is unknown or of another dimension: the rule that it breaks.
+/// # Errors
+/// If the unit is unknown or of another dimension: the rule that it breaks.
 pub fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     let text = text.trim();
     if let Some(pointed) = with_decimal_point(text) {
@@ -287,7 +288,8 @@ pub fn unit_of(known: &Parameter, is_force: bool) -> &'static str {
 
 /// Returns the number that a text such as `5 um` means as a value of the key; `None` if it is not a number with a unit.
 ///
-/// # Errors If the unit is unknown or of another dimension: the rule that it breaks.
+/// # Errors
+/// If the unit is unknown or of another dimension: the rule that it breaks.
 pub fn quantity(text: &str, known: &Parameter, is_force: bool) -> Option<Result<f64, String>> {
     match known.kind {
         Kind::Number => of_other_coefficient(text, known)

@@ -301,8 +301,8 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// Returns the increment of displacement (m) that a rig leaves to the contact if its actuator is at `target` (m): u
-    /// + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
+    /// Returns the increment of displacement (m) that a rig leaves to the contact if its actuator is at `target` (m):
+    /// u + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
     fn increment_on_rig(
         self,
         after: &mut Contact,

@@ -42,8 +42,8 @@ impl Profile {
         self.end_scar(model, |j| wear[j]);
     }
 
-    /// Sets the profile of a worn depth (m) and its 1D image (m), plus `ahead` times the growth of both in the last
-    /// step.
+    /// Sets the profile of a worn depth (m) and its 1D image (m),
+    /// plus `ahead` times the growth of both in the last step.
     pub fn extrapolate(
         &mut self,
         model: &Model,

@@ -97,7 +97,8 @@ impl Course {
     /// Makes an exponential from `first` to `last`, both 0 or greater, whose distance falls by a factor of e per
     /// `constant`.
     ///
-    /// # Errors If the field `settled`, or `constant`, is out of range.
+    /// # Errors
+    /// If the field `settled`, or `constant`, is out of range.
     pub fn exponential(first: f64, last: f64, constant: f64, over: Over) -> Result<Self, Invalid> {
         Ok(Self::Exponential {
             first,
@@ -109,7 +110,8 @@ impl Course {
 
     /// Makes a table of `values` (0 or greater) at increasing `at`.
     ///
-    /// # Errors The field is `at_cycle`, `at_energy` or `values`.
+    /// # Errors
+    /// The field is `at_cycle`, `at_energy` or `values`.
     pub fn table(at: &[f64], values: &[f64], over: Over) -> Result<Self, Invalid> {
         check_table((over.column(), at), ("values", values), 1..=MOST_ROWS)?;
         for &value in values {

@@ -85,8 +85,8 @@ impl Setup {
         f64::from(self.steps_per_cycle) * f64::from(self.drive.turns_of_the_faster())
     }
 
-    /// Returns the depth to which wear is relative, m: the largest of the motion, or the `present` one if the force is
-    /// prescribed.
+    /// Returns the depth to which wear is relative, m: the largest of
+    /// the motion, or the `present` one if the force is prescribed.
     pub fn depth_scale(&self, present: f64) -> f64 {
         self.largest_depth().unwrap_or(present)
     }

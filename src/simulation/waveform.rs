@@ -61,7 +61,8 @@ impl Waveform {
 
     /// Moves at constant speed and rests at both ends, together for the share `hold` of a period, between 0 and 1.
     ///
-    /// # Errors If the share is outside that range.
+    /// # Errors
+    /// If the share is outside that range.
     pub fn trapezoid(hold: f64) -> Result<Self, Invalid> {
         if !(hold > 0.0 && hold < 1.0) {
             let rule = "must be greater than 0 and less than 1";
@@ -75,7 +76,8 @@ impl Waveform {
 
     /// Makes one period from a table: increasing `times` (s), and `values`, the last of which equals the first.
     ///
-    /// # Errors If the rows are not a closed motion; the field is `times` or `values`.
+    /// # Errors
+    /// If the rows are not a closed motion; the field is `times` or `values`.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Tabled, Invalid> {
         let number = times.len();
         check_table(("times", times), ("values", values), 3..=MOST_CORNERS)?;

@@ -101,7 +101,8 @@ impl Ghost {
 
     /// Makes a ghost from columns: a state or a history of this program, or else measured data.
     ///
-    /// # Errors If the columns contain nothing to draw, or for gaps and other faults of measured data.
+    /// # Errors
+    /// If the columns contain nothing to draw, or for gaps and other faults of measured data.
     pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, Refusal> {
         let mut ghost = Self::new(name);
         let has = |name| columns.has(name);
@@ -167,10 +168,11 @@ impl Ghost {
         histories.filter_map(Table::last_cycle).fold(0.0, f64::max)
     }
 
-    /// Checks whether its radii and the `reach` of the contact, m, differ so much that one of them must be in another
-    /// unit.
+    /// Checks whether its radii and the `reach` of the contact, m,
+    /// differ so much that one of them must be in another unit.
     ///
-    /// # Errors A line that names both.
+    /// # Errors
+    /// A line that names both.
     pub fn check_radii(&self, reach: f64) -> Result<(), Refusal> {
         let over_r = [Axes::PROFILE, Axes::WEAR];
         let mut traces = over_r.into_iter().filter_map(|axes| self.trace(axes));

@@ -80,7 +80,8 @@ impl Setting {
     /// Runs `scenario` with this setting over `cycles`, while `go_on`, called at every step, returns true, and often
     /// enough for the clock. Returns its end and its time, s.
     ///
-    /// # Errors If the run stops, or is [interrupted](SessionError::Interrupted).
+    /// # Errors
+    /// If the run stops, or is [interrupted](SessionError::Interrupted).
     pub fn run(
         &self,
         scenario: &Scenario,

@@ -52,8 +52,8 @@ pub struct Dome {
 }
 
 impl Dome {
-    /// Fits the height so that the last two of the `touching` values are h √(a² − x²) + c (a² − x²); `None` unless h >
-    /// 0. `squares` holds r² of the nodes and `edge` is a², both in m².
+    /// Fits the height so that the last two of the `touching` values are h √(a² − x²) + c (a² − x²);
+    /// `None` unless h > 0. `squares` holds r² of the nodes and `edge` is a², both in m².
     pub fn fit(touching: &[f64], squares: &[f64], edge: f64) -> Option<Self> {
         let last = touching.len().checked_sub(1).filter(|&last| last > 0)?;
         let [inner, outer] = [last - 1, last].map(|j| edge - squares[j]);
@@ -62,8 +62,8 @@ impl Dome {
         Self::of_height(height, edge, last)
     }
 
-    /// Fits the height so that the last two `values` are h √(a² − x²) + c, with a at the last node; `None` unless h >
-    /// 0.
+    /// Fits the height so that the last two `values` are
+    /// h √(a² − x²) + c, with a at the last node; `None` unless h > 0.
     pub fn at_rim(values: &[f64], squares: &[f64]) -> Option<Self> {
         let last = values.len().checked_sub(2)?;
         let edge = squares[last + 1];

@@ -58,9 +58,9 @@ impl Field {
         }
     }
 
-    /// Eq. (3): computes the stress `p` (N/m²) of the line load (N/m) from the node `first` on, or from slightly before
-    /// it, and returns the node where it began; zero beyond the first `touching` nodes. Overwrites `rest`, whatever its
-    /// length.
+    /// Eq. (3): computes the stress `p` (N/m²) of the line load (N/m) from the node
+    /// `first` on, or from slightly before it, and returns the node where it began;
+    /// zero beyond the first `touching` nodes. Overwrites `rest`, whatever its length.
     pub fn stress_from(
         &self,
         first: usize,

@@ -11,8 +11,8 @@ pub(super) fn leg(a: f64, b: f64) -> f64 {
 
 /// ∫ₐᵇ dx/√(r² − x²) = asin(b/r) − asin(a/r), for 0 ≤ a ≤ b ≤ r.
 ///
-/// Uses the addition theorem: the sine of the difference is (b² − a²)/(b√(r²−a²) + a√(r²−b²)), in which nothing
-/// cancels.
+/// Uses the addition theorem: the sine of the difference is
+/// (b² − a²)/(b√(r²−a²) + a√(r²−b²)), in which nothing cancels.
 pub(super) fn asin_step(a: f64, b: f64, r: f64) -> f64 {
     if a == 0.0 {
         return if b == r { FRAC_PI_2 } else { (b / r).asin() };
@@ -45,8 +45,8 @@ pub(super) fn outer_root_step(a: f64, b: f64, r: f64) -> f64 {
     (b - a) * (b + a) / (leg(r, a) + leg(r, b))
 }
 
-/// Adds to the weights of Eq. (3) the effect of a jump of the line load from q to zero at the last node, q/(π√(a² −
-/// r²)). It is infinite at the rim itself, where the mean over the last cell replaces it.
+/// Adds to the weights of Eq. (3) the effect of a jump of the line load from q to zero at the last node,
+/// q/(π√(a² − r²)). It is infinite at the rim itself, where the mean over the last cell replaces it.
 pub(super) fn add_jump_at_rim(weights: &mut DMatrix<f64>, nodes: &[f64]) {
     let last = nodes.len() - 1;
     let rim = nodes[last];

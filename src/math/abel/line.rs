@@ -105,8 +105,8 @@ pub fn image_of_kink(kink: &Kink, square: f64) -> f64 {
     kink.jump * (square * root.atan2(at) + at * root)
 }
 
-/// Eq. (2L): returns the surface displacement of a dome h √(a² − y²) at x² = `square`, h a − (h/π) [(a + x) ln(1 + x/a)
-/// + (a − x) ln|1 − x/a|].
+/// Eq. (2L): returns the surface displacement of a dome h √(a² − y²) at x² = `square`,
+/// h a − (h/π) [(a + x) ln(1 + x/a) + (a − x) ln|1 − x/a|].
 pub fn of_dome(dome: &Dome, square: f64) -> f64 {
     let (edge, x) = (dome.edge.sqrt(), square.sqrt());
     let part = |x: f64| match x > -edge {

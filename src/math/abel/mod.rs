@@ -76,8 +76,8 @@ pub mod product;
 mod testing;
 pub mod worn;
 
-/// Maximum number of cells of a method that only has the dense form; its three triangular matrices then take about 0.8
-/// GB.
+/// Maximum number of cells of a method that only has the dense
+/// form; its three triangular matrices then take about 0.8 GB.
 pub const MOST_DENSE_CELLS: usize = 8192;
 
 /// A way to compute the three transforms.

@@ -166,8 +166,8 @@ mod tests {
         }
     }
 
-    /// Returns the load of springs pressed by d on `g`, the stress and the edge, computed as callers do; `cusp` is the
-    /// load's.
+    /// Returns the load of springs pressed by d on `g`, the stress
+    /// and the edge, computed as callers do; `cusp` is the load's.
     fn pressed(
         grid: &RadialGrid,
         depth: f64,

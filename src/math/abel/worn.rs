@@ -25,8 +25,7 @@
 //! - **Cost**: as for [`product::profile`].
 //! - **At r = 0**: g = δ(0); a constant maps to itself.
 //! - **At the contact edge**: late in a run δ has a kink at the edge b of the scar, in the cell in which the contact
-//!   ends. It is left out: modelling it lowers the error of f by a third at N = 100, but hardly the time to a given
-//!   error.
+//!   ends. It is left out: modelling it lowers the error of f by a third at N = 100, but hardly saves time.
 //! - **Known failure**: for c below a third of the contact radius the region next to c dominates the
 //!   error (7e-4 of the depth at c = 0.17 and N = 100).
 //!

@@ -123,7 +123,8 @@ pub(super) struct Layout {
 impl Layout {
     /// Finds the table in a text.
     ///
-    /// # Errors If the reader of records refuses it.
+    /// # Errors
+    /// If the reader of records refuses it.
     pub fn find(text: &str) -> Result<Self, csv::Error> {
         let end = text
             .match_indices('\n')

@@ -1,5 +1,5 @@
-//! Builds a line contact from the keys of a scenario: its length, its motion, and checks of what a line does not
-//! support.
+//! Builds a line contact from the keys of a scenario: its length,
+//! its motion, and checks of what a line does not support.
 
 use super::*;
 use crate::simulation::drive::{Control, Drive};

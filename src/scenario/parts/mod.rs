@@ -246,8 +246,8 @@ impl Parts<'_> {
         law.map(Some).map_err(self.refused("wear"))
     }
 
-    /// Returns k per friction work, 1/Pa: as given, or the coefficient per load and distance divided by the initial
-    /// friction.
+    /// Returns k per friction work, 1/Pa: as given, or the coefficient
+    /// per load and distance divided by the initial friction.
     fn wear_coefficient(&self, material: &Material) -> Result<f64, Refusal> {
         let Some(per_load) = self.get::<f64>("wear.coefficient_per_load") else {
             let given = self.first("wear.coefficient", "wear");

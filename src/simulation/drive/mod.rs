@@ -14,8 +14,8 @@ mod turning;
 
 pub use oscillation::{Oscillation, SpringMotion};
 
-/// Maximum number of cycles, and beyond `FEW_CYCLES` also of turns of the normal motion, in a common period of both
-/// directions.
+/// Maximum number of cycles, and beyond `FEW_CYCLES` also of turns
+/// of the normal motion, in a common period of both directions.
 pub const LONGEST_REPEAT: u32 = 1000;
 
 /// Up to this many cycles may hold any number of turns.
@@ -221,10 +221,10 @@ impl Drive {
         (self.frequency_ratio() * (1.0 - 1e-9)).ceil().max(1.0) as u32
     }
 
-    /// Returns the displacement per amplitude of each direction, m per m or m per N. A force moves a contact of radius
-    /// a by 1/(2E*a) and 1/(2G*a), the springs of a line contact by 1/(E*L) in both directions. A rig of compliance C
-    /// leaves the contact 1/(1 + 2G*aC) of its actuator's motion while nothing slips, which holds where the motion
-    /// turns.
+    /// Returns the displacement per amplitude of each direction, m per m or m per N. A force
+    /// moves a contact of radius a by 1/(2E*a) and 1/(2G*a), the springs of a line contact
+    /// by 1/(E*L) in both directions. A rig of compliance C leaves the contact 1/(1 + 2G*aC)
+    /// of its actuator's motion while nothing slips, which holds where the motion turns.
     pub fn yields(&self, material: &Material, contact_radius: f64) -> [f64; 2] {
         let stiffness = |modulus: f64| 2.0 * modulus * contact_radius;
         let yields = |control: Option<&Control>, modulus: f64, compliance: f64| match control {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::super::waveform::Waveform;
 use crate::math::invalid::{Invalid, finite, non_negative, positive};
 
-/// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N; another [`Waveform`] may replace the
-/// sine.
+/// mean + amplitude · sin(ωt + φ), of a displacement in m or
+/// of a force in N; another [`Waveform`] may replace the sine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Oscillation {
     mean: f64,

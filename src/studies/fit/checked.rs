@@ -20,7 +20,8 @@ const OTHER_UNIT: f64 = 100.0;
 
 /// Returns the scenario with the stroke of the loops, if it `takes` that; otherwise refuses loops of another stroke.
 ///
-/// # Errors If the strokes of loops differ from the scenario's, or from each other.
+/// # Errors
+/// If the strokes of loops differ from the scenario's, or from each other.
 pub(super) fn with_stroke(
     scenario: Scenario,
     data: &[Measured],

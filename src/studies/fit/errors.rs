@@ -1,5 +1,5 @@
-//! Errors of the keys at the minimum: standard errors, correlations, and how many points each data set spends on the
-//! keys.
+//! Errors of the keys at the minimum: standard errors, correlations,
+//! and how many points each data set spends on the keys.
 //!
 //! # Formula
 //!

@@ -53,8 +53,8 @@ pub(super) fn derivatives(
 }
 
 impl Nuisances {
-    /// Finds the values that fit best, with the simulated values; `weigh` returns the weighted deviations of simulated
-    /// values.
+    /// Finds the values that fit best, with the simulated values;
+    /// `weigh` returns the weighted deviations of simulated values.
     pub fn solve(
         &self,
         set: &Measured,

@@ -1,5 +1,5 @@
-//! Tests whether residuals are noise: compares their size with neighbouring differences, and counts runs of their
-//! signs.
+//! Tests whether residuals are noise: compares their size with
+//! neighbouring differences, and counts runs of their signs.
 
 use serde::Serialize;
 

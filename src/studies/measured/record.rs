@@ -120,7 +120,8 @@ impl Record {
     /// Cuts a record of displacements, m, and forces, N, at its least displacements. A record of one cycle may begin
     /// anywhere.
     ///
-    /// # Errors If the record has no complete cycle, in words.
+    /// # Errors
+    /// If the record has no complete cycle, in words.
     pub fn new(u: &[f64], force: &[f64]) -> Result<Self, String> {
         let minima = minima(u);
         let mut whole: Vec<Range<usize>> = minima.windows(2).map(|ends| ends[0]..ends[1]).collect();
@@ -154,7 +155,8 @@ impl Record {
 
     /// Keeps the picked cycles.
     ///
-    /// # Errors If they do not exist, in words.
+    /// # Errors
+    /// If they do not exist, in words.
     pub fn pick(&mut self, pick: Pick) -> Result<(), String> {
         let count = self.cycles.len();
         if pick.last > count {
@@ -184,8 +186,8 @@ impl Record {
     }
 }
 
-/// Returns the points of least displacement between two times at which it is large, including those at the ends of the
-/// record.
+/// Returns the points of least displacement between two times at
+/// which it is large, including those at the ends of the record.
 fn minima(u: &[f64]) -> Vec<usize> {
     let [least, most] = range(u.iter().copied()).unwrap_or_default();
     let (low, high) = (

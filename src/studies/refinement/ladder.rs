@@ -145,8 +145,9 @@ impl Budget {
 /// of at most `accuracy`, or the `budget` is spent: the result is then the last level that finished. `go_on` is called
 /// at every step; if it returns false, there is no result, unless a run follows.
 ///
-/// # Errors [`SearchError::Unended`] if the budget ends before the coarsest level does; an error if a level is refused,
-/// if no level finishes, or on an interrupt.
+/// # Errors
+/// [`SearchError::Unended`] if the budget ends before the coarsest level does; an error if a level is refused, if no
+/// level finishes, or on an interrupt.
 pub fn run_to_accuracy(
     scenario: &Scenario,
     cycles: f64,
@@ -161,7 +162,8 @@ pub fn run_to_accuracy(
 
 /// As [`run_to_accuracy`], with the seconds of another clock.
 ///
-/// # Errors As for [`run_to_accuracy`].
+/// # Errors
+/// As for [`run_to_accuracy`].
 pub fn climb(
     scenario: &Scenario,
     cycles: f64,

@@ -126,7 +126,8 @@ impl Level {
 
     /// Returns the scenario on this level, including its changes.
     ///
-    /// # Errors If the scenario's method or shape does not allow this many cells.
+    /// # Errors
+    /// If the scenario's method or shape does not allow this many cells.
     pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, Refusal> {
         scenario.with_all(&self.keys())
     }

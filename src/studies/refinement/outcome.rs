@@ -162,8 +162,8 @@ impl Difference {
         self.with(self, |d, _| d / (ratio.powf(ORDER) - 1.0))
     }
 
-    /// As [`error_of_finer`](Self::error_of_finer), if the coarser level has the error `before`: at least 1/ρ² of it
-    /// remains.
+    /// As [`error_of_finer`](Self::error_of_finer), if the coarser
+    /// level has the error `before`: at least 1/ρ² of it remains.
     pub(super) fn error_above(&self, before: &Self, ratio: f64) -> Self {
         let left = ratio.powf(-HIGHEST_ORDER);
         let error = self.error_of_finer(ratio);

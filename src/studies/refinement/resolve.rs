@@ -49,7 +49,8 @@ impl Resolved {
 /// within a `budget`. If no level finishes in that time, the result is the coarsest level, whose error is unknown. A
 /// scenario without an accuracy is returned unchanged.
 ///
-/// # Errors If no level can be run, or if `go_on` returns false and no run follows.
+/// # Errors
+/// If no level can be run, or if `go_on` returns false and no run follows.
 pub fn resolve(
     scenario: &Scenario,
     cycles: Option<f64>,

@@ -9,8 +9,8 @@ use crate::simulation::stability::limit;
 /// Number of steps of one percent in the search for the boundary, from where the stiffest step has its limit.
 const REACH: i32 = 300;
 
-/// Returns the smallest factor on the stiffness z of every step for which errors grow over a cycle; `None` if there is
-/// none.
+/// Returns the smallest factor on the stiffness z of every step
+/// for which errors grow over a cycle; `None` if there is none.
 pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
     let stiffest = largest(stiffness);
     if stiffest <= 0.0 {

@@ -143,7 +143,8 @@ impl Study {
     /// Runs the ladder, and then between its last stable rung and the next to find the boundary. Calls `on_run` after
     /// every rung. If `go_on` returns false, the line stays incomplete.
     ///
-    /// # Errors If a scenario cannot be made.
+    /// # Errors
+    /// If a scenario cannot be made.
     pub fn line(
         &self,
         setting: Setting,

@@ -64,8 +64,8 @@ impl Cycle {
     }
 }
 
-/// Predicts the wear number from which `setting` shows a sawtooth within the cycles of the study; `None` if nothing
-/// slips.
+/// Predicts the wear number from which `setting` shows a sawtooth
+/// within the cycles of the study; `None` if nothing slips.
 pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, SessionError> {
     let mut guarded = setting;
     guarded.guard = true;

@@ -15,8 +15,8 @@ pub enum Design {
     Grid,
     /// The first values of all axes, then the second ones, and so on.
     Zip,
-    /// A Latin hypercube: each axis is cut into as many strata as there are samples, and each stratum contains one
-    /// sample.
+    /// A Latin hypercube: each axis is cut into as many strata as
+    /// there are samples, and each stratum contains one sample.
     LatinHypercube,
     /// A Sobol sequence with Owen's scrambling (Burley 2020, JCGT 9(4)).
     Sobol,

@@ -68,9 +68,9 @@ pub fn validated(study: &Study, point: usize) -> Result<(), Refusal> {
     study.scenario(point).map(drop).map_err(refused)
 }
 
-/// Runs the points `todo` of `study` on the threads of `pool`, and passes each row to `finished` on the calling thread
-/// as soon as it is there. If `go_on` or `finished` returns false, stops after the current steps and loses unfinished
-/// points.
+/// Runs the points `todo` of `study` on the threads of `pool`, and passes each row to
+/// `finished` on the calling thread as soon as it is there. If `go_on` or `finished`
+/// returns false, stops after the current steps and loses unfinished points.
 pub fn run(
     study: &Study,
     todo: impl Iterator<Item = usize> + Send,

@@ -102,8 +102,8 @@ impl Study {
         self.scenario_at(&self.places(point), None)
     }
 
-    /// Builds the scenario with the first axes at `places`, except for an axis with `other` value; further axes are not
-    /// set.
+    /// Builds the scenario with the first axes at `places`, except
+    /// for an axis with another value; further axes are not set.
     ///
     /// # Errors
     ///

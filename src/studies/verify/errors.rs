@@ -11,8 +11,8 @@ pub struct Errors {
     pub errors: Vec<f64>,
     /// r/a of the nodes where theory is infinite, or where it is 0 and the error relative to it.
     pub left_out: Vec<f64>,
-    /// Whether [`rms`](Self::rms) averages over the radius instead of the nodes: fair between grids with different node
-    /// spacing.
+    /// Whether [`rms`](Self::rms) averages over the radius instead
+    /// of the nodes: fair between grids with different node spacing.
     pub over_radius: bool,
 }
 

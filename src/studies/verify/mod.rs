@@ -42,8 +42,8 @@ pub struct Outcome {
     pub errors: Result<Vec<Errors>, Breakdown>,
 }
 
-/// Returns the tasks of some problems, by problem, method and rising N; `long` ones, which take minutes, only on
-/// request.
+/// Returns the tasks of some problems, by problem, method and
+/// rising N; `long` ones, which take minutes, only on request.
 pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
     let points: BTreeSet<usize> = points.iter().copied().collect();
     let wanted = |problem: &&Problem| problems.contains(problem);

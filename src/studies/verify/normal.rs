@@ -14,9 +14,9 @@ use crate::reading::Curves;
 use crate::simulation::{Breakdown, Simulation};
 use crate::studies::theory::over;
 
-/// Returns L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points`. The contact radius a =
-/// 1 and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third of a cell
-/// outside a node: otherwise an error that depends on the place within the cell would hide the order.
+/// Returns L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points`. The contact
+/// radius a = 1 and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third
+/// of a cell outside a node: otherwise an error that depends on the place within the cell would hide the order.
 pub fn between_nodes(points: usize) -> (f64, f64) {
     let cells = |whole: usize| whole as f64 + 1.0 / 3.0;
     let contact = cells(2 * points / 3);

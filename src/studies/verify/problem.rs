@@ -48,8 +48,8 @@ pub const STICK_RADIUS: &str = "c";
 pub struct Facts {
     /// Symbols of the compared quantities.
     pub quantities: Vec<&'static str>,
-    /// What is solved and how, where the edges lie, the unit of the error and what is left out: lines of at most 78
-    /// columns.
+    /// What is solved and how, where the edges lie, the unit of the
+    /// error and what is left out: lines of at most 78 columns.
     pub description: Vec<&'static str>,
 }
 

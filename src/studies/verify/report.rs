@@ -65,8 +65,8 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
     }
 }
 
-/// Returns log(error of the next coarser grid / error)/log(ratio of N): `None` on the coarsest grid and if an error is
-/// rounding.
+/// Returns log(error of the next coarser grid / error)/log(ratio
+/// of N): `None` on the coarsest grid and if an error is rounding.
 fn order(
     outcome: &Outcome,
     at: usize,

@@ -46,7 +46,8 @@ pub fn swing(mean: f64, amplitude: f64) -> Control {
 
 /// Makes N = `points` equal cells up to `radius`.
 ///
-/// # Panics If a grid cannot have that many or that few cells.
+/// # Panics
+/// If a grid cannot have that many or that few cells.
 pub fn grid(points: usize, radius: f64) -> RadialGrid {
     RadialGrid::uniform(points, radius).expect("a grid")
 }

@@ -57,9 +57,9 @@ pub const TOLERANCE: f64 = 1e-8;
 /// Tolerances to try in turn where cells are too narrow for the first.
 pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 
-/// Fits the powers for rows at `radii` to a relative `tolerance` of the kernel; they cover all but the nearest
-/// neighbours. `None` if that is out of reach: below about 1e-12 on ordinary grids, earlier on grids with very narrow
-/// cells.
+/// Fits the powers for rows at `radii` to a relative `tolerance` of the kernel;
+/// they cover all but the nearest neighbours. `None` if that is out of reach:
+/// below about 1e-12 on ordinary grids, earlier on grids with very narrow cells.
 pub(super) fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
     let pairs = pairs.filter(|(inner, _)| **inner > 0.0);

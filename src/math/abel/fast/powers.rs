@@ -15,10 +15,10 @@
 //!
 //! # Exponents
 //!
-//! The two terms before the sum keep their exponents. With v = e^(−y) the rest is the impulse response of a symmetric
-//! system, b′ exp(−y diag μ) b with b = √c, and balanced truncation gives the few modes that matter for y ≥ y_min (B.
-//! C. Moore (1981), IEEE Trans. Autom. Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its
-//! Gramian
+//! The two terms before the sum keep their exponents. With v = e^(−y) the rest is the impulse
+//! response of a symmetric system, b′ exp(−y diag μ) b with b = √c, and balanced truncation
+//! gives the few modes that matter for y ≥ y_min (B. C. Moore (1981), IEEE Trans. Autom.
+//! Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its Gramian
 //!
 //! ```text
 //! P_ik = b_i b_k/(μ_i + μ_k),   b_i² = c_i exp(−μ_i y_min),

@@ -2,7 +2,7 @@
 //!
 //! The figures describe the last complete period of the motion. Each step adds its end point to a [`LoopTally`], which
 //! becomes [`CycleFigures`] at the end of the period. The [`Log`](super::Log) of a run keeps both. After a jump over
-//! cycles, the figures are those of the [`FinePeriod`] on the present profile.
+//! cycles, the figures describe the [`FinePeriod`] on the present profile.
 //!
 //! # Formulas
 //!

@@ -48,7 +48,7 @@ impl Unworn<'_> {
         start.is_finite().then(|| self.indenter.radius_at(depth))
     }
 
-    /// Returns the domain radius of a line contact with the depth `start` (m), as far as it is known before the run.
+    /// Returns the domain radius of a line contact with the depth `start` (m), as far as known before the run.
     ///
     /// Worn to its limit, a cylinder touches up to b = c cosh θ, sinh(2θ)/2θ = (a₀/c)², with a₀ the unworn half-width
     /// and c the half-width of the permanent stick zone; if c shrinks, that bound is lost. Other shapes differ little.

@@ -15,7 +15,7 @@ pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let word = key.to_lowercase();
     let known = parameters().filter(|known| known.also.contains(&word.as_str()));
     let mut known: Vec<&Parameter> = known.collect();
-    // A word for keys of several tables only stands for the key of its own table.
+    // A word for keys of several tables only stands for the key of the same table.
     let sections: HashSet<&str> = known.iter().map(|known| known.section()).collect();
     if sections.len() > 1 {
         known.retain(|known| known.section() == section);

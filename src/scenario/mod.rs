@@ -283,7 +283,7 @@ impl Scenario {
         }
     }
 
-    /// Returns the complete scenario as it is run. Reading it back gives an equal one, bit for bit. Values that follow
+    /// Returns the complete scenario for a run. Reading it back gives an equal one, bit for bit. Values that follow
     /// from the method are comments, so that they still follow a change of it.
     pub fn to_toml(&self) -> String {
         let setup = &self.setup;

@@ -81,7 +81,7 @@ impl Session {
         Ok(session)
     }
 
-    /// Returns the scenario as it is now, including changes.
+    /// Returns the current scenario, including changes.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
     }

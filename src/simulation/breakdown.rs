@@ -6,7 +6,7 @@ use super::Setup;
 use super::choices::Stability;
 use crate::math::abel::AbelMethod;
 
-/// A step that failed. The state remains that of the last good step.
+/// A step that failed. The state after the last good step remains.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("stopped after {cycle} cycles: {cause}")]
 pub struct Breakdown {

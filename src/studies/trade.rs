@@ -162,7 +162,7 @@ pub struct Reference {
     /// Its state at the end.
     pub outcome: Outcome,
     level: Level,
-    /// The largest of its own estimated errors.
+    /// The largest of the reference's estimated errors.
     error: f64,
     seconds: f64,
 }

@@ -117,8 +117,8 @@ pub fn of_dome(dome: &Dome, square: f64) -> f64 {
     dome.height * (edge - FRAC_1_PI * (part(x) + part(-x)))
 }
 
-/// Returns ∫ dx/x of a dome from 0 to its edge minus the same of its polyline in t, which ends there, by ∫ (√(a² − x²)
-/// − a) dx/x = a (ln 2 − 1).
+/// Returns ∫ dx/x of a dome from 0 to its edge minus the same of its polyline in t, which ends there, by
+/// ∫ (√(a² − x²) − a) dx/x = a (ln 2 − 1).
 pub fn beyond_polyline(dome: &Dome, squares: &[f64]) -> f64 {
     let tip = dome.at(0.0);
     let cell = |from: f64, to: f64| {

@@ -15,7 +15,7 @@
 //!
 //! A line contact has other kernels in Eqs. (1) and (2): see [`line`].
 //!
-//! [`kink`] adds the effect of a kink between two nodes, [`dome`] that of a load that ends like a root, and [`worn`]
+//! [`kink`] adds the effect of a kink between two nodes, [`dome`] a load that ends like a root, and [`worn`]
 //! transforms the worn part of a profile with a permanent stick zone. A [`field`] holds nodal values with their kinks
 //! and dome, and provides all transforms.
 //!

@@ -18,7 +18,7 @@
 //! part of the allowed error, the run goes to its goal at once: the bound of stiffness would make the number of jumps
 //! proportional to that of cycles in which nothing happens.
 //!
-//! - **Order**: second in the length of the jump; the wear within one cycle is that of the scheme.
+//! - **Order**: second in the length of the jump; the wear within one cycle has the scheme's order.
 //! - **Cost**: as many evaluated cycles as stages, whatever the number of cycles covered.
 //! - **Known failure**: motions that never repeat cannot be jumped; they are stepped directly.
 

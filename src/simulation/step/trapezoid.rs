@@ -22,8 +22,8 @@
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps per cycle at K = 0.3, and from 50 to 400
 //!   at K = 1: with longer steps wear next to the border is stiff, z near 1. Turning points cut steps at
-//!   odd places, so neighbouring rungs scatter by a third. The error at 100 steps is below that of
-//!   explicit Euler at 800.
+//!   odd places, so neighbouring rungs scatter by a third. The error at 100 steps is smaller
+//!   than explicit Euler's at 800.
 //! - **Cost**: three transforms per step, and two more for τ if springs slip inside the outermost slip zone.
 
 use super::super::model::Model;

@@ -26,7 +26,7 @@ const BORDER: f64 = 0.05;
 /// a line.
 const LEAST_AREA: f64 = 1e-3;
 
-/// Lower bound on the error of V and E_d, relative to that of the worn depth.
+/// Lower bound on the error of V and E_d, relative to the error of the worn depth.
 const OF_SCAR: f64 = 0.3;
 
 /// Lower bound on the error of the deepest wear, which is one node's, relative to the rms error of the worn depth.
@@ -68,7 +68,7 @@ pub struct Outcome {
     pub depth: f64,
 }
 
-/// The last fretting loop, as far as it is compared; empty without tangential motion.
+/// The compared values of the last fretting loop; empty without tangential motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct LastCycle {
     /// F_x at [`MOMENTS`] equidistant moments of the last cycle, N.

@@ -88,7 +88,7 @@ impl Problem {
         solve(method, points)
     }
 
-    /// Returns the methods that solve it: those of the paper only solve round contacts.
+    /// Returns the methods that solve it: the paper's methods only solve round contacts.
     pub fn methods(self) -> &'static [AbelMethod] {
         match self {
             Self::Cylinder | Self::CylinderLimit => AbelMethod::of(Geometry::Line { length: 1.0 }),

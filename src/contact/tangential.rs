@@ -1,8 +1,8 @@
 //! Tangential springs: each follows Coulomb's rule and remembers its displacement.
 //!
 //! The second Eq. (15) of the paper (the number appears twice): predict that a spring moves with the indenter. If
-//! G*|u| ≤ μ q_z it does (stick), otherwise u = ±μ q_z/G* with the predictor's sign (slip). A spring out of contact carries
-//! nothing and forgets its displacement: u = 0.
+//! G*|u| ≤ μ q_z it does (stick), otherwise u = ±μ q_z/G* with the predictor's sign (slip). A spring out of contact
+//! carries nothing and forgets its displacement: u = 0.
 
 use std::hint::select_unpredictable as select;
 

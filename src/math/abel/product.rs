@@ -3,7 +3,8 @@
 //! # Formula
 //!
 //! Profiles and loads are even in r and therefore smooth in t = r², so they are interpolated in t:
-//! u(x) = u_k + σ_k (x² − x_k²) on cell k, σ_k = Δu/Δt. The integrals of Eqs. (1) to (3) over each cell are (Δ: right end minus left end)
+//! u(x) = u_k + σ_k (x² − x_k²) on cell k, σ_k = Δu/Δt. The integrals of Eqs. (1) to (3) over each cell
+//! are (Δ: right end minus left end)
 //!
 //! ```text
 //! g_j = f_0 + x_j Σ_{k<j} 2σ_k S

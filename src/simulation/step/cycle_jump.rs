@@ -18,7 +18,7 @@
 //! part of the allowed error, the run goes to its goal at once: the bound of stiffness would make the number of jumps
 //! proportional to that of cycles in which nothing happens.
 //!
-//! - **Order**: second in the length of the jump; the wear within one cycle has the scheme's order.
+//! - **Order**: second in the length of the jump; the wear within one cycle is that of the scheme.
 //! - **Cost**: as many evaluated cycles as stages, whatever the number of cycles covered.
 //! - **Known failure**: motions that never repeat cannot be jumped; they are stepped directly.
 
@@ -35,10 +35,10 @@ use crate::math::scan::largest;
 /// Minimum saving of a jump: cycles covered per cycle of evaluation.
 const WORTH: f64 = 1.5;
 
-/// A run goes to its goal at once if its wear up to there is at most this fraction of the allowed error of a jump.
+/// A run whose wear up to its goal is at most this part of the error that a jump may have goes there at once.
 const QUIET: f64 = 0.1;
 
-/// Maximum number of stages of a jump.
+/// The most stages of a jump.
 const MOST_STAGES: usize = 40;
 
 /// The first jump wears this much at most, in depths and in units of the root of the tolerance.
@@ -163,8 +163,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Jumps over all of the `most` cycles up to the goal if they wear almost nothing: one stable Euler step, which
-    /// advances V and k E_d alike.
+    /// A jump over all of the `most` cycles up to the goal, where they wear next to nothing: one stable Euler step,
+    /// which takes V and k E_d alike.
     fn quiet(&mut self, memory: &mut State, most: f64) -> Option<Jump> {
         let (state, first, setup) = (self.state, self.first, &self.model.setup);
         let Integrator::CycleJump { tolerance } = setup.integrator else {
@@ -189,7 +189,7 @@ impl Search<'_> {
         }
         self.model.plan.image(&jump.wear, &mut jump.image);
         memory.stats.transforms += 1;
-        // The contact at the goal results from a cycle on its profile.
+        // The contact at the goal is that of a cycle on its profile.
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
         let steady = steady_cycle::cycle(
             self.model,
@@ -205,7 +205,7 @@ impl Search<'_> {
         Some(jump)
     }
 
-    /// Finds a jump of at most `most` cycles with an allowed error, or one so short that direct steps are better.
+    /// A jump of at most `most` cycles whose error is allowed, or one so short that direct steps are better.
     /// `memory` then holds the springs at its end.
     fn search(&mut self, memory: &mut State, most: f64) -> Result<Jump, Refused> {
         let (state, first, setup) = (self.state, self.first, &self.model.setup);
@@ -262,7 +262,7 @@ impl Search<'_> {
         }
     }
 
-    /// Takes one Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the friction work.
+    /// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
     fn attempt(&mut self, memory: &mut State, covered: f64, stages: usize) -> Result<Jump, Cause> {
         let (model, nodes) = (self.model, self.model.nodes());
         let with_work = |wear: &[f64], friction_work: f64| [wear, &[friction_work]].concat();
@@ -297,7 +297,7 @@ impl Search<'_> {
     }
 }
 
-/// Restores the springs; keeps the counts of work done.
+/// Takes the springs back to where they stood; the counts of what was done stay.
 fn go_back(memory: &mut State, springs: &State) {
     let stats = memory.stats;
     memory.clone_from(springs);
@@ -314,9 +314,9 @@ enum Refused {
 
 /// A jump over cycles, and the profile after it.
 struct Jump {
-    /// Number of cycles covered.
+    /// How many cycles it covers.
     covered: f64,
-    /// Number of cycles for the next one.
+    /// How many cycles the next one should cover.
     next: f64,
     wear: Vec<f64>,
     image: Vec<f64>,
@@ -324,8 +324,8 @@ struct Jump {
     steady: SteadyCycle,
 }
 
-/// Returns the error of a jump relative to the allowed one: of the worn depth, by its rms over the wearing nodes and
-/// its largest value, and of the friction work relative to all the work so far.
+/// The error of a jump in units of what is allowed: that of the worn depth, by its rms over the nodes that
+/// wear and its largest value, and that of the friction work relative to all the work so far.
 fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, tolerance: f64) -> f64 {
     let covered = jump.covered;
     let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);

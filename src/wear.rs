@@ -1,4 +1,4 @@
-//! Wear laws: how much the surface recedes where a stress slips.
+//! Wear laws: how fast the surface recedes under a stress and a slip rate.
 
 use std::hint::select_unpredictable as select;
 
@@ -58,7 +58,7 @@ impl WearLaw {
         })
     }
 
-    /// The law's name, as a scenario spells it.
+    /// Returns the name used in scenarios.
     pub fn name(&self) -> &'static str {
         match self.powers {
             None => "archard",
@@ -71,7 +71,7 @@ impl WearLaw {
         self.coefficient
     }
 
-    /// The same law with another k, 1/Pa, 0 or greater.
+    /// Returns the same law with another k, 1/Pa, 0 or greater.
     #[must_use]
     pub fn with_coefficient(self, coefficient: f64) -> Self {
         Self {
@@ -80,7 +80,7 @@ impl WearLaw {
         }
     }
 
-    /// The powers that wear goes by; none under Archard's law.
+    /// Returns the exponents and references; `None` for Archard's law.
     pub fn powers(&self) -> Option<Powers> {
         self.powers
     }
@@ -90,18 +90,18 @@ impl WearLaw {
         self.powers.is_none()
     }
 
-    /// By which power of the stress a surface wears: m.
+    /// Returns m, the exponent of the stress.
     pub fn stress_exponent(&self) -> f64 {
         self.powers.map_or(1.0, |powers| powers.stress_exponent)
     }
 
-    /// By which power of the slip rate a surface wears: n.
+    /// Returns n, the exponent of the slip rate.
     pub fn slip_rate_exponent(&self) -> f64 {
         self.powers.map_or(1.0, |powers| powers.slip_rate_exponent)
     }
 
-    /// ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node answers to its
-    /// stress `tau` (Pa) at a slip `slip` (m) over `duration` (s); 0 where nothing works.
+    /// Writes ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node depends on its stress `tau`
+    /// (Pa), at the slip `slip` (m) over `duration` (s); 0 where no work is done.
     #[inline(always)]
     pub fn sensitivity(&self, tau: &[f64], slip: &[f64], duration: f64, answers: &mut [f64]) {
         let points = answers.iter_mut().zip(tau.iter().zip(slip));
@@ -128,11 +128,11 @@ impl WearLaw {
         }
     }
 
-    /// Writes the wear (m) of one step into `wear`: stress `tau` (Pa) and slip `slip` (m) at the nodes,
-    /// over a time of `duration` (s).
+    /// Writes the wear (m) of one step into `wear`, from the stress `tau` (Pa) and the slip `slip` (m) at the nodes
+    /// over `duration` (s).
     ///
-    /// Friction resists slip, so τ·s is never negative; where rounding or a transform's own error
-    /// makes it so, nothing wears.
+    /// Friction resists slip, so τ·s is never negative; where rounding
+    /// or the error of a transform makes it so, nothing wears.
     #[inline(always)]
     pub fn wear(&self, tau: &[f64], slip: &[f64], duration: f64, wear: &mut [f64]) {
         let points = wear.iter_mut().zip(tau.iter().zip(slip));
@@ -159,7 +159,7 @@ impl WearLaw {
     }
 }
 
-/// max(v, 0), but NaN stays NaN: a broken state must be seen, not hidden.
+/// max(v, 0), but NaN stays NaN, so that a broken state shows.
 #[inline(always)]
 fn positive_part(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }

@@ -1,5 +1,5 @@
-//! What is known of a run, or of another source, as named columns in SI units: over the radius, over cycles, over a
-//! loop. A column has the same name in a file, in memory and on an axis.
+//! The data of a run, or of another source, as named columns in SI units: over the radius, over cycles, over a loop. A
+//! column has the same name in a file, in memory and on an axis.
 
 use crate::reading::Column;
 use crate::scenario::columns::Columns;
@@ -66,7 +66,7 @@ impl Table {
         }
     }
 
-    /// A table from memory: its header, and rows of named columns.
+    /// Makes a table from its header, column names, and rows.
     pub fn of_rows<const N: usize>(
         header: Vec<(String, String)>,
         names: [Column; N],
@@ -89,13 +89,13 @@ impl Table {
         columns.iter().all(|column| self.column(*column).is_some())
     }
 
-    /// The value of a header line.
+    /// Returns the value of a header line.
     pub fn fact(&self, key: &str) -> Option<&str> {
         let found = self.header.iter().find(|(name, _)| name == key);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// The cycle that the header gives.
+    /// Returns the cycle given in the header; NaN without one.
     pub fn cycle(&self) -> f64 {
         let cycle = self
             .fact(Column::Cycle.name())
@@ -103,7 +103,7 @@ impl Table {
         cycle.unwrap_or(f64::NAN)
     }
 
-    /// The last of its cycles, of a table over cycles.
+    /// Returns the last cycle of a table over cycles.
     pub fn last_cycle(&self) -> Option<f64> {
         self.column(Column::Cycle)?.last().copied()
     }
@@ -130,20 +130,20 @@ pub struct Loop {
     pub shifts: Vec<f64>,
     /// F_x, N.
     pub forces: Vec<f64>,
-    /// The displacement of the rig's actuator, m; NaN where it is not known.
+    /// The displacement of the rig's actuator, m; NaN where unknown.
     pub sensed: Vec<f64>,
 }
 
 impl Loop {
-    /// The fewest points that show one.
+    /// Minimum number of points of a loop worth showing.
     pub const SHORTEST: usize = 9;
 
-    /// Whether the indenter moves to the right at its end.
+    /// Whether the indenter moves to the right at the loop's end.
     pub fn rises(&self) -> bool {
         !matches!(self.shifts[..], [.., before, now] if before > now)
     }
 
-    /// The rows of a table in the cycle before `end`, or all of them; `None` if it is no table of loops.
+    /// Reads the cycle that ends at `end`, or all rows, of a table; `None` if the table holds no loop.
     pub fn of(table: &Table, end: Option<f64>) -> Option<Self> {
         let cycles = table.column(Column::Cycle)?;
         let pairs = [
@@ -168,7 +168,7 @@ impl Loop {
         })
     }
 
-    /// From steps: cycle, u_x⁽⁰⁾, F_x and the displacement of the actuator.
+    /// Makes a loop from steps: cycle, u_x⁽⁰⁾, F_x and the actuator's displacement.
     pub fn of_rows<'a>(end: f64, rows: impl Iterator<Item = &'a [f64; 4]> + Clone) -> Self {
         let column = |k: usize| rows.clone().map(|row| row[k]).collect();
         Self {

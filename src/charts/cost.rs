@@ -1,4 +1,4 @@
-//! Time per step on this machine, over finished cycles.
+//! Time per step on this machine, over complete cycles.
 
 use super::*;
 

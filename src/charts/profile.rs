@@ -1,5 +1,5 @@
-//! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
-//! magnified where it would be thinner than a line.
+//! The 3D profile f(r), worn and unworn, with the zones of the contact below it. Wear that would be thinner than a line
+//! is drawn magnified.
 
 use super::*;
 use crate::math::scan::largest;
@@ -19,22 +19,23 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// How much of the height of the unworn profile the magnified wear may take.
+/// Maximum height of the magnified wear, relative to the height of the unworn profile.
 const SHARE: f64 = 0.9;
 
-/// Wear below this share of the height of the unworn profile has an inset of its own on paper.
+/// Wear below this share of the unworn profile's height is shown in a separate inset on paper.
 const HIDDEN: f64 = 0.25;
 
-/// The height of the `unworn` profile over the domain, m: what lies beyond the rim of a punch is left out.
+/// Returns the height of the `unworn` profile over the domain, m, ignoring the infinite values beyond the rim of a
+/// punch.
 fn height(unworn: &[f64], depth: f64) -> f64 {
     let finite = unworn.iter().copied().filter(|f| f.is_finite());
     let height = finite.fold(0.0, f64::max);
-    // A flat punch has no height: its wear is drawn over the depth.
+    // A flat punch has no height, so its wear is scaled to the depth.
     if height > 0.0 { height } else { depth.abs() }
 }
 
-/// How many times the `wear` is drawn on a screen: the same from the first cycle to the planned end, so that wear
-/// that grows is seen to grow. Only where there is more than was expected, the factor falls.
+/// Returns the magnification of the wear on a screen. It stays the same from the first cycle to the planned end, so
+/// that growing wear is seen to grow; it drops only if there is more wear than expected.
 fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
     let Some(live) = &run.live else {
         return 1.0;
@@ -78,7 +79,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     };
     chart.band = run.zones();
     let theory = view.theory(run).or(run.pick(None, run.theory.as_deref()));
-    // Unworn curves come first: the worn ones lie on them.
+    // Unworn curves come first, so that the worn ones lie on top.
     Ok(chart
         .curve(Curve::new("unworn", radii, unworn, Role::Unworn).dashed())
         .curves(limit(run, theory, Some(times)))

@@ -1,5 +1,5 @@
-//! Worn volume per cycle, over cycles. The unfinished cycle is left out: most of the wear of a cycle falls
-//! into a part of it, so a rate over less than a cycle means little.
+//! Worn volume per cycle, over cycles. The incomplete cycle is left out: a cycle wears mostly in a part of it, so a
+//! rate over less than a cycle means little.
 
 use super::*;
 

@@ -1,5 +1,5 @@
-//! The difference between wear volume and friction work: V/(k E_d) − 1 since the start, in
-//! thousandths. The wear law says zero.
+//! The relative difference between wear volume and friction work since the start, V/(k E_d) − 1, in thousandths. The
+//! wear law predicts zero.
 
 use super::*;
 

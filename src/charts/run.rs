@@ -1,4 +1,4 @@
-//! What is known of a run: tables read from its files, or taken from memory.
+//! The data of a run, from its files or from memory.
 
 use std::sync::Arc;
 
@@ -27,17 +27,17 @@ pub struct Live {
     pub moment: Moment,
     /// Whether the profile wears.
     pub wears: bool,
-    /// μ.
+    /// The coefficient of friction μ.
     pub friction: f64,
     /// Where the scenario's plan ends, cycles.
     pub planned_cycles: Option<f64>,
-    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    /// Rough estimate of the deepest wear at the planned end, m; 0 if unknown.
     pub expected_wear: f64,
-    /// Whether the last row of the history belongs to an unfinished cycle.
+    /// Whether the last row of the history belongs to an incomplete cycle.
     pub is_within_a_cycle: bool,
     /// The running condition of the last cycle, in words.
     pub regime: Option<&'static str>,
-    /// The amplitude of u_x from which the present profile slips as a whole, m, where it is known.
+    /// The amplitude of u_x at which the whole present contact begins to slip, m, if known.
     pub slip_border: Option<f64>,
     /// Loops of earlier cycles, oldest first.
     pub log: Vec<Arc<Loop>>,
@@ -50,10 +50,10 @@ impl Live {
     }
 }
 
-/// What is known of a run: over the radius, over cycles, over a cycle, and beside it.
+/// The data of a run: over the radius, over cycles, over one cycle, and data of other sources to compare with.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
-    /// States, by their cycles.
+    /// The states, in the order of their cycles.
     pub states: Vec<Table>,
     /// The history.
     pub history: Option<Table>,
@@ -63,11 +63,11 @@ pub struct Run {
     pub ghosts: Vec<Arc<Ghost>>,
     /// The stresses inside the half-space.
     pub field: Option<Table>,
-    /// What theory says of the scenario.
+    /// The closed forms for the scenario.
     pub theory: Option<Arc<Theory>>,
     /// The unworn shape.
     pub indenter: Option<Indenter>,
-    /// Round, or a line.
+    /// Whether the contact is round or a line.
     pub geometry: Geometry,
     /// What its charts are drawn on.
     pub medium: Medium,
@@ -76,7 +76,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// A name for little room on a screen, or in full on paper.
+    /// Returns the short name on a screen, the full one on paper.
     pub(super) fn pick<T>(&self, screen: T, paper: T) -> T {
         match self.medium {
             Medium::Screen => screen,
@@ -84,19 +84,19 @@ impl Run {
         }
     }
 
-    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    /// Rough estimate of the deepest wear at the planned end, m; 0 if unknown.
     pub fn expected_wear(&self) -> f64 {
         self.live.as_ref().map_or(0.0, |live| live.expected_wear)
     }
 
-    /// The size of the volume that is worn at the planned end, m³: as deep everywhere as where it is deepest.
+    /// Upper estimate of the worn volume at the planned end, m³: the deepest wear over the whole contact area.
     pub fn expected_volume(&self) -> f64 {
         let radius = |live: &Live| live.moment.contact_radius;
         let area = self.geometry.area(self.live.as_ref().map_or(0.0, radius));
         area * self.expected_wear()
     }
 
-    /// The same with what the scenario tells.
+    /// Adds what follows from the scenario.
     #[must_use]
     pub fn of(self, scenario: &Scenario) -> Self {
         let setup = scenario.setup();
@@ -126,7 +126,7 @@ impl Run {
         Ok(())
     }
 
-    /// The loop of the cycle before `end`: on its own, or from a history of every step.
+    /// Returns the loop of the cycle that ends at `end`, from its table or from a history of every step.
     pub fn loop_at(&self, end: f64) -> Option<Loop> {
         let mut alone = self.loops.iter();
         let alone = alone.find(|one| (one.end - end).abs() < 1e-9).cloned();
@@ -134,7 +134,7 @@ impl Run {
         alone.or_else(recorded)
     }
 
-    /// What there is of this run, to be laid over the charts of another one.
+    /// Returns this run's data as an overlay for another run's charts.
     pub fn ghost(&self, name: &str) -> Ghost {
         let mut ghost = Ghost::new(name);
         ghost.tables.extend(self.states.last().cloned());
@@ -154,19 +154,19 @@ impl Run {
         radii.and_then(<[f64]>::last).copied().unwrap_or(0.0)
     }
 
-    /// f₀ at a radius, m; NaN where the shape is not known.
+    /// Returns f₀ at a radius, m; NaN if the shape is unknown.
     pub fn unworn(&self, r: f64) -> f64 {
         let indenter = self.indenter.as_ref();
         indenter.map_or(f64::NAN, |indenter| indenter.profile(r))
     }
 
-    /// μ, where there are friction and a tangential motion.
+    /// Returns μ if there is a tangential motion with friction.
     pub(super) fn friction(&self) -> Option<f64> {
         let live = self.live.as_ref().filter(|live| live.moves());
         live.map(|live| live.friction).filter(|mu| *mu > 0.0)
     }
 
-    /// Says so if the scenario has no wear.
+    /// Returns an error if the scenario has no wear.
     pub(super) fn wears(&self) -> Result<(), &'static str> {
         match &self.live {
             Some(live) if !live.wears => Err(super::NO_WEAR),
@@ -174,7 +174,7 @@ impl Run {
         }
     }
 
-    /// Stick, slip and open along the radius, on a screen.
+    /// Returns the stick, slip and open zones along the radius; empty on paper.
     pub(super) fn zones(&self) -> Vec<([f64; 2], Zone)> {
         let Some(live) = &self.live else {
             return Vec::new();
@@ -210,7 +210,7 @@ impl Run {
         Some(columns)
     }
 
-    /// The last cycle that there is anything of.
+    /// Returns the last cycle that any of the data reach.
     pub fn end(&self) -> Option<f64> {
         let recorded = self.history.as_ref().and_then(Table::last_cycle);
         let states = self.states.iter().map(Table::cycle);

@@ -16,7 +16,7 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// The largest worn depth of every state, for histories of runs that did not record it.
+/// Returns the largest worn depth of every state, for histories that did not record it.
 fn of_states(run: &Run) -> Option<Curve> {
     let deepest = run
         .states

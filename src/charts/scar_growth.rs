@@ -1,4 +1,4 @@
-//! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
+//! The scar's radius and depth over the friction work: what a profilometer and the fretting loops of a test measure.
 
 use super::*;
 
@@ -25,7 +25,7 @@ pub static RECIPE: Recipe = Recipe {
 const DEPTH: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarDepth);
 const RADIUS: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarRadius);
 
-/// The work at the last of the cycles that charts show, J, where each cycle takes as much as those so far.
+/// Extrapolates the friction work, J, to the last cycle that charts show, at the mean rate so far.
 fn shown_work(run: &Run) -> Option<f64> {
     let [cycles, work] = run.over_cycles([Column::Cycle, Column::DissipatedEnergy])?;
     let (cycle, done) = (*cycles.last()?, *work.last()?);

@@ -1,4 +1,4 @@
-//! What is known of a session: its present state, and all that charts show of it where it is run for them.
+//! Data for charts from a session: its present state, or everything that a run of it to the end yields.
 
 use super::Run;
 use crate::export::{field, header, last_loop, state};
@@ -19,15 +19,15 @@ const OVER_CYCLES: [Column; 7] = [
 ];
 
 impl Run {
-    /// Takes the present state of `session` in.
+    /// Adds the present state of `session`.
     pub fn take_state(&mut self, session: &Session) {
         let seen = session.simulation().observe(Curves::all());
         let table = Table::of_columns(header::entries(session), state::columns(&seen));
         self.states.push(table);
     }
 
-    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, the loop before each of
-    /// them, whole cycles over the run, and the field at the end if `with_field`.
+    /// Runs `session` to the last of `cycles` (increasing). Records the state at each of them and the loop before it,
+    /// the history at whole cycles, and the field at the end if `with_field`.
     ///
     /// # Errors
     /// If the run stops.

@@ -1,4 +1,4 @@
-//! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
+//! The 1D profile g(x) and the indentation depth d: springs are in contact where g < d.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
+//! Pressure p(r) and shear stress τ(r). On a screen τ is drawn as τ/μ, which meets ±p where the contact slips.
 
 use super::*;
 
@@ -35,7 +35,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         Medium::Screen if is_log => ("|τ|/μ", run.friction()),
         Medium::Screen => ("τ/μ", run.friction()),
     };
-    // A logarithmic ordinate shows the size of τ.
+    // On a logarithmic ordinate, |τ| is drawn.
     let scaled = |shear: f64| {
         let shear = shear / divisor.unwrap_or(1.0);
         if is_log { shear.abs() } else { shear }

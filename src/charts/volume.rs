@@ -1,5 +1,5 @@
-//! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
-//! is wide: the panel beside shows the difference.
+//! Wear volume V over cycles. V = k E_d from the friction work would differ by less than the width of a line; the panel
+//! beside it shows the difference.
 
 use super::*;
 

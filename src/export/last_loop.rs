@@ -1,4 +1,4 @@
-//! `loop.csv`: the fretting loop of the last period, finely stepped on the last profile.
+//! `loop.csv`: the fretting loop of the last period, computed with fine steps on the last profile.
 
 use super::header::{field, table};
 use crate::reading::Column;
@@ -13,11 +13,11 @@ pub const COLUMNS: [Column; 4] = [
     Column::RigDisplacement,
 ];
 
-/// The longest period that is written as a whole, in cycles; of a longer one, the last cycle.
+/// Periods of up to this many cycles are written whole; of longer ones, only the last cycle.
 const LONGEST: f64 = 20.0;
 
-/// The moments of the last period: cycle, u_x⁽⁰⁾ (m), F_x (N), displacement of the rig's actuator (m, or NaN on a stiff
-/// rig). No rows without tangential motion.
+/// Returns the moments of the last period: cycle, u_x⁽⁰⁾ (m), F_x (N), displacement of the rig's actuator (m; NaN on a
+/// stiff rig). Returns no rows without tangential motion.
 pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
     let yields = simulation.setup().drive.rig_compliance() > 0.0;
     let Some(period) = simulation.fine_period() else {
@@ -35,7 +35,7 @@ pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
     points.map(row).collect()
 }
 
-/// The whole file for the present state of `session`; `None` without tangential motion.
+/// Returns the whole file for the present state of `session`; `None` without tangential motion.
 pub fn file(session: &Session) -> Option<String> {
     let rows = rows(session.simulation());
     let fields = rows.iter().map(|row| row.map(field));

@@ -7,7 +7,7 @@ use crate::scenario::session::Session;
 /// The columns that follow where the scenario shares the wear between both bodies.
 const COLUMNS_OF_BODIES: [Column; 2] = [Column::WearIndenter, Column::WearHalfSpace];
 
-/// The whole file for the present state of `session`.
+/// Returns the whole file for the present state of `session`.
 pub fn table(session: &Session) -> String {
     let seen = session.simulation().observe(Curves::all());
     let (numbers, share) = (columns(&seen), session.scenario().wear_share());

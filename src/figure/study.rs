@@ -1,4 +1,4 @@
-//! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
+//! Charts of a sweep's table: a map over two axes, curves over one axis, or points of a sampled design.
 
 use std::iter;
 
@@ -14,16 +14,16 @@ use crate::scenario::{printable, schema};
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{self, Design};
 
-/// The most charts of a sheet that nobody chose the columns of.
+/// Maximum number of charts by default.
 const MOST_CHARTS: usize = 4;
 
-/// Positive values whose ends have this ratio or a larger one are shown on a logarithmic scale.
+/// Positive values with at least this ratio of largest to smallest get a logarithmic scale.
 const DECADES: f64 = 100.0;
 
-/// How much of the data's extent is left free beside curves with symbols.
+/// Free space beside curves with symbols, relative to the data's extent.
 const MARGIN: f64 = 0.04;
 
-/// What interrupts a line.
+/// Interrupts a line.
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 /// The column of the words.
@@ -38,10 +38,10 @@ const ERRORS: [(Column, Column); 5] = [
     (Column::ContactRadius, Column::ContactRadiusError),
 ];
 
-/// The sheet of a study that is called `name`: a chart for each of `columns`, or for the first ones.
+/// Makes the sheet of the study called `name`: one chart for each of `columns`, or for the default ones.
 ///
 /// # Errors
-/// In one line, a column that the study does not have, or of which no point has a value.
+/// Names, in one line, a column that the study lacks or that has no values.
 pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, String> {
     let study = &slice.study;
     let has_values = |column: &Column| {
@@ -90,7 +90,7 @@ fn usual(slice: &Slice) -> Vec<Column> {
     }
 }
 
-/// What a caption needs.
+/// Returns the facts for a caption.
 fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     let study = &slice.study;
     let mut facts = vec![
@@ -113,14 +113,14 @@ fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     facts
 }
 
-/// Numbers of the values of a study's axis; the places of words.
+/// Returns the positions of an axis' values: the numbers themselves, or the indices of words.
 fn places(axis: &sweep::Axis) -> Vec<f64> {
     let all = 0..axis.count();
     all.map(|place| axis.number(place).unwrap_or(place as f64))
         .collect()
 }
 
-/// An axis of a study in words, with its unit.
+/// Returns an axis of a study with its title and unit.
 pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     let unit = slice.study.unit(axis);
     let label = schema::find(&axis.key).and_then(|known| known.label);
@@ -166,7 +166,7 @@ pub fn chart(slice: &Slice, column: Column, lines: [Vec<Line>; 2]) -> Chart {
     }
 }
 
-/// An axis of a map, its places, and the edges between them.
+/// Returns an axis of a map, its positions, and the edges between them.
 fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
     let (shown, places) = (paper_axis(slice, axis), places(axis));
     let edges = shown.edges(&places);
@@ -175,7 +175,7 @@ fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
     (shown.bounds(bounds), places, edges)
 }
 
-/// A column over two axes as colours, with a letter at the end of each line.
+/// Makes a chart of a column as colours over two axes, with a letter at the end of each line.
 fn map(
     slice: &Slice,
     upwards: &sweep::Axis,
@@ -197,7 +197,7 @@ fn map(
         },
         places: [xs, ys],
     });
-    // The value of a word is its place.
+    // The value of a word is its index.
     let value = |axis: &sweep::Axis, place: f64| axis.value_at(place).unwrap_or(place);
     let spot = |[x, y]: [f64; 2]| (value(slice.x(), x), value(upwards, y));
     let criteria = criteria.into_iter().enumerate();

@@ -38,9 +38,9 @@ pub fn gamma(x: f64) -> f64 {
 
 /// κₙ = √π Γ(n/2 + 1) / Γ(n/2 + ½), dimensionless, for n ≥ 0: the factor of f = A rⁿ → g = κₙ A xⁿ.
 ///
-/// Source: Popov & Heß (2015), ch. 3. Table: κ₀ = 1, κ₁ = π/2, κ₂ = 2, κ₃ = 3π/4, κ₄ = 8/3. Exact
-/// to rounding at integers by the recurrence κₙ = κₙ₋₂ n/(n − 1), which also brings any other n
-/// down to 0 < n ≤ 2. It equals n·B(n/2, ½)/2, so that m B(m, ½) = κ₂ₘ. NaN for n < 0 or n > 1e6.
+/// Source: Popov & Heß (2015), ch. 3. Table: κ₀ = 1, κ₁ = π/2, κ₂ = 2, κ₃ = 3π/4, κ₄ = 8/3. Exact to rounding at
+/// integers by the recurrence κₙ = κₙ₋₂ n/(n − 1), which also reduces any other n to 0 < n ≤ 2. Equals n·B(n/2, ½)/2,
+/// so m B(m, ½) = κ₂ₘ. NaN for n < 0 or n > 1e6.
 pub fn kappa(n: f64) -> f64 {
     if !(0.0..=1e6).contains(&n) {
         return f64::NAN;
@@ -78,7 +78,7 @@ pub fn acosh_ratio(a: f64, r: f64) -> f64 {
     }
 }
 
-/// max(x, 0), except that NaN stays NaN, unlike in `f64::max`.
+/// max(x, 0), but NaN stays NaN, unlike in `f64::max`.
 pub fn positive_part(x: f64) -> f64 {
     if x < 0.0 { 0.0 } else { x }
 }
@@ -97,7 +97,7 @@ pub fn angle_beyond(c: f64, r: f64) -> f64 {
     leg(r, c).atan2(c)
 }
 
-/// Where `is_below` turns from true to false between `low` and `high`, by bisection to the last digit.
+/// Finds where `is_below` turns from true to false between `low` and `high`, by bisection to machine precision.
 pub fn bisect(mut low: f64, mut high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (low + high);

@@ -1,4 +1,4 @@
-//! What only reads a simulation: quantities that no step needs, computed where somebody asks for them.
+//! Read-only views of a simulation: quantities that no step needs, computed on demand.
 
 mod checks;
 pub mod column;

@@ -1,4 +1,4 @@
-//! The numbers of a run whose errors are stated: one list for headers, columns, screens, the guide and the judge.
+//! The numbers of a run with stated errors: one list for headers, columns, screens, the guide and the judge.
 
 use strum::{EnumCount, VariantArray};
 
@@ -23,15 +23,15 @@ pub enum Quantity {
     Pressure,
     /// a.
     ContactRadius,
-    /// c, that of the moment and the permanent one.
+    /// c, at the moment and permanent.
     StickRadius,
 }
 
 impl Quantity {
-    /// All of them, in the order of headers.
+    /// All quantities, in the order of headers.
     pub const ALL: &'static [Self] = Self::VARIANTS;
 
-    /// The name on screens and in messages, as after "error of".
+    /// Returns the name on screens and in messages, as after "error of".
     pub const fn name(self) -> &'static str {
         match self {
             Self::WornDepth => "the worn depth, rms",
@@ -51,12 +51,12 @@ impl Quantity {
         Column::ERRORS[self as usize]
     }
 
-    /// Whether it is about wear, and means nothing where nothing has worn.
+    /// Whether it concerns wear, so that it means nothing before anything has worn.
     pub const fn is_of_wear(self) -> bool {
         matches!(self, Self::WornDepth | Self::Deepest | Self::Volume)
     }
 
-    /// Whether `numerics.accuracy` holds it; the errors of the others are told only.
+    /// Whether `numerics.accuracy` guarantees it; the other errors are only reported.
     pub const fn is_promised(self) -> bool {
         match self {
             Self::WornDepth | Self::Volume | Self::Energy | Self::Force => true,
@@ -73,7 +73,7 @@ impl Quantity {
 mod tests {
     use super::*;
 
-    /// The chapter on accuracy has a row for each, in the same words.
+    /// The chapter on accuracy has one row per quantity, in the same words.
     #[test]
     fn the_guide_lists_every_number() {
         let guide = include_str!("../guide/accuracy.md");

@@ -10,12 +10,12 @@ use crate::reading::{Column, CycleFigures, Moment};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
-/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null where
-/// it is not defined at this moment.
+/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null if it
+/// is undefined at this moment.
 pub use serde_json::Value;
 
-/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
-/// the same bits, nothing where the value is missing.
+/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to the same bits, an empty
+/// field for a missing value.
 pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -37,13 +37,13 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// Returns a number as a field, empty where it is not known.
+/// Returns a number as a field, empty if NaN.
 pub fn field(value: f64) -> String {
     cell(&value.into())
 }
 
-/// The present moment of a session, read for some scalars. What several scalars need is computed
-/// once, and the pressure only if a scalar asks for it.
+/// Reads scalars at the present moment of a session. Intermediate results that several scalars need are computed once,
+/// and the pressure only if a scalar needs it.
 #[derive(Debug)]
 pub struct Reading<'a> {
     session: &'a Session,
@@ -136,13 +136,13 @@ impl<'a> Reading<'a> {
         self.value(scalar).as_f64().unwrap_or(f64::NAN)
     }
 
-    /// p(r), Pa: one transform the first time.
+    /// Returns p(r), Pa; computed once, by one transform.
     fn pressure(&self) -> &[f64] {
         self.pressure
             .get_or_init(|| self.session.simulation().pressure())
     }
 
-    /// A figure of the last complete period; after a jump, a period is stepped for it.
+    /// Returns a figure of the last complete period; after a jump, a period is stepped for it.
     fn figure(&self, of: fn(&CycleFigures) -> Option<f64>) -> Value {
         self.figures().as_ref().and_then(of).into()
     }
@@ -151,7 +151,7 @@ impl<'a> Reading<'a> {
         self.figures.get_or_init(|| self.session.cycle_figures())
     }
 
-    /// The loads of a steady cycle, which is stepped the first time.
+    /// Returns the loads of a steady-state cycle, which is stepped once.
     fn stresses(&self) -> Option<&StressCycle> {
         let simulation = self.session.simulation();
         let stresses = self.stresses.get_or_init(|| StressCycle::of(simulation));
@@ -166,13 +166,13 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// Where the Smith–Watson–Topper parameter is largest.
+    /// Finds where the Smith–Watson–Topper parameter is largest.
     fn swt(&self, of: fn(&Peak) -> f64) -> Option<f64> {
         let find = || Some(self.stresses()?.largest(|at| at.swt));
         self.swt.get_or_init(find).as_ref().map(of)
     }
 
-    /// Where Crossland's parameter is largest.
+    /// Finds where Crossland's parameter is largest.
     fn crossland(&self, of: fn(&Peak) -> f64) -> Option<f64> {
         let find = || {
             let limits = self.limits()?;
@@ -216,7 +216,7 @@ pub fn scar_radius(simulation: &Simulation) -> Option<f64> {
     let Some(next) = nodes.get(outermost + 1) else {
         return Some(nodes[outermost]);
     };
-    // Between this node and the next the depth falls through the edge.
+    // Interpolates: the depth crosses the threshold between this node and the next.
     let share = (worn[outermost] - edge) / (worn[outermost] - worn[outermost + 1]);
     Some(nodes[outermost] + share * (next - nodes[outermost]))
 }

@@ -1,5 +1,5 @@
-//! What `s` writes and how it is opened again: the state, the scenario that reproduces it, history and
-//! last loop as tables, and a checkpoint.
+//! Snapshots, written by `s`, and opening them again: the state, the scenario that reproduces it, history and last loop
+//! as tables, and a checkpoint.
 
 use std::path::{Path, PathBuf};
 
@@ -17,12 +17,12 @@ use crate::scenario::session::Session;
 use crate::scenario::{checkpoint, printable};
 use crate::traces::Table;
 
-/// The checkpoint of a snapshot.
+/// The checkpoint's file name.
 const CHECKPOINT: &str = "state.checkpoint";
 
 /// Writes the state of `run` to a new directory, with the user's note, and returns the path of the state.
 pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, WriteError> {
-    // The note is about this state: what goes on from it does not carry it.
+    // The note is about this state; a run that continues from it does not carry it.
     let kept = checkpoint::encode(&run.session, None::<&()>);
     let noted = note.map(|note| run.session.noted(note));
     let session = noted.as_ref().unwrap_or(&run.session);
@@ -41,7 +41,7 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     files.push(("state.csv", state::table(session).into_bytes()));
     for (name, bytes) in &files {
         if let Err(error) = directory.write(name, bytes) {
-            // Nothing half: the directory goes with its last file.
+            // Leaves no half-written snapshot: the directory is removed with its last file.
             for (name, _) in &files {
                 let _ = std::fs::remove_file(directory.path().join(name));
             }
@@ -51,8 +51,8 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     Ok(directory.path().join("state.csv").components().collect())
 }
 
-/// The history in the columns of a run's. Contact radii and stick radii are those that the screen shows: the
-/// largest and the smallest of each cycle.
+/// Returns the history with the columns of a run's `history.csv`. As on the screen, contact radii and stick radii are
+/// the largest and the smallest of each cycle.
 fn history(session: &Session, trend: &Trend) -> String {
     let now = session.simulation().cycle();
     let rows = trend.cycles().map(|entry| {
@@ -76,7 +76,7 @@ fn history(session: &Session, trend: &Trend) -> String {
     table(session, &Column::HISTORY, rows)
 }
 
-/// The last period, in the columns of a measured loop.
+/// Returns the last period, with the columns of a measured loop.
 fn loop_table(session: &Session) -> String {
     let rows = last_loop::rows(session.simulation()).into_iter();
     let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(written));
@@ -87,13 +87,13 @@ fn loop_table(session: &Session) -> String {
     )
 }
 
-/// Where in a directory a state to go on from is: that of a snapshot, or of a run that was interrupted.
+/// Finds the checkpoint of a snapshot or of an interrupted run in a directory.
 fn checkpoint_in(directory: &Path) -> Option<PathBuf> {
     let kept = [CHECKPOINT, RUN_CHECKPOINT].map(|name| directory.join(name));
     kept.into_iter().find(|path| path.is_file())
 }
 
-/// What `path` is if a state can be opened from there: its cycle, title and note, in a line.
+/// Describes the state in the directory `path` in one line: its cycle, title and note; `None` if there is none.
 pub(super) fn about(path: &Path) -> Option<String> {
     checkpoint_in(path)?;
     let header = Columns::header_of(&path.join("state.csv")).ok()?;
@@ -107,10 +107,10 @@ pub(super) fn about(path: &Path) -> Option<String> {
     Some(format!("{title}, cycle {cycle}.{note} {next}"))
 }
 
-/// Opens the state in a directory, with its past as far as it is known.
+/// Opens the state in a directory, with as much of its past as is recorded.
 ///
 /// # Errors
-/// One line: a directory without such a state, a checkpoint that is torn or of another version.
+/// In one line: there is no such state, or the checkpoint is damaged or of another version.
 pub fn open(directory: &Path) -> Result<Recorded, String> {
     let Some(path) = checkpoint_in(directory) else {
         let shown = printable(&directory.display().to_string());
@@ -127,7 +127,7 @@ pub fn open(directory: &Path) -> Result<Recorded, String> {
     })
 }
 
-/// The past up to `cycle` as the tables beside a checkpoint tell of it.
+/// Reads the past up to `cycle` from the tables beside a checkpoint.
 fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let read = |name: &str| Columns::read(&directory.join(name)).ok();
     let file = read("history.csv")?;

@@ -351,3 +351,23 @@ fn no_key_pressed_in_a_modal_changes_the_run() {
     let typed = rehearsed_on(session, ",,pmild<Esc>?r<Esc>", (80, 24));
     has(&typed, "cycle 2.00/199.24");
 }
+
+/// Between bodies that are apart there is air, and below it the half-space: nothing but the scar is drawn as worn.
+#[test]
+fn a_lifted_indenter_leaves_air_above_the_half_space() {
+    let size = (120, 40);
+    let mut explorer = explorer("separation", size, DARK);
+    explorer.press("V,,");
+    while explorer.frame().observation.moment.contact_radius > 0.0 {
+        explorer.press(".");
+    }
+    let screen = shown(&explorer, size);
+    assert!(screen.contains("Nothing touches"), "{screen}");
+    assert!(!screen.contains("slips in each cycle"), "{screen}");
+    let worn = screen.matches('╱').count();
+    let scar = screen.lines().filter(|line| line.contains('╱')).count();
+    assert!(
+        worn < 100 && scar < 8,
+        "{worn} cells of {scar} rows\n{screen}"
+    );
+}

@@ -1,4 +1,4 @@
-//! What a run says of itself: remarks at its start, and its end in words or as JSON.
+//! A run's reports: remarks at its start, and its result as text or JSON.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use crate::reading::{Column, Quantity, verdict};
 use crate::scenario::escape;
 use crate::scenario::scalars::Value;
 
-/// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
+/// Returns what a user should know about a run: why it never jumps, what its indenter is made from, warnings.
 pub(super) fn remarks(session: &Session) -> Vec<String> {
     let never = session.simulation().why_never_jumped();
     let never = never.map(|why| format!("no cycle jumps: {why}"));
@@ -20,7 +20,7 @@ pub(super) fn remarks(session: &Session) -> Vec<String> {
 }
 
 impl Job<'_> {
-    /// The last row of the history and the header of the files, by the names that they have there.
+    /// Prints the last row of the history and the header of the files, by the names used there.
     pub(super) fn print_json(&self) -> Result<()> {
         let header = header::entries(&self.session).into_iter();
         let header = header.map(|(key, text)| match text.parse::<f64>() {
@@ -36,7 +36,7 @@ impl Job<'_> {
         Ok(writeln!(io::stdout().lock(), "{summary}")?)
     }
 
-    /// The end in words.
+    /// Prints the result as text.
     pub(super) fn summarize(&self) -> Result<()> {
         let simulation = self.session.simulation();
         let (moment, stats) = (simulation.moment(), simulation.stats());

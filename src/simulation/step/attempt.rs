@@ -1,5 +1,5 @@
-//! Tries a step: the contact at its end, and what it wears by friction and wear that [run in](super::super::running_in)
-//! within it.
+//! Tries a step: solves the contact at its end, and computes the wear with friction and wear that [run
+//! in](super::super::running_in) during it.
 
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
@@ -9,8 +9,8 @@ use super::super::running_in::{RunningIn, Stretch};
 use super::super::state::State;
 use super::{Scratch, wear};
 
-/// Solves the contact at `cycle` on the profile in `scratch`, into `next`, and what the step there from `state` wears;
-/// returns how stiff it is. Leaves the `model` with the means of friction and wear over the step.
+/// Solves the contact at `cycle` on the profile in `scratch`, into `next`, and computes the wear of the step from
+/// `state`; returns its stiffness. Leaves the `model` with the mean friction and wear over the step.
 pub(super) fn attempt(
     model: &mut Model,
     state: &State,
@@ -40,7 +40,7 @@ fn solve(
     problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)
 }
 
-/// The same step by the friction at its end, and by the means of friction and of k over it.
+/// Tries the step with the friction at its end, and with the means of friction and k over it.
 fn run_in(
     running_in: &RunningIn,
     model: &mut Model,
@@ -63,7 +63,7 @@ fn run_in(
     running_in.set_friction(stretch.end(), &mut model.setup.material);
     solve(model, state, next, scratch, cycle)?;
     running_in.set_friction(stretch, &mut model.setup.material);
-    // Wear is linear in k, and the work that tells the mean of k comes with it.
+    // Wear is linear in k, and computing it also gives the work that determines the mean of k.
     let given = model.setup.wear;
     model.setup.wear = given.map(|law| law.with_coefficient(1.0));
     wear(model, state, next, scratch, cycle);

@@ -82,15 +82,15 @@ pub enum Switch {
 /// How to fit.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// The cycles of each run; default: `run.cycles`, or the last cycle of the histories.
+    /// Number of cycles of each run; default: `run.cycles`, or the last cycle of the histories.
     pub cycles: Option<f64>,
     /// Whether outliers count less.
     pub robust: bool,
     /// Whether level, shift and tilt are fitted.
     pub nuisances: [Switch; 3],
-    /// Whether the stroke of the scenario is that of the loops.
+    /// Whether the scenario takes its stroke from the loops.
     pub takes_stroke: bool,
-    /// After how many seconds the search ends with the best that it has.
+    /// Seconds after which the search ends with the best result so far.
     pub budget: Option<f64>,
 }
 

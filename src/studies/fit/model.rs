@@ -10,7 +10,7 @@ use crate::simulation::Simulation;
 use crate::studies::measured::{Measured, Strokes};
 use crate::traces::Axes;
 
-/// What a run says of one data set, wherever its points lie.
+/// Prediction of a run for one data set, at arbitrary points.
 #[derive(Debug, Clone)]
 pub(super) enum Response {
     /// What has worn at the nodes, m, and the unworn shape where the profile was measured.
@@ -22,13 +22,13 @@ pub(super) enum Response {
 }
 
 impl Response {
-    /// The simulated values of a data set whose abscissae are off by `shift` and whose values by `level` and by `tilt`
-    /// per unit of its abscissa.
+    /// Returns the simulated values of a data set whose abscissae are off by `shift`, and whose values by `level` and
+    /// by `tilt` per unit of the abscissa.
     pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
         let plain = |i: usize, x: f64| match self {
             Self::Scar(grid, worn, unworn) => {
                 let r = (x - shift).abs();
-                // Nothing wears outside of the grid.
+                // Nothing wears outside the grid.
                 let depth = if r <= grid.radius() {
                     grid.interpolate(worn, r)
                 } else {
@@ -45,7 +45,7 @@ impl Response {
             .collect()
     }
 
-    /// The share of the points of a scar that lie where nothing has worn.
+    /// Returns the share of a scar's points where nothing has worn.
     pub fn unworn_share(&self, set: &Measured, shift: f64) -> f64 {
         let Self::Scar(grid, worn, _) = self else {
             return 0.0;
@@ -142,7 +142,7 @@ pub(super) fn per_cycle(simulation: &Simulation, over: Column) -> f64 {
     }
 }
 
-/// V, the largest depth and the approach since the start.
+/// Returns V, the largest depth and the approach since the start.
 fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
     let moment = simulation.moment();
     [
@@ -152,7 +152,7 @@ fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
     ]
 }
 
-/// Which of these a history tells.
+/// Returns which of these a history contains.
 fn quantity(axes: Axes) -> usize {
     match axes.y {
         Column::ScarDepth => 1,

@@ -1,7 +1,7 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 //!
-//! Instruments choose their zeros, signs and directions at will. What can be told without a model is put right here and
-//! noted; what needs one (zeros, centre, tilt) a fit finds beside its keys.
+//! Instruments choose their zeros, signs and directions at will. What can be corrected without a model is corrected
+//! here and noted; what needs one (zeros, centre, tilt) is fitted besides the keys.
 
 use crate::math::scan::range;
 use crate::reading::Column;
@@ -18,13 +18,13 @@ mod trace;
 pub use record::Pick;
 pub use strokes::{Strokes, rises};
 
-/// The fewest rows of a data set.
+/// Minimum rows of a data set.
 const FEWEST: usize = 3;
 
-/// The fewest rows of a loop.
+/// Minimum rows of a loop.
 const FEWEST_OF_LOOP: usize = 8;
 
-/// A loop that leans this much to the left has its force or its displacement with the other sign: the correlation of both.
+/// A loop that leans this far to the left, by its correlation, has its force or its displacement with the other sign.
 const LEANS_LEFT: f64 = -0.3;
 
 /// What the rows of a file are, by its columns.
@@ -57,7 +57,7 @@ const WORN: [(Column, Column); 4] = [
 ];
 
 impl Kind {
-    /// By the columns of a file; `None` if they are of nothing that was measured.
+    /// Determines the kind from the columns of a file; `None` if they are not measured data.
     pub fn of(columns: &Columns) -> Option<Self> {
         let has = |column: Column| columns.has(column);
         let is_own_loop =
@@ -77,23 +77,23 @@ impl Kind {
 /// A data set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// The file.
+    /// Name of the file.
     pub name: String,
-    /// What it holds: a profile, what has worn of it, a loop, or what has worn over the course of a test.
+    /// What it contains: a profile, its worn part, a loop, or wear over the course of a test.
     pub axes: Axes,
     /// The radius in m, of either sign where a trace runs through the axis; u_x in m; cycles, s, m or J.
     pub at: Vec<f64>,
-    /// What was measured there, in the unit of the axes.
+    /// Measured values, in the unit of the axes.
     pub values: Vec<f64>,
-    /// Standard errors of the values, where the file gives them.
+    /// Standard errors of the values, if the file gives them.
     pub errors: Option<Vec<f64>>,
-    /// The end of the cycle that a loop was measured in, where it is known.
+    /// End of the cycle in which a loop was measured, if known.
     pub cycle: Option<f64>,
-    /// Of a loop, which points belong to rising strokes; else empty.
+    /// For a loop, which points belong to rising strokes; otherwise empty.
     pub rising: Vec<bool>,
     /// Whether its values are means around the axis, so that it has no other side and no other centre.
     pub is_averaged: bool,
-    /// What was left out or put right, a line each.
+    /// What was left out or corrected, one line each.
     pub notes: Vec<String>,
 }
 
@@ -218,18 +218,18 @@ impl Measured {
         self.axes.over_r() && ends[0] < -0.2 * ends[1] && ends[1] > -0.2 * ends[0]
     }
 
-    /// The centre of a trace, m, as far as it shows without a model.
+    /// Returns the centre of a trace, m, as far as it shows without a model.
     pub fn centre(&self) -> f64 {
         trace::centre(&self.at, &self.values, self.axes == Axes::WEAR)
     }
 
-    /// Turns the sign of all values, and says why.
+    /// Negates all values, and notes why.
     pub fn negate(&mut self, why: &str) {
         self.values.iter_mut().for_each(|value| *value = -*value);
         self.notes.push(why.to_owned());
     }
 
-    /// Puts the points in the order of their abscissae.
+    /// Sorts the points by their abscissae.
     fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.at.len()).collect();
         order.sort_by(|&i, &j| self.at[i].total_cmp(&self.at[j]));
@@ -288,7 +288,7 @@ fn read(columns: &Columns, axes: Axes, [at, values]: [Column; 2]) -> Result<Meas
     })
 }
 
-/// By how many times two lengths may differ before one of them is thought to be in another unit.
+/// Ratio of two lengths beyond which one is probably in another unit.
 const OTHER_UNIT: f64 = 100.0;
 
 /// Says so where the largest of `radii` and the `reach` of the contact, m, differ by so much that one of

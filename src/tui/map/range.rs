@@ -1,13 +1,13 @@
-//! The study of `:sweep KEY A..B`: one key around the present scenario.
+//! The study of `:sweep KEY A..B`, which varies one key of the present scenario.
 
 use crate::reading::Column;
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::Study;
 
-/// The points of the study.
+/// Number of points.
 pub const POINTS: usize = 25;
 
-/// From this ratio of its ends on, the axis is logarithmic.
+/// If its ends have at least this ratio, the axis is logarithmic.
 const DECADES: f64 = 20.0;
 
 /// The columns of the study.
@@ -26,15 +26,15 @@ const COLUMNS: [Column; 7] = [
 pub struct Range {
     /// The dotted path.
     pub key: String,
-    /// From here.
+    /// The first value.
     pub from: f64,
-    /// To here.
+    /// The last value.
     pub to: f64,
 }
 
 impl Range {
-    /// Reads `KEY A..B`, and what else it may be written like: `KEY = A .. B`, `KEY A to B`, `KEY A B`,
-    /// each end with a unit if it has one. A part of a key does where one of `keys` alone has it.
+    /// Reads `KEY A..B` or a variant: `KEY = A .. B`, `KEY A to B`, `KEY A B`, each end with an optional unit. A part
+    /// of a key is enough if only one of `keys` contains it.
     pub fn parse(text: &str, keys: &[(&str, &'static str)]) -> Option<Self> {
         let (key, ends) = text
             .trim()
@@ -64,7 +64,7 @@ impl Range {
         })
     }
 
-    /// The study of a scenario over this range, each point run for this many cycles.
+    /// Makes the study of a scenario over this range, in which each point runs for this many cycles.
     pub(super) fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
         let base = scenario.with_changes(Vec::new());
         let base = base.edited(|spec| spec.run.cycles = Some(cycles))?;

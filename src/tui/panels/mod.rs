@@ -1,5 +1,5 @@
-//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
-//! imported here; each of them begins with `use super::*`.
+//! Panels: the charts on the screen, and pictures made of characters, one per file. This module imports what they
+//! share; each of them begins with `use super::*`.
 
 use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::prelude::*;
@@ -25,7 +25,7 @@ mod section;
 mod stress_map;
 
 pub use caption::contact_state;
-pub use stress_map::StressMap;
+pub use stress_map::{Drawn, StressMap};
 
 /// What a panel shows.
 pub enum Content {
@@ -44,14 +44,16 @@ pub struct Picture {
     pub extent: fn(&Frame) -> Option<[f64; 2]>,
 }
 
-/// What a picture is drawn of.
+/// What a picture shows.
 pub struct Shown<'a> {
     /// The frame of the panel.
     pub frame: &'a Frame,
-    /// The frame of what changes more calmly: stresses and words.
+    /// The frame for what changes more calmly: stresses and text.
     pub calm: &'a Frame,
-    /// Which stress is shown.
+    /// The stress to show.
     pub stress: StressMap,
+    /// Its samples on the screen.
+    pub drawn: &'a Drawn,
     /// The values that its scale holds.
     pub bounds: Option<[f64; 2]>,
     /// The role of its title.
@@ -155,8 +157,8 @@ pub(super) fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     }
 }
 
-/// How far the axis must reach for a curve, by the width that its values take on the abscissa: what stands above
-/// that in a narrow place is clipped, and marked in the plot.
+/// Returns how far the axis must reach for a curve, judging by the width that its values take on the abscissa: a higher
+/// value in a narrow place is clipped, and marked in the plot.
 pub fn spread_top(curve: &Curve) -> f64 {
     let xs = &curve.xs;
     let x = |k: usize| xs[k.min(xs.len() - 1)];
@@ -180,7 +182,8 @@ mod tests {
         values[50] = 1e6;
         let high = top(&radii, &values);
         assert!((10.0..20.0).contains(&high), "{high}");
-        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, half of them in its last thousandth.
+        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, with half of the nodes in the last
+        // thousandth.
         let outer = (1..100).map(|k| 1.0 - 1e-3 * 0.9_f64.powi(k));
         let radii: Vec<f64> = (0..100)
             .map(|k| 0.00999 * f64::from(k))

@@ -9,14 +9,14 @@ use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
 
-/// Factor by which each key press refines cells and steps.
+/// Factor by which each key press refines or coarsens cells and steps.
 const STRIDE: f64 = 1.5;
 
-/// Minimum number of cells reached by the key.
+/// Minimum number of cells that the key can reach.
 const COARSEST: usize = 8;
 
 impl Worker {
-    /// Changes the transform method by this many places, that of the comparison if there is one.
+    /// Steps by this many places through the transform methods, of the comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
         if let Some(comparison) = &self.comparison {
             return self.compare(places, comparison.from);
@@ -32,7 +32,7 @@ impl Worker {
         self.edit(|spec| spec.numerics.method = Some(method));
     }
 
-    /// Changes the wear law by this many places.
+    /// Steps by this many places through the wear laws.
     pub fn change_law(&mut self, places: isize) {
         let told = "this scenario has no wear, so it has no wear law to change";
         match self.run.simulation().setup().wear {
@@ -45,7 +45,7 @@ impl Worker {
         }
     }
 
-    /// Refines or coarsens cells and steps together, by `STRIDE` for each place.
+    /// Refines or coarsens cells and steps together, by `STRIDE` per place.
     pub fn refine(&mut self, places: isize) {
         let scenario = self.run.session.scenario();
         let now = Level::of(scenario);
@@ -74,7 +74,7 @@ impl Worker {
         });
     }
 
-    /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
+    /// Changes a key from here on; further `, KEY=VALUE` in `value` change at the same time.
     pub fn change(&mut self, key: &str, value: &str) {
         self.change_by(|run| {
             run.change_all(&assignments(key, value))?;
@@ -82,7 +82,7 @@ impl Worker {
         });
     }
 
-    /// Changes a key from here on; the run as it was before the first such change goes on as a ghost.
+    /// Changes a key from here on. Before the first such change, a copy of the run is kept, which continues as a ghost.
     pub(in crate::tui) fn change_beside(&mut self, key: &str, value: &str) {
         let before = self.before.is_none().then(|| self.run.session.clone());
         let made = self.run.session.changes().len();
@@ -113,13 +113,13 @@ impl Worker {
         self.screen.notice(&format!("{done}{branched}"));
     }
 
-    /// The scenario is another one than before: so are what is known of it and what tells its error.
+    /// Updates the facts and the twin after a change of the scenario.
     pub(super) fn renew(&mut self) {
         self.facts = Facts::of(&self.run.session);
         self.twin = Twin::of(&self.run.session);
     }
 
-    /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
+    /// Restarts the scenario as it was loaded; the user can go back to the run so far.
     pub fn restart(&mut self) {
         let cycle = self.past.line(&self.run).cycle();
         self.load(self.run.session.loaded().clone());
@@ -129,7 +129,7 @@ impl Worker {
         }
     }
 
-    /// Another scenario, from its beginning; returns whether that can be run.
+    /// Starts another scenario; returns whether it can be run.
     pub fn load(&mut self, scenario: Scenario) -> bool {
         let resolved = refinement::resolve_soon(&scenario);
         let Some(resolved) = self.screen.or_notice(resolved) else {
@@ -143,7 +143,7 @@ impl Worker {
         begun.is_some()
     }
 
-    /// Loads a point of a study, whose map then gives way to it.
+    /// Loads a point of a study and closes the study's map.
     pub fn open_point(&mut self, scenario: Scenario) {
         if self.load(scenario) {
             self.publish();
@@ -151,7 +151,7 @@ impl Worker {
         }
     }
 
-    /// Another run takes the place of this one: one that begins, or goes on from a state that was read.
+    /// Replaces this run by another one, new or read from a file.
     pub fn replace_run(&mut self, run: Recorded) {
         self.keep();
         let left = &self.past.line(&self.run).session;

@@ -3,7 +3,7 @@
 
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
-use super::super::contact;
+use super::super::contact::{Contact, Problem};
 use super::super::model::Model;
 use super::super::running_in::{RunningIn, Stretch};
 use super::super::state::State;
@@ -21,23 +21,24 @@ pub(super) fn attempt(
     if let Some(running_in) = model.setup.running_in.clone() {
         run_in(&running_in, model, state, next, scratch, cycle)?;
     } else {
-        solve(model, state, next, scratch, cycle)?;
+        solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         wear(model, state, next, scratch, cycle);
     }
     let seconds = model.seconds(cycle - state.cycle);
     Ok(scratch.increment.stiffness(model, seconds))
 }
 
-fn solve(
+/// Solves the contact at `cycle` on the profile in `scratch`, from the one `before`.
+pub(super) fn solve(
     model: &Model,
-    state: &State,
-    next: &mut State,
+    before: &Contact,
+    next: &mut Contact,
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
+    let problem = Problem::on(model, &scratch.profile, before);
     let targets = model.setup.drive.targets(cycle);
-    problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)
+    problem.solve(targets, next, &mut scratch.increment.slip)
 }
 
 /// Tries the step with the friction at its end, and with the means of friction and k over it.
@@ -55,13 +56,13 @@ fn run_in(
         energy: [start; 2],
     };
     if running_in.friction_follows_work(start) && model.setup.scheme == Scheme::Trapezoid {
-        solve(model, state, next, scratch, cycle)?;
+        solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         let contacts = [&state.contact, &next.contact];
         scratch.increment.rub(model, contacts);
         stretch.energy[1] = start + scratch.increment.friction_work;
     }
     running_in.set_friction(stretch.end(), &mut model.setup.material);
-    solve(model, state, next, scratch, cycle)?;
+    solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
     running_in.set_friction(stretch, &mut model.setup.material);
     // Wear is linear in k, and computing it also gives the work that determines the mean of k.
     let given = model.setup.wear;

@@ -17,7 +17,6 @@
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
-use super::contact;
 use super::drive::Control;
 use super::model::Model;
 use super::moments::Period;
@@ -82,9 +81,7 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     model.plan.image(&state.wear, &mut state.image);
     scratch.profile.find(model, [&state.wear, &state.image]);
     let mut solved = state.contact.clone();
-    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
-    let targets = model.setup.drive.targets(state.cycle);
-    problem.solve(targets, &mut solved, &mut scratch.increment.slip)?;
+    attempt::solve(model, &state.contact, &mut solved, scratch, state.cycle)?;
     state.contact = solved;
     state.last.duration = 0.0;
     state.last.stiffness = 0.0;

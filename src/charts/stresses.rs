@@ -66,7 +66,8 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let moment = &live.moment;
     let hertz = theory.unworn_pressure(moment.depth, radii);
     let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
-    let cattaneo = theory.unworn_shear(moment.cycle, moment.shift, radii);
+    let cattaneo =
+        theory.unworn_shear(moment.cycle, [moment.shift, moment.tangential_force], radii);
     let cattaneo = cattaneo.map(|shear| shear.iter().copied().map(scaled).collect());
     let cattaneo = cattaneo.map(|shear| curve("Cattaneo", shear, Role::Unworn));
     let closed_forms = [hertz, cattaneo].into_iter().flatten();

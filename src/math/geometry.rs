@@ -18,6 +18,35 @@ use super::abel::worn;
 use super::grid::RadialGrid;
 use super::quadrature::{line_weights, volume_of_revolution, weighted};
 
+/// Words of round contacts and those of lines, replaced in this order.
+const LINE_WORDS: [(&str, &str); 16] = [
+    (
+        "outer radius of the wear scar",
+        "half-width of the wear scar",
+    ),
+    ("outermost radius", "largest distance from the centre line"),
+    ("the radius", "the distance from the centre line"),
+    ("radii", "half-widths"),
+    ("radius", "half-width"),
+    ("3D profile", "section"),
+    ("e outer ring slips", "e edges slip"),
+    ("RING SLIPS", "EDGES SLIP"),
+    (" in the ring", " in the strips"),
+    (" the ring", " the slip zone"),
+    ("the depth d", "d = P/(E*L)"),
+    ("depth d", "d = P/(E*L)"),
+    (
+        "indentation depth",
+        "load over E* and the length of the line",
+    ),
+    (
+        "exactly the sum of the spring forces",
+        "exactly what the spring at the centre carries",
+    ),
+    ("if the depth is held", "if forces are prescribed"),
+    ("if a force keeps pressing the indenter in", "in gross slip"),
+];
+
 /// The plan of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Geometry {
@@ -80,14 +109,13 @@ impl Geometry {
         }
     }
 
-    /// A name of a, c or the like, which is a radius in a round contact.
+    /// A name or a text in the words of this geometry: what is a radius in a round contact is a half-width in a line.
     pub fn named(self, name: &str) -> String {
         match self {
             Self::Round => name.to_owned(),
-            Self::Line { .. } => name
-                .replace("radii", "half-widths")
-                .replace("radius", "half-width")
-                .replace("3D profile", "section"),
+            Self::Line { .. } => LINE_WORDS
+                .iter()
+                .fold(name.to_owned(), |name, (of, by)| name.replace(of, by)),
         }
     }
 

@@ -14,6 +14,7 @@
 //!   p = (E*/2R)√(c² − x²) + (E*/4R)(a² − c²)/√(c² − x²).
 //! - Gross slip: the pressure becomes P/2b; up to a half-width b, V = 2b³/3R − a²b/2R.
 
+use super::fretting_loop::{Branch, masing};
 use super::special::bisect;
 use std::f64::consts::PI;
 
@@ -55,6 +56,11 @@ impl Cylinder {
     pub fn shear(&self, force: f64, x: f64) -> f64 {
         let c = self.stick_half_width(force);
         self.friction * (self.pressure(self.half_width(), x) - self.pressure(c, x))
+    }
+
+    /// τ at a force (N/m) of the settled loop of an `amplitude` below μP, by Masing's rule; NaN for |Q| beyond it.
+    pub fn loop_shear(&self, branch: Branch, [force, amplitude]: [f64; 2], x: f64) -> f64 {
+        masing(|force| self.shear(force, x), amplitude, branch, force)
     }
 
     /// The slip on first loading to Q at x up to a, m.
@@ -154,6 +160,11 @@ mod tests {
             let c = CYLINDER.stick_half_width(force);
             let carried = 2.0 * integrate(|x| CYLINDER.shear(force, x), 0.0, a);
             assert!((carried / force - 1.0).abs() < 1e-7, "{carried} {force}");
+            for branch in [Branch::Unloading, Branch::Reloading] {
+                let shear = |x| CYLINDER.loop_shear(branch, [0.4 * force, force], x);
+                let carried = 2.0 * integrate(shear, 0.0, a) / force;
+                assert!((carried - 0.4).abs() < 1e-6, "{branch:?} {carried}");
+            }
             // Each stroke slips by twice that of half the force; 4μp s a cycle.
             let work = |x: f64| {
                 let s = CYLINDER.slip(force, x);

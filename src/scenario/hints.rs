@@ -8,6 +8,10 @@ use super::nearest::nearest;
 use super::schema::{Kind, Parameter, is_section, parameters};
 use super::values::split;
 
+/// Why there is no bulk stress, which users of fatigue rigs look for.
+const NO_BULK_STRESS: &str = "a bulk stress moves the stick zone off the centre, and this model is symmetric: \
+                              see mdr-tui guide lines";
+
 /// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
 /// is nothing near.
 pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
@@ -40,6 +44,9 @@ fn places() -> Vec<&'static str> {
 
 /// Returns a hint for the unknown `path`.
 pub fn hint(path: &str) -> String {
+    if path.contains("bulk") && !path.contains("modulus") {
+        return NO_BULK_STRESS.to_owned();
+    }
     let meant = meant(path);
     if !meant.is_empty() {
         let told = meant.iter().map(|(key, more)| format!("{key}{more}"));
@@ -103,6 +110,9 @@ mod tests {
             ("load", "motion.normal.mean with control = \"force\""),
         ] {
             assert_eq!(hint(typed), format!("did you mean {near}?"), "{typed}");
+        }
+        for bulk in ["motion.bulk_stress", "material.half_space.bulk"] {
+            assert_eq!(hint(bulk), NO_BULK_STRESS);
         }
         assert!(hint("wear.zzz").starts_with("known are wear.law, wear.coefficient"));
         assert!(hint("zzz").starts_with("known are title, description, indenter"));

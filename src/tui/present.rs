@@ -67,7 +67,8 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
     }
     let below = Rect::new(area.x + 1, area.y + 1, area.width - 1, area.height - 1);
     let (_, words, role) = contact_state(&frame.observation.moment);
-    let used = large(words, role, canvas.at(below));
+    let words = frame.observation.geometry.named(words);
+    let used = large(&words, role, canvas.at(below));
     let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;
     if used + width + 4 < below.width {

@@ -1,8 +1,9 @@
 //! Predictions of closed forms before a scenario is run: size and pressure of the unworn contact, and whether it will
 //! be in partial or gross slip.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_2_PI, TAU};
 
+use crate::math::geometry::Geometry;
 use crate::plot::units::{format_value, plain};
 use crate::scenario::Scenario;
 use crate::simulation::drive::Oscillation;
@@ -30,9 +31,13 @@ impl<'a> Forecast<'a> {
     }
 
     /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
-    /// and Jäger.
+    /// and Jäger; that of a line against its gauge.
     fn threshold(&self) -> f64 {
-        Unworn::of(self.setup).deepest() / self.setup.material.stick_ratio()
+        let unworn = Unworn::of(self.setup);
+        match self.setup.geometry {
+            Geometry::Round => unworn.deepest() / self.setup.material.stick_ratio(),
+            Geometry::Line { .. } => unworn.line_shift(unworn.deepest(), 0.0),
+        }
     }
 
     /// Describes size and pressure of the unworn contact.
@@ -41,15 +46,21 @@ impl<'a> Forecast<'a> {
         let unworn = Unworn::of(self.setup);
         let depth = unworn.deepest();
         let mean = unworn.mean_pressure(depth);
+        let is_line = self.setup.geometry.is_line();
+        // Hertz: p0 = 3/2 of the mean of a ball, 4/π of that of a cylinder.
         let (what, pressure, place) = match self.is_ball() {
-            // Hertz: p0 = 3/2 of the mean.
+            true if is_line => ("Hertz pressure", 2.0 * FRAC_2_PI * mean, " at its centre"),
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
             false => ("mean pressure", mean, ""),
         };
+        let approach = match is_line {
+            true => String::new(),
+            false => format!("depth {}, ", value(depth, "m")),
+        };
         format!(
-            "contact radius {}, depth {}, load {}, {what} {}{place}",
+            "{} {}, {approach}load {}, {what} {}{place}",
+            self.setup.geometry.named("contact radius"),
             value(unworn.radius(depth), "m"),
-            value(depth, "m"),
             value(unworn.force(depth), "N"),
             value(pressure, "Pa"),
         )
@@ -62,13 +73,20 @@ impl<'a> Forecast<'a> {
         if share >= 1.0 {
             return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
         }
-        // c² = a² (1 − U/u_t) of Cattaneo and Mindlin's sphere; a punch slips nowhere or everywhere.
-        match self.is_ball() {
-            true => format!(
-                "partial slip: a ring outside {:.0} % of the contact radius; all slips from an amplitude of {threshold}",
-                100.0 * (1.0 - share).sqrt()
+        // A punch slips nowhere or everywhere.
+        let ring = Unworn::of(self.setup).ring().filter(|_| self.is_ball());
+        match ring {
+            Some(ring) => format!(
+                "partial slip: {} outside {:.0} % of the {}; all slips from an amplitude of {threshold}",
+                if self.setup.geometry.is_line() {
+                    "strips"
+                } else {
+                    "a ring"
+                },
+                100.0 * ring.stick_radius / ring.contact_radius,
+                self.setup.geometry.named("contact radius"),
             ),
-            false => format!("stick, but for the rim; all slips from an amplitude of {threshold}"),
+            None => format!("stick, but for the rim; all slips from an amplitude of {threshold}"),
         }
     }
 

@@ -148,18 +148,39 @@ impl Interview {
     fn answers(&self) -> Result<Draft> {
         let mut draft = Draft::default();
         // What is not asked yet has its default, so that the contact can be described already.
-        for question in ["stroke", "friction", "frequency", "cycles"].map(question) {
-            let usual = question.read(&question.default).map_err(Refusal::from)?;
-            draft.answer(question, &usual);
+        let usual = |option| {
+            let question = question(option);
+            question.read(&question.default).map_err(Refusal::from)
+        };
+        for option in ["stroke", "friction", "frequency", "cycles"] {
+            draft.answer(question(option), &usual(option)?);
         }
         let what = "Which shape presses on the flat body?";
-        let (shape, _) = self.one_of(["ball", "punch"], what, &mut draft)?;
+        let (shape, _) = self.one_of(&["ball", "punch", "cylinder"], what, &mut draft)?;
+        let of_line = ["length", "gauge"];
+        let is_line = shape.option == "cylinder";
+        if is_line {
+            self.number("length", &mut draft)?;
+            draft.answer(question("gauge"), &usual("gauge")?);
+        } else if let Some(option) = of_line.iter().find(|option| self.given(option).is_some()) {
+            let place = format!("--{option}");
+            return Err(Refusal::new(place, "needs --cylinder").into());
+        }
         let of = self.body("material", &mut draft)?;
         let on = self.body("against", &mut draft)?;
         let what = "What presses the bodies together?";
-        let (_, press) = self.one_of(["load", "depth"], what, &mut draft)?;
+        // A line has no depth: in the plane it is infinite.
+        let presses = if is_line {
+            &["load"][..]
+        } else {
+            &["load", "depth"]
+        };
+        let (_, press) = self.one_of(presses, what, &mut draft)?;
         self.tell(&draft, |of| of.contact())?;
         let stroke = self.number("stroke", &mut draft)?;
+        if is_line {
+            self.number("gauge", &mut draft)?;
+        }
         self.number("friction", &mut draft)?;
         self.tell(&draft, |of| of.regime())?;
         self.number("frequency", &mut draft)?;
@@ -183,17 +204,20 @@ impl Interview {
         Ok(draft)
     }
 
-    /// One of two questions, and its answer: the one whose option is given, or whose item the user chooses.
+    /// One of some questions, and its answer: the one whose option is given, or whose item the user chooses.
     fn one_of(
         &self,
-        both: [&str; 2],
+        all: &[&str],
         prompt: &str,
         draft: &mut Draft,
     ) -> Result<(&'static Question, Quantity)> {
-        let given = both.iter().position(|option| self.given(option).is_some());
-        let items = || both.map(|option| &question(option).item);
-        let which = given.map_or_else(|| self.choose(prompt, &items()), Ok)?;
-        Ok((question(both[which]), self.number(both[which], draft)?))
+        let given = all.iter().position(|option| self.given(option).is_some());
+        let items = all.iter().map(|option| &question(option).item);
+        let which = match given {
+            None if all.len() > 1 => self.choose(prompt, &items.collect::<Vec<_>>())?,
+            given => given.unwrap_or(0),
+        };
+        Ok((question(all[which]), self.number(all[which], draft)?))
     }
 
     /// Adds a material to the draft: from its option, from the list, or from two numbers. Returns its name.

@@ -69,7 +69,8 @@ impl Job<'_> {
         for (key, value) in stated {
             let mut quantities = Quantity::ALL.iter();
             let of = quantities.find(|quantity| quantity.column().name() == key);
-            lines.extend(of.map(|of| (error, format!("{value}   of {}", of.name()))));
+            let name = |of: &Quantity| setup.geometry.named(of.name());
+            lines.extend(of.map(|of| (error, format!("{value}   of {}", name(of)))));
         }
         if let Some(verdict) = verdict(&self.session.checks()) {
             lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
@@ -84,9 +85,10 @@ impl Job<'_> {
         let mut out = io::stdout().lock();
         let title = self.session.scenario().title();
         writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
+        let width = if setup.geometry.is_line() { 26 } else { 22 };
         for (name, text) in lines {
             let name = setup.geometry.named(name);
-            writeln!(out, "  {name:<22}  {text}")?;
+            writeln!(out, "  {name:<width$}  {text}")?;
         }
         Ok(())
     }

@@ -99,7 +99,7 @@ pub struct Measured {
 
 impl Measured {
     /// A scar: columns `r_m` and `wear_m`, or `f_m` for the worn profile; standard errors in `error_m`. A map has columns
-    /// `x_m` and `y_m`, and is averaged around its axis.
+    /// `x_m` and `y_m`, and is averaged around its axis or along its line.
     ///
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.

@@ -38,10 +38,11 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
             lines.push(text(&format!(
                 "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));
-            let rows = Quantity::ALL.iter();
-            lines.extend(
-                rows.map(|&number| error(of[number], &format!("error of {}", number.name()))),
-            );
+            let geometry = frame.observation.geometry;
+            lines.extend(Quantity::ALL.iter().map(|&number| {
+                let name = geometry.named(number.name());
+                error(of[number], &format!("error of {name}"))
+            }));
         }
     }
     let (title, height) = (

@@ -38,7 +38,8 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
         false => (focus.recipe(), "Tab: next panel, Esc closes"),
     };
     let (title, text, symbols) = (recipe.title, recipe.text, recipe.symbols);
-    let spelled = |text: &str| theme.printable(text);
+    let geometry = explorer.frame.observation.geometry;
+    let spelled = |text: &str| theme.printable(&geometry.named(text));
     let mut lines = vec![Line::raw(spelled(text)), Line::default()];
     lines.extend(symbols.iter().map(|(symbol, meaning)| {
         Line::from(vec![
@@ -70,6 +71,6 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
             false => place = area,
         }
     }
-    let title = format!("{title} ({keys})");
+    let title = format!("{} ({keys})", spelled(title));
     canvas.at(place).page(&title, width, lines);
 }

@@ -175,7 +175,8 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         return canvas.at(place).show(scale);
     }
     let speed = speed(frame);
-    let said = phase(&frame.observation.moment, speed);
+    let geometry = frame.observation.geometry;
+    let said = geometry.named(&phase(&frame.observation.moment, speed));
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
     on(&mut canvas, start, area.y, &said);
@@ -188,7 +189,8 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     on(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
-    let worn = canvas.printable(&worn(seen, |depth| value(depth, "m")));
+    let worn = geometry.named(&worn(seen, |depth| value(depth, "m")));
+    let worn = canvas.printable(&worn);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
     let worn = match worn.rsplit_once(", ") {

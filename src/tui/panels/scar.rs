@@ -1,5 +1,5 @@
 //! The scar from above: a disc in half blocks; its left half shows stick and slip, its right half
-//! the worn depth in colours.
+//! the worn depth in colours. Of a line contact it shows a piece of the strip.
 //!
 //! ```text
 //!         ▄▄▄▄▄▄▄▄▄          left: stick in the middle, slip around it, open outside
@@ -10,6 +10,7 @@
 //! ```
 
 use super::*;
+use crate::math::geometry::Geometry;
 use crate::plot::shades::paint_halves;
 use crate::plot::step::Step;
 use crate::plot::theme::look_of;
@@ -34,7 +35,12 @@ const TWO_LINES: u16 = 10;
 /// Returns the colour of the disc at `x` and `y` from its centre (m), and the character that replaces it without
 /// colours. The colours of depths range from 0 to `deepest`.
 fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
-    let (seen, r) = (&frame.observation, x.hypot(y));
+    let seen = &frame.observation;
+    let r = if seen.geometry.is_line() {
+        x.abs()
+    } else {
+        x.hypot(y)
+    };
     if r > frame.run.edge() {
         return (None, ' ');
     }
@@ -71,8 +77,11 @@ fn draw(of: &Shown, mut canvas: Canvas) {
         .bounds
         .map_or(frame.facts.expected_wear, |bounds| bounds[1]);
     // Half a cell is about as high as a cell is wide.
-    let across = f64::from(disc.width.min(2 * disc.height));
-    let size = 2.0 * edge / across;
+    let across = match seen.geometry {
+        Geometry::Round => disc.width.min(2 * disc.height),
+        Geometry::Line { .. } => disc.width,
+    };
+    let size = 2.0 * edge / f64::from(across);
     for at in disc.positions() {
         let (column, row) = (f64::from(at.x - disc.x), f64::from(at.y - disc.y));
         let x = (column + 0.5 - f64::from(disc.width) / 2.0) * size;

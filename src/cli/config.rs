@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::args::ColorChoice;
 use super::complain;
-use crate::export::safe_open;
+use crate::export::own_directory;
 use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::Refusal;
@@ -53,7 +53,7 @@ impl Config {
     ///
     /// Names the file and what is wrong in it, in one line: invalid TOML, an unknown key, an invalid value.
     pub fn load() -> Result<Self, Refusal> {
-        let Some(directory) = safe_open::directory("XDG_CONFIG_HOME", ".config") else {
+        let Some(directory) = own_directory::config() else {
             return Ok(Self::default());
         };
         let path = directory.join("config.toml");

@@ -10,7 +10,7 @@ use serde::de::IgnoredAny;
 use super::args::{ColorChoice, Explore};
 use super::config::Config;
 use super::{accuracy, complain, given, mistyped_command, without_waiting};
-use crate::export::autosave;
+use crate::export::own_directory;
 use crate::scenario::session::Session;
 use crate::scenario::{Refusal, checkpoint, printable};
 use crate::studies::refinement;
@@ -65,7 +65,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         run,
         map,
         ghosts,
-        keep_in: autosave::state_directory(),
+        keep_in: own_directory::state(),
         keep_every: options.checkpoint_every,
         fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         theme: tui::theme_of(marker, colored, look),

@@ -31,6 +31,12 @@ pub struct RunJob {
     taken: Vec<Option<u32>>,
     /// The rows so far.
     pub history: History,
+    /// Whether the stresses inside the bodies are written at the end.
+    #[serde(default)]
+    pub field: bool,
+    /// Whether the error of the result is estimated at the end.
+    #[serde(default)]
+    pub estimates: bool,
     /// Statements for the file headers, such as the estimated error.
     pub statements: Vec<(String, String)>,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
@@ -56,6 +62,8 @@ impl RunJob {
             cycles,
             every_step: options.history == HistoryChoice::EveryStep,
             snapshots,
+            field: options.field,
+            estimates: options.estimate_error,
             history: history.map_err(|why| Refusal::new("--column", why))?,
             ..Self::default()
         }

@@ -5,8 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use super::file::{INTERNAL, WriteError, sweep, write_whole};
-use super::safe_open;
+use super::file::{INTERNAL, WriteError, sweep};
+use super::run_directory::{RUN_CHECKPOINT, RunDirectory};
 use super::target::Target;
 use crate::scenario::session::Session;
 
@@ -31,8 +31,8 @@ const STALE: Duration = Duration::from_secs(3600);
 /// Keeps the newest state of a session on disk: in the file of its run or, if that fails, in a new file in a directory.
 #[derive(Debug)]
 pub struct Autosave {
-    /// The run's own file.
-    home: Option<PathBuf>,
+    /// The run's own directory.
+    home: Option<RunDirectory>,
     /// Where free places are.
     directory: Option<PathBuf>,
     /// The fallback file, in use since `home` failed or if there is no `home`.
@@ -48,7 +48,7 @@ pub struct Autosave {
 impl Autosave {
     /// Saves to `home`; falls back to a new file in `directory`. Once per interval `every`, or only on request if that
     /// is 0.
-    pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Duration) -> Self {
+    pub fn new(home: Option<RunDirectory>, directory: Option<PathBuf>, every: Duration) -> Self {
         Self {
             home,
             directory,
@@ -81,8 +81,8 @@ impl Autosave {
     pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
         let (mut saved, mut failure) = (None, None);
         if let Some(home) = &self.home {
-            match write_whole(home, checkpoint) {
-                Ok(()) => saved = Some(home.clone()),
+            match home.write(RUN_CHECKPOINT, checkpoint) {
+                Ok(()) => saved = Some(home.checkpoint()),
                 Err(error) => failure = Some(error.to_string()),
             }
         }
@@ -220,11 +220,6 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> 
     Ok(found)
 }
 
-/// Directory of the explorer's checkpoints; `None` without a home directory.
-pub fn state_directory() -> Option<PathBuf> {
-    safe_open::directory("XDG_STATE_HOME", ".local/state")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -298,10 +293,34 @@ mod tests {
     }
 
     #[test]
+    fn a_clock_that_was_wrong_loses_nothing() {
+        let base = tempfile::tempdir().expect("a directory");
+        let days = |days: u64| Duration::from_secs(86400 * days);
+        let now = SystemTime::now();
+        for (name, at) in [
+            ("past-7.checkpoint", now - days(11_000)),
+            ("future-8.checkpoint", now + days(2)),
+            (".mdr-tui-future.tmp", now + days(2)),
+        ] {
+            let file = fs::File::create(base.path().join(name)).expect("a file");
+            file.set_modified(at).expect("a time");
+        }
+        for _ in 0..2 * KEPT {
+            let place = come_and_go(base.path(), "hertz");
+            assert!(place.exists());
+        }
+        assert_eq!(checkpoints(base.path()).expect("a directory").len(), KEPT);
+        assert!(!base.path().join("past-7.checkpoint").exists());
+        // One that could belong to a living process stays.
+        assert!(base.path().join(".mdr-tui-future.tmp").exists());
+    }
+
+    #[test]
     fn a_checkpoint_is_due_when_its_time_has_come() {
         let base = tempfile::tempdir().expect("a directory");
-        let path = base.path().join("run.checkpoint");
-        let every = |every| Autosave::new(Some(path.clone()), None, every);
+        let run = RunDirectory::claim(base.path(), false).expect("a directory");
+        let path = run.checkpoint();
+        let every = |every| Autosave::new(Some(run.clone()), None, every);
         assert!(!every(Duration::ZERO).is_due());
         assert!(!every(Duration::from_secs(60)).is_due());
         let mut always = every(Duration::from_nanos(1));
@@ -318,17 +337,26 @@ mod tests {
     #[test]
     fn what_cannot_be_saved_at_home_goes_elsewhere_and_comes_back_and_is_told_once() {
         let base = tempfile::tempdir().expect("a directory");
-        let home = base.path().join("run/run.checkpoint");
-        let state = base.path().join("state");
-        let mut autosave = Autosave::new(Some(home.clone()), Some(state), Duration::ZERO);
+        let [place, away, state] = ["run", "away", "state"].map(|name| base.path().join(name));
+        let run = RunDirectory::claim(&place, false).expect("a directory");
+        let home = run.checkpoint();
+        let mut autosave = Autosave::new(Some(run), Some(state), Duration::ZERO);
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
+        fs::rename(&place, &away).expect("a move");
         let word = autosave.save(&session, b"one").expect("a word");
         assert!(word.contains("; checkpoints go to "), "{word}");
         assert_eq!(autosave.save(&session, b"two"), None);
         let elsewhere = autosave.kept().expect("a checkpoint").0.to_owned();
         assert_eq!(fs::read(&elsewhere).expect("the file"), b"two");
-        fs::create_dir(base.path().join("run")).expect("a directory");
+        // In its place another run begins.
+        let other = RunDirectory::claim(&place, false).expect("a directory");
+        other.write(RUN_CHECKPOINT, b"theirs").expect("a file");
+        assert_eq!(autosave.save(&session, b"two"), None);
+        assert_eq!(fs::read(&home).expect("its file"), b"theirs");
+        drop(other);
+        fs::remove_dir_all(&place).expect("a directory");
+        fs::rename(&away, &place).expect("a move");
         assert_eq!(autosave.save(&session, b"three"), None);
         assert_eq!(autosave.kept(), Some((home.as_path(), 0.0)));
         assert!(!elsewhere.exists());

@@ -135,6 +135,22 @@ impl Claim {
         }
     }
 
+    /// Refuses to go on where what was claimed has been moved or removed: another process may have its place by now.
+    ///
+    /// # Errors
+    ///
+    /// If the lock file is no longer at its place.
+    pub fn check(&self) -> Result<(), WriteError> {
+        match is_at(&self.file, &self.path) {
+            true => Ok(()),
+            false => {
+                let rule =
+                    "was moved, removed or cleared meanwhile, and may belong to another run by now";
+                Err(WriteError::refused(directory_of(&self.path), rule))
+            }
+        }
+    }
+
     /// The file, locked and with this process in it, or who has it.
     fn locked(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
         loop {

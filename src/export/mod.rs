@@ -7,6 +7,7 @@ pub mod file;
 pub mod header;
 pub mod history;
 pub mod last_loop;
+pub mod own_directory;
 pub mod run_directory;
 pub mod safe_open;
 pub mod state;

@@ -2,13 +2,14 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::claim::Claim;
 use super::file::{
-    INTERNAL, IRREGULAR, WriteError, before_dash, refuse_dash, shell_path, sweep, write_whole,
+    INTERNAL, IRREGULAR, WriteError, before_dash, refuse_dash, shell_path, sweep, write_whole_with,
 };
 use super::header::number;
 use super::safe_open;
@@ -20,11 +21,11 @@ pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 /// The name of the file with the history's rows, until the run ends.
 pub const RUN_ROWS: &str = ".mdr-tui-history";
 
-/// The directory of one run's files. No other process claims it before this is dropped.
-#[derive(Debug)]
+/// The directory of one run's files. No other process claims it before the last copy of this is dropped.
+#[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
-    claim: Claim,
+    claim: Arc<Claim>,
 }
 
 impl RunDirectory {
@@ -38,8 +39,7 @@ impl RunDirectory {
         }
         let is_new = !path.exists();
         fs::create_dir_all(path).map_err(failed)?;
-        let mut run = Self::reopen(path)?;
-        run.claim.is_new = is_new;
+        let run = Self::hold(path, is_new)?;
         if !force {
             run.refuse_results()?;
         }
@@ -131,16 +131,21 @@ impl RunDirectory {
             number += 1;
             path = place(&format!("{stem}-{number}"));
         }
-        let mut run = Self::claim(&path, false)?;
-        run.claim.is_new = true;
-        Ok(run)
+        let run = Self::hold(&path, true)?;
+        run.refuse_results().map(|()| run)
     }
 
     /// Claims the directory of an interrupted run again and removes what a killed process left there. Checks now,
     /// rather than after an hour of computing, that files can be created there.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
+        Self::hold(path, false)
+    }
+
+    fn hold(path: &Path, is_new: bool) -> Result<Self, WriteError> {
         let path = path.to_owned();
-        let claim = Claim::of_directory(&path)?;
+        let mut claim = Claim::of_directory(&path)?;
+        claim.is_new = is_new;
+        let claim = Arc::new(claim);
         let rows = path.join(RUN_ROWS);
         if rows.symlink_metadata().is_ok_and(|about| !about.is_file()) {
             return Err(WriteError::refused(&rows, IRREGULAR));
@@ -176,13 +181,33 @@ impl RunDirectory {
 
     /// Removes the checkpoint and the separate rows of a finished run.
     pub fn close(&self) -> Result<(), WriteError> {
+        self.check()?;
         remove(&self.checkpoint())?;
         remove(&self.rows())
     }
 
+    /// Refuses to write where the directory may belong to another run by now.
+    ///
+    /// # Errors
+    ///
+    /// If it was moved or removed since it was claimed.
+    pub fn check(&self) -> Result<(), WriteError> {
+        self.claim.check()
+    }
+
     /// Writes one of the run's files, whole.
     pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), WriteError> {
-        write_whole(&self.path.join(name), contents.as_ref())
+        self.write_with(name, |out| out.write_all(contents.as_ref()))
+    }
+
+    /// [`write`](Self::write) with what `fill` writes, which need not be in memory at once.
+    pub fn write_with(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
+        self.check()?;
+        write_whole_with(&self.path.join(name), fill)
     }
 
     /// Returns the path of the directory.

@@ -3,7 +3,7 @@
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::os::unix::fs::OpenOptionsExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use nix::libc::{O_NOFOLLOW, O_NONBLOCK};
 
@@ -46,16 +46,4 @@ fn regular(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists || !is_other() => Err(error),
         _ => Err(io::Error::other("it is not a regular file")),
     }
-}
-
-/// Returns the program's directory inside the one that the environment variable names, or else inside `fallback` in the
-/// home directory; `None` without a home directory.
-pub fn directory(variable: &str, fallback: &str) -> Option<PathBuf> {
-    let given = std::env::var_os(variable).map(PathBuf::from);
-    // The XDG specification says to ignore relative paths.
-    let base = given.filter(|path| path.is_absolute()).or_else(|| {
-        let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
-        home.map(|home| home.join(fallback))
-    });
-    base.map(|base| base.join("mdr-tui"))
 }

@@ -128,7 +128,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// If the system refuses; what was there before is then there still.
+    /// If the system refuses, or the directory is another one by now; what was there before is then there still.
     pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
         self.write_with(|out| out.write_all(contents))
     }
@@ -142,7 +142,8 @@ impl Target {
         &self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
-        if !self.is_stdout() {
+        if let Some(claim) = &self.claim {
+            claim.check()?;
             return write_whole_with(&self.path, fill);
         }
         let mut out = io::stdout().lock();

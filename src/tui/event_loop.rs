@@ -54,6 +54,11 @@ pub fn run(
 ) -> Result<bool> {
     let waiting = Arc::new(Waiting::default());
     listen_for_signals(events.clone(), Arc::clone(&waiting))?;
+    suspend::wait_for_terminal(|| waiting.is_over());
+    if waiting.is_over() {
+        ending();
+        return Ok(true);
+    }
     let asks = app.explorer.theme.follows_background;
     let screen = Screen::open(mouse, asks, events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
@@ -114,6 +119,10 @@ fn handle_events(
                     app.explorer.resize(terminal::size()?);
                 }
                 Event::Continue => {
+                    suspend::wait_for_terminal(|| waiting.is_over());
+                    if waiting.is_over() {
+                        return Ok(());
+                    }
                     screen.take_back()?;
                     app.explorer.resize(terminal::size()?);
                     is_away = false;
@@ -128,7 +137,7 @@ fn handle_events(
                     }
                     app.handle(event);
                     if let Some(request) = app.explorer.to_clipboard.take() {
-                        screen.send(&request);
+                        screen.output.send(&request);
                     }
                     match app.explorer.next {
                         Next::Stay => {}

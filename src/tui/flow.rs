@@ -8,7 +8,7 @@
 //! line is busy; the next chunk is sent when that is at most [`DELAY`], and is as large as keeps it so.
 //!
 //! The round trip is measured by a request of another kind, on an empty line. Its answer also tells where in the queue of
-//! requests the terminal is, in case answers were lost. A terminal that does not know it is asked for its status alone.
+//! requests the terminal is, in case answers were lost. A terminal that does not know both counts as silent.
 
 use std::collections::VecDeque;
 
@@ -77,8 +77,6 @@ struct Mark {
     sent: f64,
     bytes: f64,
     request: Request,
-    /// Whether it measures the round trip, rather than to end a chunk.
-    measures: bool,
 }
 
 /// The state of the line to the terminal. All times are in seconds since it was opened.
@@ -94,8 +92,6 @@ pub struct Flow {
     carried: Option<[f64; 2]>,
     /// When the terminal last answered.
     heard: Option<f64>,
-    /// Whether it does not tell the place of its cursor.
-    lacks_place: bool,
     /// Until when a key is hurried.
     hurried: f64,
 }
@@ -108,16 +104,18 @@ impl Flow {
 
     /// Returns the estimated rate, bytes per second.
     fn rate(&self, now: f64) -> f64 {
-        let rate = match (self.heard, self.carried) {
-            (None, _) if now >= PATIENCE => return SILENT,
-            (Some(_), Some([bytes, time])) => bytes / time,
-            _ => SLOW,
-        };
+        if self.heard.is_none() {
+            return if now < PATIENCE { SLOW } else { SILENT };
+        }
+        let rate = self.carried.map_or(SLOW, |[bytes, time]| bytes / time);
         // An answer that is late tells as much as one that has come.
-        let late = self.marks.front().filter(|_| self.heard.is_some());
-        let late = late.map(|oldest| [oldest.bytes, now - self.base - oldest.sent.max(self.end())]);
-        let late = late.filter(|[_, time]| *time > TICK);
-        late.map_or(rate, |[bytes, time]| rate.min(bytes / time))
+        let late = |oldest: &Mark| now - self.base - oldest.sent.max(self.end());
+        let late = self
+            .marks
+            .front()
+            .map(|oldest| (oldest.bytes, late(oldest)));
+        let late = late.filter(|(_, time)| *time > TICK);
+        late.map_or(rate, |(bytes, time)| rate.min(bytes / time))
     }
 
     /// Returns how long the line will be busy with what was sent; negative if it is idle.
@@ -129,20 +127,16 @@ impl Flow {
 
     /// Returns when the outstanding answers count as lost.
     fn lost(&self) -> f64 {
-        let answers = self.heard.is_some() || self.lacks_place;
-        let Some(oldest) = self.marks.front().filter(|_| answers) else {
+        let Some((oldest, heard)) = self.marks.front().zip(self.heard) else {
             return f64::INFINITY;
         };
         let bytes: f64 = self.marks.iter().map(|mark| mark.bytes).sum();
-        oldest.sent.max(self.heard.unwrap_or(0.0)) + self.base + LOST + bytes / SLOW
+        oldest.sent.max(heard) + self.base + LOST + bytes / SLOW
     }
 
     /// Whether the round trip should be measured again.
     fn is_old(&self, now: f64) -> bool {
-        match self.heard {
-            Some(_) => now > self.confirmed + REFRESH[0] + REFRESH[1] * self.base,
-            None => self.lacks_place,
-        }
+        self.heard.is_some() && now > self.confirmed + REFRESH[0] + REFRESH[1] * self.base
     }
 
     /// Returns how long to wait before sending a chunk, unless something happens first; `None` while the writer is
@@ -182,27 +176,24 @@ impl Flow {
 
     /// Returns the request that measures the round trip; it must be sent at once.
     pub fn measure(&mut self, now: f64) -> &'static str {
-        let request = match self.lacks_place {
-            true => Request::Status,
-            false => Request::Place,
-        };
         self.confirmed = now;
-        self.mark(now, request.text().len(), request, true);
+        let request = Request::Place;
+        self.mark(now, request.text().len(), request);
         request.text()
     }
 
     /// Notes that the writer received a chunk of this many bytes, including its request.
     pub fn sent(&mut self, now: f64, bytes: usize) {
         self.unwritten += 1;
-        self.mark(now, bytes, Request::Status, false);
+        self.mark(now, bytes, Request::Status);
     }
 
-    fn mark(&mut self, now: f64, bytes: usize, request: Request, measures: bool) {
+    fn mark(&mut self, sent: f64, bytes: usize, request: Request) {
+        let bytes = bytes as f64;
         self.marks.push_back(Mark {
-            sent: now,
-            bytes: bytes as f64,
+            sent,
+            bytes,
             request,
-            measures,
         });
         if self.marks.len() > MOST_MARKS {
             self.marks.pop_front();
@@ -216,32 +207,21 @@ impl Flow {
 
     /// Notes an answer of the terminal.
     pub fn answered(&mut self, now: f64, request: Request) {
-        let place = self
-            .marks
-            .iter()
-            .position(|mark| mark.request == Request::Place);
-        let unanswered = match (request, place) {
+        let is_place = |mark: &Mark| mark.request == Request::Place;
+        match (request, self.marks.iter().position(is_place)) {
             // What was asked before will have no answer.
-            (Request::Place, Some(place)) => place,
-            // The first answer of all is to the first request, if the terminal knows that.
-            (Request::Status, Some(0)) if self.heard.is_none() => 1,
+            (Request::Place, Some(place)) => drop(self.marks.drain(..place)),
+            // An answer from before was taken for the one to this.
+            (Request::Place, None) => return self.forget(),
             // That is to a chunk from before answers were lost.
             (Request::Status, Some(0)) => return,
-            // So was one before this, taken for the answer to the last.
-            (Request::Place, None) => return self.forget(),
-            (Request::Status, _) => 0,
-        };
-        self.marks.drain(..unanswered);
+            (Request::Status, _) => {}
+        }
         let Some(mark) = self.marks.pop_front() else {
             return;
         };
-        if self.heard.is_none() && !mark.measures {
-            // Nothing tells how much of that was the round trip.
-            self.lacks_place = true;
-            return;
-        }
         let (trip, end) = (now - mark.sent, self.end());
-        if mark.measures || trip < self.base {
+        if request == Request::Place || trip < self.base {
             self.base = trip;
         }
         if trip < self.base + 2.0 * TICK {
@@ -251,7 +231,7 @@ impl Flow {
         let took = (now - self.base - mark.sent.max(end)).max(0.0);
         let [bytes, time] = self.carried.unwrap_or([SLOW * TICK, TICK]);
         // A shorter time tells only of a faster line.
-        if !mark.measures && (took > TICK || mark.bytes / TICK > bytes / time) {
+        if request == Request::Status && (took > TICK || mark.bytes / TICK > bytes / time) {
             self.carried = Some([bytes * KEPT + mark.bytes, (time * KEPT + took).max(TICK)]);
         }
     }

@@ -16,8 +16,8 @@ use super::flow::Request;
 /// dropped.
 const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 
-/// Bytes for the writer, and whom to tell when they are written.
-type Chunk = (Vec<u8>, Box<dyn FnOnce() + Send>);
+/// A text for the writer, and whom to tell when it is written.
+type Chunk = (String, Option<Sender<Event>>);
 
 /// The channel to the terminal.
 pub struct Output {
@@ -33,46 +33,35 @@ impl Output {
         let mut terminal = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         let (chunks, inbox) = channel::<Chunk>();
         let gone = events.clone();
-        thread::Builder::new()
-            .name("terminal".into())
-            .spawn(move || {
-                for (bytes, then) in inbox {
-                    if terminal.write_all(&bytes).is_err() {
-                        let _ = gone.send(Event::HangUp);
-                    }
-                    then();
+        thread::Builder::new().spawn(move || {
+            for (text, to_tell) in inbox {
+                if terminal.write_all(text.as_bytes()).is_err() {
+                    let _ = gone.send(Event::HangUp);
                 }
-            })?;
+                let _ = to_tell.map(|to_tell| to_tell.send(Event::Written));
+            }
+        })?;
         Ok(Self { chunks, events })
     }
 
-    /// Hands a text to the writer, which calls `then` when it is written. A writer that has ended has reported it.
-    fn queue(&self, text: &str, then: impl FnOnce() + Send + 'static) {
-        let _ = self.chunks.send((text.as_bytes().to_vec(), Box::new(then)));
-    }
-
-    /// Sends a text without waiting.
+    /// Sends a text without waiting. A writer that has ended has reported it.
     pub fn send(&self, text: &str) {
-        self.queue(text, || ());
+        let _ = self.chunks.send((text.to_owned(), None));
     }
 
     /// Sends a chunk of a frame, followed by a status request. Returns the bytes of both.
     pub fn frame(&self, mut frame: String) -> usize {
         frame.push_str(Request::Status.text());
-        let events = self.events.clone();
-        self.queue(&frame, move || {
-            let _ = events.send(Event::Written);
-        });
-        frame.len()
+        let bytes = frame.len();
+        let _ = self.chunks.send((frame, Some(self.events.clone())));
+        bytes
     }
 
     /// Sends a text and waits until it is written. If the terminal has stopped reading, drops
     /// what it has not read, and if that does not help, this text too. Returns true if it was written.
     pub fn finish(&self, text: &str) -> bool {
         let (tell, told) = channel();
-        self.queue(text, move || {
-            let _ = tell.send(());
-        });
+        let _ = self.chunks.send((text.to_owned(), Some(tell)));
         if told.recv_timeout(DRAIN_TIMEOUT).is_ok() {
             return true;
         }

@@ -58,15 +58,15 @@ pub struct Reader {
 }
 
 impl Reader {
-    /// Takes in bytes that have come together; what they mean is added to `to`.
-    pub fn take(&mut self, bytes: &[u8], to: &mut Vec<Input>) {
+    /// Takes in bytes that have come together, and returns what they mean.
+    pub fn take(&mut self, bytes: &[u8]) -> Vec<Input> {
         // Within a text that was pasted it is a character, unless a hand has typed it.
         if bytes.contains(&INTERRUPT) && (self.paste.is_none() || bytes == [INTERRUPT]) {
             *self = Self::default();
-            return to.push(Input::Interrupt);
+            return vec![Input::Interrupt];
         }
         bytes.iter().for_each(|&byte| self.byte(byte));
-        to.append(&mut self.inputs);
+        std::mem::take(&mut self.inputs)
     }
 
     fn byte(&mut self, byte: u8) {
@@ -75,7 +75,7 @@ impl Reader {
             let is_anew = matches!(self.begun[..], [_, _, .., ESCAPE]);
             self.typed();
             if is_anew {
-                self.byte(ESCAPE);
+                self.begun.push(ESCAPE);
                 return self.byte(byte);
             }
         }
@@ -115,10 +115,10 @@ impl Reader {
     /// Turns what looked like the start of a sequence into keys; drops a longer one.
     fn typed(&mut self) {
         let begun = std::mem::take(&mut self.begun);
-        if let [ESCAPE] | [ESCAPE, _] = begun[..] {
+        if begun.first() == Some(&ESCAPE) && begun.len() <= 2 {
             self.key(Key::Named(Named::Esc));
-            let then = begun.iter().skip(1);
-            then.for_each(|&byte| self.key(Key::Char(char::from(byte))));
+            let then = begun[1..].iter();
+            then.for_each(|&byte| self.key(Key::Char(byte.into())));
         }
     }
 
@@ -132,11 +132,11 @@ impl Reader {
         }
     }
 
-    /// Nothing more has come for that long.
-    pub fn rest(&mut self, to: &mut Vec<Input>) {
+    /// Nothing more has come for that long, if anything was waited for.
+    pub fn rest(&mut self) -> Vec<Input> {
         self.typed();
         self.interrupt();
-        to.append(&mut self.inputs);
+        std::mem::take(&mut self.inputs)
     }
 
     /// Handles a Ctrl-C that was typed after the text of a paste without an end.
@@ -195,42 +195,34 @@ impl Reader {
     }
 
     /// A control sequence (CSI), by its mark and numbers, and its last byte.
-    fn sequence(&mut self, numbers: &[u8], last: u8) {
-        let (mark, numbers) = match numbers {
-            [mark @ b'<'..=b'?', numbers @ ..] => (Some(mark), numbers),
-            numbers => (None, numbers),
-        };
-        let mut numbers = numbers.split(|byte| *byte == b';').map(|digits| {
-            let digits = digits.split(|byte| *byte == b':').next();
-            let digits = digits.and_then(|digits| from_utf8(digits).ok());
-            digits.and_then(|digits| digits.parse::<u16>().ok())
-        });
-        let mut number = || numbers.next().flatten().unwrap_or(0);
+    fn sequence(&mut self, text: &[u8], last: u8) {
+        let text = String::from_utf8_lossy(text);
+        let digits = text.trim_start_matches(['<', '=', '>', '?']);
+        let mark = &text[..text.len() - digits.len()];
+        let mut numbers = digits.split([';', ':']).map(str::parse::<u16>);
+        let mut number = || numbers.next().and_then(Result::ok).unwrap_or(0);
         match (mark, last, number()) {
-            (None, b'~', 200) => self.paste = Some(String::new()),
-            (None, b'~', 201) => {
+            ("", b'~', 200) => self.paste = Some(String::new()),
+            ("", b'~', 201) => {
                 self.is_interrupted = false;
                 let text = self.paste.take();
                 self.inputs.extend(text.map(Input::Paste));
             }
-            (None, b'n', 0) => {
+            ("", b'n', 0) => {
                 // A busy terminal leaves no silence behind a Ctrl-C; its answer tells that no text follows.
                 self.interrupt();
                 self.inputs.push(Input::Answer(Request::Status));
             }
-            (None, b'R', _) => self.inputs.push(Input::Answer(Request::Place)),
+            ("", b'R', _) => self.inputs.push(Input::Answer(Request::Place)),
             // Presses and the wheel, as mode 1006 tells them: columns and rows count from 1.
-            (Some(b'<'), b'M', button) => {
+            ("<", b'M', 0) => {
                 let [x, y] = [number(), number()].map(|place| place.saturating_sub(1));
-                let gesture = match button {
-                    0 => Gesture::Click(Position { x, y }),
-                    64 => Gesture::WheelUp,
-                    65 => Gesture::WheelDown,
-                    _ => return,
-                };
-                self.inputs.push(Input::Point(gesture));
+                self.inputs
+                    .push(Input::Point(Gesture::Click(Position { x, y })));
             }
-            (None, last, number) => self.named(last, number),
+            ("<", b'M', 64) => self.inputs.push(Input::Point(Gesture::WheelUp)),
+            ("<", b'M', 65) => self.inputs.push(Input::Point(Gesture::WheelDown)),
+            ("", last, number) => self.named(last, number),
             _ => {}
         }
     }
@@ -244,7 +236,6 @@ fn may_continue(begun: &[u8], byte: u8) -> bool {
         [ESCAPE, b'O'] => matches!(byte, b'A'..=b'H' | b'M' | b'P'..=b'S' | b'j'..=b'y'),
         // Answers begin with a number or a mark.
         [ESCAPE, b']' | b'P'] => matches!(byte, b'0'..=b'9' | b'!' | b'$' | b'+' | b'<'..=b'?'),
-        [ESCAPE, b'[', b'M', ..] => true,
         [ESCAPE, b'[', ..] => byte >= b' ',
         [ESCAPE, .., ESCAPE] => byte == b'\\',
         [ESCAPE, ..] => true,
@@ -255,10 +246,7 @@ fn may_continue(begun: &[u8], byte: u8) -> bool {
 /// The colour that a terminal tells as `rgb:` or `rgba:` and shares of the brightest, one to four
 /// hexadecimal digits each, slashes between them.
 fn color_of(text: &[u8]) -> Option<[u8; 3]> {
-    let text = from_utf8(text).ok()?;
-    let (_, shares) = text
-        .split_once("rgb:")
-        .or_else(|| text.split_once("rgba:"))?;
+    let (_, shares) = from_utf8(text).ok()?.split_once(':')?;
     let mut shares = shares.split('/').map(|digits| {
         let most = 16u32.checked_pow(u32::try_from(digits.len()).ok()?)? - 1;
         let share = u32::from_str_radix(digits, 16).ok()?;
@@ -274,13 +262,10 @@ mod tests {
 
     /// Returns the inputs for bytes that arrive in these pieces, with silence at the end.
     fn read(pieces: &[&[u8]]) -> Vec<Input> {
-        let (mut reader, mut inputs) = (Reader::default(), Vec::new());
-        for piece in pieces {
-            reader.take(piece, &mut inputs);
-        }
-        if reader.patience().is_some() {
-            reader.rest(&mut inputs);
-        }
+        let mut reader = Reader::default();
+        let inputs = pieces.iter().flat_map(|piece| reader.take(piece));
+        let mut inputs: Vec<Input> = inputs.collect();
+        inputs.extend(reader.rest());
         inputs
     }
 
@@ -320,7 +305,7 @@ mod tests {
 
     #[test]
     fn keys_are_read_however_their_bytes_are_split() {
-        let cases: [(&[u8], Vec<Input>); 17] = [
+        let cases: [(&[u8], Vec<Input>); 18] = [
             (
                 "aé∂ ".as_bytes(),
                 ['a', 'é', '∂', ' '].map(|c| key(Key::Char(c))).to_vec(),
@@ -378,6 +363,11 @@ mod tests {
                     key(Key::Char('[')),
                 ],
             ),
+            // A release (kitty), the focus, and what the terminal tells of itself.
+            (
+                b"\x1b[97;1:3u\x1b[I\x1b[O\x1b[?62;22c\x1b[>1;10;0c\x1b[8;24;80t\x1bP>|x(1)\x1b\\q",
+                vec![key(Key::Char('q'))],
+            ),
             // A click as old terminals tell it.
             (b"\x1b[M !q\x1b[A", vec![named(Named::Up)]),
         ];
@@ -434,12 +424,11 @@ mod tests {
             (b"\x1b[12", 100),
             (b"\x1b[M ", 100),
         ] {
-            let (mut reader, mut inputs) = (Reader::default(), Vec::new());
-            reader.take(begun, &mut inputs);
+            let mut reader = Reader::default();
+            assert_eq!(reader.take(begun), []);
             assert!(reader.patience() >= Some(least), "{begun:?}");
-            reader.rest(&mut inputs);
-            reader.take(b"q", &mut inputs);
-            assert_eq!(inputs, [key(Key::Char('q'))], "{begun:?}");
+            assert_eq!(reader.rest(), []);
+            assert_eq!(reader.take(b"q"), [key(Key::Char('q'))], "{begun:?}");
         }
     }
 }

@@ -6,8 +6,8 @@ use anyhow::Context;
 
 use super::past::Past;
 use super::*;
-use crate::export::autosave::state_directory;
 use crate::export::file::directory_of;
+use crate::export::own_directory;
 use crate::export::run_directory::RUN_CHECKPOINT;
 use crate::scenario::checkpoint::Stamp;
 use crate::studies::refinement::Budget;
@@ -60,6 +60,8 @@ impl<'a> Job<'a> {
         let kept = checkpoint::read::<RunJob>(file)?;
         let session = kept.session;
         let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
+        job.field |= options.field;
+        job.estimates |= options.estimate_error;
         let home = beside.or(job.home.as_deref()).map(Path::to_owned);
         let past = Past::find(&job, home.as_deref())?;
         let is_returning = claimed.is_none();
@@ -97,9 +99,9 @@ impl<'a> Job<'a> {
         directory: RunDirectory,
     ) -> Self {
         session.state(job.statements.clone());
-        let home = directory.checkpoint();
+        let home = Some(directory.clone());
         let safe = Safe {
-            checkpoints: Autosave::new(Some(home), state_directory(), options.checkpoint_every),
+            checkpoints: Autosave::new(home, own_directory::state(), options.checkpoint_every),
             copy: Recent::new((session.clone(), job.clone())),
         };
         Self {

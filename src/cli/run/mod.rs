@@ -19,7 +19,7 @@ use super::job::RunJob;
 use super::progress::Progress;
 use super::{FAILED, UNFINISHED, accuracy, complain, given, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::{WriteError, shell_path, write_whole_with};
+use crate::export::file::{WriteError, shell_path};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, last_loop, state};
@@ -84,7 +84,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         let new = now.iter().filter(|line| !told.contains(line));
         new.for_each(remark);
     }
-    if options.estimate_error && matches!(outcome, Ok(None)) {
+    if job.job.estimates && matches!(outcome, Ok(None)) {
         job.estimate(&|| why_stop().is_none());
     }
     // Saves what was computed, whatever happened.
@@ -133,14 +133,17 @@ impl Guard {
             is_over: Arc::default(),
             safe: Arc::default(),
         };
-        let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::clone(&guard.safe));
+        // Not kept alive by this thread, which never ends: the directory would stay claimed.
+        let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::downgrade(&guard.safe));
         let watch = move || {
             while !stop.load(Ordering::Relaxed) {
                 thread::sleep(GLANCE);
             }
             thread::sleep(STEP_TIMEOUT);
             if !is_over.swap(true, Ordering::SeqCst) {
-                std::process::exit(end_at_once(safe.get()).into());
+                let safe = safe.upgrade();
+                let safe = safe.as_ref().and_then(|safe| safe.get());
+                std::process::exit(end_at_once(safe).into());
             }
         };
         // If the system cannot start a thread, runs end only between steps.
@@ -325,8 +328,9 @@ impl Job<'_> {
         safe.copy.refresh(|| (session.clone(), self.job.clone()));
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
             // Rows that cannot be written stay in memory.
-            let written = self.job.history.spill(&self.directory.rows());
-            self.unwritten = written.is_err().then(Instant::now);
+            let rows = self.directory.check().map(|()| self.directory.rows());
+            let is_written = rows.is_ok_and(|rows| self.job.history.spill(&rows).is_ok());
+            self.unwritten = (!is_written).then(Instant::now);
         }
         if safe.checkpoints.is_due() {
             safe.save(session, &self.job);
@@ -367,12 +371,12 @@ impl Job<'_> {
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
         let rows = self.directory.rows();
-        let file = self.directory.path().join("history.csv");
-        let mut outcome = write_whole_with(&file, |out| job.history.write(session, &rows, out));
+        let history = |out: &mut dyn io::Write| job.history.write(session, &rows, out);
+        let mut outcome = self.directory.write_with("history.csv", history);
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
         let last_loop = is_done.then(|| last_loop::file(session)).flatten();
-        let field = self.options.field.then(|| field::table(session));
+        let field = job.field.then(|| field::table(session));
         let scenario = session.as_run(job.snapshot_at()).to_toml();
         let files = [
             ("scenario.toml", Some(scenario)),

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::cli::job::rows_sum;
+use crate::export::file::write_whole_with;
 use crate::export::run_directory::RUN_ROWS;
 use crate::export::safe_open;
 use crate::scenario::Refusal;

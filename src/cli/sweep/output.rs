@@ -3,6 +3,7 @@
 use super::*;
 use crate::export::file::{WriteError, write_with};
 use crate::export::{header, safe_open};
+use crate::scenario::bounded_read::Unread;
 
 /// Interval for flushing rows to disk. A killed process loses none, since the system already has them; a crash of the
 /// machine loses at most this much.
@@ -32,7 +33,8 @@ impl Output {
             let rule = "already exists; --resume continues it, --force starts over, --out names another file";
             ensure!(options.resume, refuse(rule.into()));
             let file = safe_open::read(path);
-            let file = file.map_err(|error| refuse(format!("cannot be read: {error}")))?;
+            let unread = |error| Refusal::unread(path.display(), &Unread::Io(error));
+            let file = file.map_err(unread)?;
             let record = Record::open(file, &path.display().to_string())?;
             record.expect(study, "the study now")?;
             let rule = format!("holds shard {}, not {shard}", record.shard);

@@ -18,7 +18,7 @@ use crate::tui::ghosts::{MOST, Source};
 use crate::tui::map::live::Live;
 use crate::tui::{self, Options, Script, Stroke, command, snapshot};
 
-/// The largest number of frames per second.
+/// Default frame rate per second.
 const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer, on a map if there is one.
@@ -44,7 +44,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
         None => {
             let scenario = given::scenario(&options.scenario, &options.changes.set)
-                // The error itself names a preset that is as near.
+                // The error itself may already suggest an equally near preset.
                 .map_err(|error| match mistyped_command(&name) {
                     Some(refusal) if !error.to_string().contains("did you mean") => refusal,
                     _ => error,

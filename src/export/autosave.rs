@@ -1,4 +1,4 @@
-//! Checkpoints on a timer: one file, replaced each time, whole or not at all; and a copy in memory.
+//! Checkpoints on a timer: one file, replaced as a whole each time, and a copy in memory.
 
 use std::fs;
 use std::io;
@@ -19,25 +19,25 @@ const ENDING: &str = "checkpoint";
 /// Maximum number of the explorer's checkpoints; the oldest are removed.
 const KEPT: usize = 20;
 
-/// The most numbers that are tried for a new checkpoint.
+/// Maximum number of names tried for a new checkpoint.
 const MOST_AT_ONCE: u64 = 1000;
 
-/// The largest number that a checkpoint is given. A name that ends in a larger one is not of this program.
+/// The largest number in a checkpoint's name. Names with larger numbers were not made by this program.
 const LARGEST_NUMBER: u64 = 1_000_000_000_000;
 
-/// A temporary file of this age is abandoned.
+/// Temporary files older than this are considered abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
-/// The newest state of a session on disk: in the file of its run or, while that fails, in a new file of a directory.
+/// Keeps the newest state of a session on disk: in the file of its run or, if that fails, in a new file in a directory.
 #[derive(Debug)]
 pub struct Autosave {
     /// The run's own directory.
     home: Option<RunDirectory>,
     /// Where free places are.
     directory: Option<PathBuf>,
-    /// In use since the last attempt at home failed, or where there is none.
+    /// The fallback file, in use since `home` failed or if there is no `home`.
     elsewhere: Option<Target>,
-    /// 0: only on request.
+    /// The interval; 0 saves only on request.
     every: Duration,
     last: Instant,
     /// The newest checkpoint, and its cycle.
@@ -71,13 +71,13 @@ impl Autosave {
         (!self.every.is_zero()).then_some(left)
     }
 
-    /// Whether it is time for the next.
+    /// Whether the next checkpoint is due.
     pub fn is_due(&self) -> bool {
         self.wait() == Some(Duration::ZERO)
     }
 
-    /// Writes `checkpoint`, which holds `session`; returns a message when that begins to fail or to go elsewhere. The
-    /// next one is due an interval later, even if this fails.
+    /// Writes `checkpoint`, the state of `session`. Returns a message when saving begins to fail or moves to the
+    /// fallback. The next checkpoint is due one interval later, even if this one fails.
     pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
         let (mut saved, mut failure) = (None, None);
         if let Some(home) = &self.home {
@@ -107,7 +107,7 @@ impl Autosave {
         Some(format!("{failure}; {outcome}"))
     }
 
-    /// Writes the checkpoint in a free place of the directory; `None` without a directory.
+    /// Writes the checkpoint into the fallback file; `None` without a directory.
     fn save_elsewhere(
         &mut self,
         stem: &str,
@@ -119,29 +119,29 @@ impl Autosave {
             (None, None) => return Ok(None),
         };
         let path = place.path().to_owned();
-        // An older checkpoint there is better than nothing.
+        // If writing fails, an older checkpoint in this place is better than nothing.
         self.elsewhere.insert(place).write(checkpoint)?;
         Ok(Some(path))
     }
 
-    /// Continues with another session; the checkpoint of this one stays.
+    /// Continues with another session; keeps the checkpoint of the previous one.
     pub fn turn_over(&mut self) {
         (self.elsewhere, self.kept) = (None, None);
     }
 
-    /// The newest checkpoint that is still there, and its cycle.
+    /// Returns the newest checkpoint that still exists, and its cycle.
     pub fn kept(&self) -> Option<(&Path, f64)> {
         let (path, cycle) = self.kept.as_ref()?;
         path.exists().then_some((path, *cycle))
     }
 
-    /// Why the last checkpoint could not be saved in its place.
+    /// Returns why the last checkpoint could not be saved in its proper place.
     pub fn failure(&self) -> Option<&str> {
         self.failure.as_deref()
     }
 }
 
-/// A copy of what is computed that survives a bug: never older than `COPY_INTERVAL` where it is refreshed at every step.
+/// A copy of computed data that survives a bug; at most `COPY_INTERVAL` old if refreshed at every step.
 #[derive(Debug)]
 pub struct Recent<T> {
     copy: T,
@@ -149,7 +149,7 @@ pub struct Recent<T> {
 }
 
 impl<T> Recent<T> {
-    /// The first copy.
+    /// Makes the first copy.
     pub fn new(copy: T) -> Self {
         Self {
             copy,
@@ -157,12 +157,12 @@ impl<T> Recent<T> {
         }
     }
 
-    /// The copy.
+    /// Returns the copy.
     pub fn get(&self) -> &T {
         &self.copy
     }
 
-    /// Replaces the copy by what `make` makes, if it is too old.
+    /// Replaces the copy with the result of `make` if it is too old.
     pub fn refresh(&mut self, make: impl FnOnce() -> T) {
         if self.at.elapsed() >= COPY_INTERVAL {
             *self = Self::new(make());
@@ -170,8 +170,8 @@ impl<T> Recent<T> {
     }
 }
 
-/// Claims a new file for a session on a scenario called `stem`: creates the directory, in which only the newest
-/// checkpoints stay beside it and those of running sessions. Its number is above those of all checkpoints there.
+/// Claims a new file for a session on a scenario called `stem`, numbered above all checkpoints in the directory.
+/// Creates the directory, and removes old checkpoints of finished sessions from it.
 fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let failed = WriteError::io(directory);
     fs::create_dir_all(directory).map_err(failed)?;
@@ -181,12 +181,12 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let highest = others.iter().map(|(_, number, _)| *number).max();
     let mut excess = (others.len() + 1).saturating_sub(KEPT);
     for (_, number, path) in others {
-        // What can be claimed here belongs to no running session; the highest number stays, so that the next is new.
+        // What can be claimed belongs to no running session. The highest number stays, so that the next one is new.
         if excess > 0
             && Some(number) != highest
             && let Ok(claimed) = Target::hold(&path)
         {
-            // One that cannot be removed does no harm.
+            // A file that cannot be removed does no harm.
             let _ = fs::remove_file(claimed.path());
             excess -= 1;
         }
@@ -195,7 +195,7 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     for number in first..first + MOST_AT_ONCE {
         let path = directory.join(format!("{stem}-{number}.{ENDING}"));
         match Target::claim(&path, false) {
-            // Another explorer has it, or has had it meanwhile.
+            // Another explorer has it, or had it a moment ago.
             Err(WriteError::Refused(_)) => {}
             claimed => return claimed,
         }
@@ -203,8 +203,7 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     Err(failed(io::ErrorKind::AlreadyExists.into()))
 }
 
-/// The checkpoints in a directory: when each was written, the number at the end of its name (0 without one), and
-/// where it is.
+/// Lists the checkpoints in a directory: time of writing, number at the end of the name (0 without one), and path.
 fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(directory)? {
@@ -226,7 +225,7 @@ mod tests {
     use super::*;
     use crate::scenario::Scenario;
 
-    /// A session that comes, is kept, and goes.
+    /// Makes the checkpoint of a short session and returns its path.
     fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
         let place = free(directory, stem).expect("a place");
         place.write(stem.as_bytes()).expect("a file");
@@ -268,7 +267,7 @@ mod tests {
         names.sort();
         names.dedup();
         assert_eq!(names.len(), count, "a name was given out twice");
-        // Once it is gone, its file is like any other.
+        // After its session has ended, its file can be removed like any other.
         let path = paused.path().to_owned();
         drop(paused);
         for _ in 0..KEPT + 2 {

@@ -1,5 +1,4 @@
-//! Output files: tables of states and histories, written whole or not at all. Nothing here runs a
-//! simulation.
+//! Output files: tables of states and histories, written whole or not at all. This layer runs no simulations.
 
 pub mod autosave;
 pub mod claim;

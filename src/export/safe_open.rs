@@ -1,4 +1,4 @@
-//! Opens the files that the program keeps for itself: regular files, never through a link.
+//! Opens the program's own files: only regular files, never through a link.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -7,17 +7,17 @@ use std::path::Path;
 
 use nix::libc::{O_NOFOLLOW, O_NONBLOCK};
 
-/// Opens `path` for reading and writing; a new file where `is_new`, and else one that is there.
+/// Opens `path` for reading and writing: a new file if `is_new`, else an existing one.
 ///
 /// # Errors
 ///
-/// As the system says, and for what is not a regular file.
+/// The system's error, or an error for anything but a regular file.
 pub fn open(path: &Path, is_new: bool) -> io::Result<File> {
     let mut options = File::options();
     regular(path, options.read(true).write(true).create_new(is_new))
 }
 
-/// Opens `path` for reading and writing, and makes it where it is not there.
+/// Opens `path` for reading and writing; creates the file if necessary.
 ///
 /// # Errors
 ///
@@ -28,7 +28,7 @@ pub fn open_or_make(path: &Path) -> io::Result<File> {
     regular(path, &mut options)
 }
 
-/// Opens `path`, which is there, for reading.
+/// Opens the existing file `path` for reading.
 ///
 /// # Errors
 ///
@@ -38,7 +38,7 @@ pub fn read(path: &Path) -> io::Result<File> {
 }
 
 fn regular(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
-    // Opening a pipe must not wait for its other end.
+    // Opening a pipe must not block until its other end is opened.
     let file = options.custom_flags(O_NOFOLLOW | O_NONBLOCK).open(path);
     let is_other = || path.symlink_metadata().is_ok_and(|about| !about.is_file());
     match file {

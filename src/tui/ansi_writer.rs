@@ -10,17 +10,17 @@ use ratatui::prelude::*;
 
 use crate::plot::colormap::NAMED;
 
-/// The modifiers that are seen on a blank.
+/// The modifiers that are visible on a blank.
 const ON_BLANKS: Modifier = Modifier::REVERSED.union(Modifier::UNDERLINED);
 
-/// Shorter frames need no synchronized update: their cells cannot be seen to come one by one.
+/// Shorter frames need no synchronized update: the order of their cells cannot be seen.
 const SHORT: usize = 256;
 
 /// About how many bytes a move and a style take before cells of one style: over 311 frames of the explorer, the signs
 /// and this are 0.83 to 1.10 of what was written.
 const RUN: usize = 7;
 
-/// The fewest bytes of a chunk for cells between the first and the last row.
+/// Minimum bytes per chunk for cells between the first and the last row.
 const FEW: usize = 24;
 
 /// Colours and modifiers.
@@ -32,8 +32,8 @@ struct Pen {
 }
 
 impl Pen {
-    /// The sign of a cell, and the pen to write it with. A full block in a colour is a blank on that ground: one
-    /// byte instead of three.
+    /// Returns a cell's text and the pen to write it with. A full block in a colour becomes a blank on that background:
+    /// one byte instead of three.
     fn of(cell: &Cell) -> (&str, Self) {
         let is_block = cell.symbol() == "█" && cell.modifier.is_empty() && cell.fg != Color::Reset;
         let (symbol, fg, bg) = match is_block {
@@ -61,7 +61,7 @@ impl Pen {
         format!("\x1b[{}m", self.codes(Self::default()))
     }
 
-    /// The shortest sequence that changes the pen `now` to this one.
+    /// Returns the shortest sequence that changes the pen `now` to this one.
     fn sequence(self, now: Self) -> String {
         let (anew, codes) = (self.anew(), self.codes(now));
         let adds = self.modifier.contains(now.modifier);
@@ -85,7 +85,7 @@ fn code(color: Color, base: usize) -> String {
     }
 }
 
-/// The shortest sequence that moves the cursor from `at`, if that is known, to `goal`.
+/// Returns the shortest sequence that moves the cursor from `at`, if known, to `goal`.
 fn way(at: Option<Position>, goal: Position) -> String {
     let absolute = format!("\x1b[{};{}H", goal.y + 1, goal.x + 1);
     let Some(at) = at.filter(|at| at.y <= goal.y) else {
@@ -100,28 +100,28 @@ fn way(at: Option<Position>, goal: Position) -> String {
         0 => "\r".to_owned(),
         x => format!("\x1b[{}G", x + 1),
     };
-    // In raw mode a line feed does not return.
+    // In raw mode a line feed does not return to the first column.
     let down = "\n".repeat(usize::from(goal.y - at.y));
     let ways = [down.clone() + &along, down + &column, absolute];
     let shortest = ways.into_iter().min_by_key(String::len);
     shortest.unwrap_or_default()
 }
 
-/// Whether all terminals agree on the width of a cell's sign.
+/// Whether all terminals agree on the width of a cell's character.
 fn is_certain(cell: &Cell) -> bool {
     let certain =
         |sign| matches!(sign, ' '..='~' | '\u{2500}'..='\u{259f}' | '\u{2800}'..='\u{28ff}');
     cell.symbol().parse().is_ok_and(certain)
 }
 
-/// Keeps track of what a terminal shows, and writes what makes it show something else.
+/// Keeps track of what a terminal shows, and writes the changes.
 #[derive(Debug, Default)]
 pub struct AnsiWriter {
-    /// What the terminal shows; of no size while nothing is known of it.
+    /// What the terminal shows; has no size while that is unknown.
     pub shown: Buffer,
-    /// How the terminal writes now.
+    /// The pen with which the terminal writes now.
     pen: Pen,
-    /// Where the terminal's cursor is, while that is certain.
+    /// The position of the terminal's cursor, if certain.
     at: Option<Position>,
     /// Row and column from which the next chunk continues.
     place: (u16, u16),
@@ -148,7 +148,7 @@ impl AnsiWriter {
                 text += &way(self.at, goal);
             }
             let (symbol, mut pen) = Pen::of(cell);
-            // A blank needs only the ground.
+            // Only the background of a blank is visible.
             if symbol == " " && !(self.pen.modifier | pen.modifier).intersects(ON_BLANKS) {
                 (pen.fg, pen.modifier) = (self.pen.fg, self.pen.modifier);
             }

@@ -1,4 +1,4 @@
-//! Reads the terminal in a thread of its own. Ctrl-C overtakes all waiting keys.
+//! Reads the terminal in a separate thread. Ctrl-C overtakes all waiting keys.
 
 use std::io;
 use std::os::fd::AsFd;
@@ -30,7 +30,7 @@ pub struct Waiting {
 }
 
 impl Waiting {
-    /// Whether one more may wait; it then counts.
+    /// Counts one more waiting key; returns false if the queue is full.
     fn enter(&self) -> bool {
         let next = |keys| (keys < MOST_WAITING).then_some(keys + 1);
         let entered = self.keys.fetch_update(SeqCst, SeqCst, next).is_ok();
@@ -38,12 +38,12 @@ impl Waiting {
         entered
     }
 
-    /// One is being answered.
+    /// Notes that a waiting key is being handled.
     pub fn leave(&self) {
         self.keys.fetch_sub(1, SeqCst);
     }
 
-    /// Whether keys were dropped since this was last asked.
+    /// Whether keys were dropped since the last call.
     pub fn has_dropped(&self) -> bool {
         self.has_dropped.swap(false, SeqCst)
     }
@@ -53,12 +53,12 @@ impl Waiting {
         self.is_closed.store(true, SeqCst);
     }
 
-    /// Ends everything, whatever is waiting.
+    /// Ends the session, whatever is waiting.
     pub fn end(&self) {
         self.is_over.store(true, SeqCst);
     }
 
-    /// Whether everything should end.
+    /// Whether the session should end.
     pub fn is_over(&self) -> bool {
         self.is_over.load(SeqCst)
     }

@@ -1,5 +1,4 @@
-//! Output to the terminal, in its own thread: a terminal that stops reading blocks only that
-//! thread.
+//! Output to the terminal, in a separate thread: a terminal that stops reading blocks only that thread.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -13,24 +12,24 @@ use nix::sys::termios::{FlushArg, tcflush};
 use super::event::Event;
 use super::flow::Request;
 
-/// How long the last output waits for a slow terminal, and again after everything queued before it
-/// has been dropped.
+/// How long the last output waits for a slow terminal; the same time again after everything queued before it has been
+/// dropped.
 const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// A text for the writer, and whom to tell when it is written.
 type Chunk = (String, Option<Sender<Event>>);
 
-/// The way to the terminal.
+/// The channel to the terminal.
 pub struct Output {
     chunks: Sender<Chunk>,
     events: Sender<Event>,
 }
 
 impl Output {
-    /// Starts the writer, which tells [`Event::Written`] after every frame and [`Event::HangUp`] when
-    /// the terminal is gone.
+    /// Starts the writer, which reports [`Event::Written`] after every frame and [`Event::HangUp`] when the terminal is
+    /// gone.
     pub fn open(events: Sender<Event>) -> io::Result<Self> {
-        // Not the handle of the standard library: whoever else writes would wait for its lock.
+        // The standard library's handle has a lock, which other writers would wait for.
         let mut terminal = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         let (chunks, inbox) = channel::<Chunk>();
         let gone = events.clone();
@@ -50,7 +49,7 @@ impl Output {
         let _ = self.chunks.send((text.to_owned(), None));
     }
 
-    /// Sends a chunk of a frame, and behind it the question whether the terminal has read it. Returns the bytes of both.
+    /// Sends a chunk of a frame, followed by a status request. Returns the bytes of both.
     pub fn frame(&self, mut frame: String) -> usize {
         frame.push_str(Request::Status.text());
         let bytes = frame.len();

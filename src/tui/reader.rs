@@ -12,48 +12,48 @@ use super::keys::{Key, Named};
 use super::line;
 use super::mouse::Gesture;
 
-/// The pause after which an Escape is a key, milliseconds: a network may split a sequence by less.
+/// The pause after which Escape counts as a key, milliseconds: a network may split a sequence by less.
 const LONE_ESCAPE: u16 = 100;
 
-/// The silence after which a sequence that has begun is given up, milliseconds.
+/// The silence after which an incomplete sequence is given up, milliseconds.
 const GIVE_UP: u16 = 250;
 
-/// The same for strings, such as a reply that tells a colour: the rest of one would be taken for keys.
+/// The same for strings, such as the answer about a colour: the rest of one would be taken for keys.
 const GIVE_UP_STRING: u16 = 3000;
 
-/// More bytes than any sequence has that means something here; of longer ones, the ends are kept.
+/// Longer than any sequence of interest here; of longer ones, only the ends are kept.
 const LONGEST: usize = 64;
 
 /// The bytes of Ctrl-C and Escape.
 const INTERRUPT: u8 = 3;
 const ESCAPE: u8 = 0x1b;
 
-/// Something that a terminal has sent.
+/// Input from a terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Input {
     /// A key.
     Key(Key),
-    /// Text that was pasted, cut to the longest line.
+    /// Pasted text, cut to the maximum length of a line.
     Paste(String),
     /// A click, or a turn of the wheel.
     Point(Gesture),
     /// The answer to a request: the terminal has read everything sent before it.
     Answer(Request),
-    /// The background, as red, green and blue.
+    /// The background colour, as red, green and blue.
     Background([u8; 3]),
     /// Ctrl-C.
     Interrupt,
 }
 
-/// What has come so far.
+/// The state of the reader.
 #[derive(Debug, Default)]
 pub struct Reader {
     inputs: Vec<Input>,
-    /// The bytes of a character or of a sequence that is not whole yet.
+    /// The bytes of an incomplete character or sequence.
     begun: Vec<u8>,
     /// The text between the marks of a paste.
     paste: Option<String>,
-    /// The last character of a paste that has no end yet is that of Ctrl-C; what the terminal answers may follow.
+    /// Whether the last character of an unfinished paste is Ctrl-C; answers of the terminal may follow it.
     is_interrupted: bool,
 }
 
@@ -89,10 +89,10 @@ impl Reader {
         }
     }
 
-    /// Finds what bytes mean; returns whether they are whole.
+    /// Interprets bytes; returns whether they are complete.
     fn means(&mut self, bytes: &[u8]) -> bool {
         match bytes {
-            // A click as terminals told it before mode 1006: button, column and row are a byte each.
+            // A click in the encoding before mode 1006: button, column and row are one byte each.
             [ESCAPE, b'[', b'M', ..] if self.paste.is_none() => return bytes.len() == 6,
             [ESCAPE, b'[', numbers @ .., last @ b'@'..=b'~'] => self.sequence(numbers, *last),
             [ESCAPE, b'O', last] => self.named(*last, 0),
@@ -112,7 +112,7 @@ impl Reader {
         true
     }
 
-    /// What looked like the start of a sequence are keys; of a longer one nothing is left.
+    /// Turns what looked like the start of a sequence into keys; drops a longer one.
     fn typed(&mut self) {
         let begun = std::mem::take(&mut self.begun);
         if begun.first() == Some(&ESCAPE) && begun.len() <= 2 {
@@ -122,7 +122,7 @@ impl Reader {
         }
     }
 
-    /// How long to wait for more before [`rest`](Self::rest), milliseconds; `None`: forever.
+    /// Returns how long to wait for more before [`rest`](Self::rest), milliseconds; `None` means forever.
     pub fn patience(&self) -> Option<u16> {
         match self.begun[..] {
             [] => self.is_interrupted.then_some(GIVE_UP),
@@ -139,7 +139,7 @@ impl Reader {
         std::mem::take(&mut self.inputs)
     }
 
-    /// Ctrl-C where a paste has no end, and a hand has typed it behind the text.
+    /// Handles a Ctrl-C that was typed after the text of a paste without an end.
     fn interrupt(&mut self) {
         if std::mem::take(&mut self.is_interrupted) {
             self.paste = None;
@@ -153,7 +153,7 @@ impl Reader {
         }
     }
 
-    /// The key of a sequence by its last byte and first number.
+    /// Adds the key for a sequence's last byte and first number.
     fn named(&mut self, last: u8, number: u16) {
         let named = match (last, number) {
             (b'A', _) => Named::Up,
@@ -183,7 +183,7 @@ impl Reader {
 
     fn control(&mut self, byte: u8) {
         match byte {
-            // In a text that is pasted, lines and columns become words.
+            // In pasted text, line breaks and tabs become blanks.
             b'\t' | b'\r' | b'\n' if self.paste.is_some() => self.character(' '),
             b'\t' => self.key(Key::Named(Named::Tab)),
             b'\r' => self.key(Key::Named(Named::Enter)),
@@ -228,13 +228,13 @@ impl Reader {
     }
 }
 
-/// Whether a byte may belong to what has begun; what did not begin with an Escape is a character of UTF-8.
+/// Whether a byte may continue an incomplete sequence; what does not begin with Escape is a UTF-8 character.
 fn may_continue(begun: &[u8], byte: u8) -> bool {
     match begun {
         [] => true,
         [ESCAPE] => b"[O]PX^_".contains(&byte),
         [ESCAPE, b'O'] => matches!(byte, b'A'..=b'H' | b'M' | b'P'..=b'S' | b'j'..=b'y'),
-        // Replies begin with a number or a mark.
+        // Answers begin with a number or a mark.
         [ESCAPE, b']' | b'P'] => matches!(byte, b'0'..=b'9' | b'!' | b'$' | b'+' | b'<'..=b'?'),
         [ESCAPE, b'[', ..] => byte >= b' ',
         [ESCAPE, .., ESCAPE] => byte == b'\\',
@@ -260,7 +260,7 @@ fn color_of(text: &[u8]) -> Option<[u8; 3]> {
 mod tests {
     use super::*;
 
-    /// What bytes mean that come in these pieces, with silence at the end.
+    /// Returns the inputs for bytes that arrive in these pieces, with silence at the end.
     fn read(pieces: &[&[u8]]) -> Vec<Input> {
         let mut reader = Reader::default();
         let inputs = pieces.iter().flat_map(|piece| reader.take(piece));
@@ -287,7 +287,7 @@ mod tests {
             (b"\x1b]10;rgb:ffff/ffff/ffff\x07", &[]),
             (b"\x1b]11;rgb:fffff/ffffffffffff/\x07", &[]),
             (b"\x1b]11;black\x07", &[]),
-            // No answer to a question, but a text that somebody has copied.
+            // This is not an answer to a request, but text that somebody has copied.
             (b"\x1b[200~\x1b]11;rgb:ff/ff/ff\x07\x1b[201~", &[]),
         ];
         for (bytes, expected) in cases {

@@ -45,13 +45,13 @@ fn is_under_job_control(
     own.zip(other).is_some_and(|(own, other)| own.1 == other.1)
 }
 
-/// The parent of a process. Where the system does not tell, only one's own is known.
+/// Returns the parent of a process. If the system does not say, only the parent of this process is known.
 fn parent_of(process: Pid) -> Option<Pid> {
     let parent = if process == getpid() {
         getppid()
     } else {
         let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-        // "id (name) state parent ...", and the name may hold anything.
+        // The format is "id (name) state parent ...", and the name may contain anything.
         let (_, fields) = stat.rsplit_once(") ")?;
         Pid::from_raw(fields.split(' ').nth(1)?.parse().ok()?)
     };
@@ -95,7 +95,7 @@ mod tests {
         assert!(!waits(&[]));
         assert!(!waits(&[(4, 4, 4), (1, 1, 1)]));
         assert!(!waits(&[(9, 10, 5), (4, 4, 4)]));
-        // A parent in the container whose session is outside of it.
+        // A parent in the container whose session is outside.
         assert!(!waits(&[(1, 0, 0)]));
     }
 }

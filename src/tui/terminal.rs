@@ -13,7 +13,7 @@ use super::flow::Flow;
 use super::modes::Modes;
 use super::output::Output;
 
-/// Takes the terminal over: the alternate screen (DEC private mode 1049), and a paste is marked as one (2004).
+/// Takes over the terminal: the alternate screen (DEC private mode 1049), and marks around pasted text (2004).
 const TAKE_OVER: &str = "\x1b[?1049h\x1b[?2004h";
 
 /// Restores it: ends a synchronized update (2026) and the marks, resets the style, leaves the alternate screen, and
@@ -37,7 +37,7 @@ pub struct Screen {
     /// What turns the mouse on and off.
     mouse: [&'static str; 2],
     opened: Instant,
-    /// What is known of the line to the terminal.
+    /// The state of the line to the terminal.
     pub flow: Flow,
     /// Whether the terminal was restored successfully.
     is_restored: bool,
@@ -89,7 +89,7 @@ impl Screen {
         Ok(screen)
     }
 
-    /// The time of the flow control: seconds since the terminal was opened.
+    /// Returns the time for the flow control: seconds since the terminal was opened.
     pub fn now(&self) -> f64 {
         self.opened.elapsed().as_secs_f64()
     }
@@ -100,7 +100,7 @@ impl Screen {
         self.writer = AnsiWriter::default();
     }
 
-    /// Gives the terminal back, for a while or for good, unless that is done. True if it has taken that.
+    /// Restores the terminal, temporarily or finally, unless already done. Returns true if the terminal accepted it.
     pub fn give_back(&mut self) -> bool {
         if !self.is_restored {
             self.is_restored = self.output.finish(&[self.mouse[1], GIVE_BACK].concat());
@@ -109,7 +109,7 @@ impl Screen {
         self.is_restored
     }
 
-    /// Takes the terminal over, also again, as it may be anything by now.
+    /// Takes over the terminal, also after a suspension, when it may be in any state.
     pub fn take_back(&mut self) -> io::Result<()> {
         self.modes.set_raw()?;
         self.is_restored = false;

@@ -255,11 +255,20 @@ pub struct New {
     #[serde(skip)]
     pub file: PathBuf,
     /// A ball of this radius.
-    #[arg(long, value_name = "RADIUS", conflicts_with = "punch")]
+    #[arg(long, value_name = "RADIUS", conflicts_with_all = ["punch", "cylinder"])]
     pub ball: Option<String>,
     /// A flat punch of this radius.
-    #[arg(long, value_name = "RADIUS")]
+    #[arg(long, value_name = "RADIUS", conflicts_with = "cylinder")]
     pub punch: Option<String>,
+    /// A cylinder of this radius on its side: a line contact.
+    #[arg(long, value_name = "RADIUS", conflicts_with = "depth")]
+    pub cylinder: Option<String>,
+    /// The length of the cylinder.
+    #[arg(long, value_name = "LENGTH")]
+    pub length: Option<String>,
+    /// The depth of the point that the stroke of a cylinder is measured against.
+    #[arg(long, value_name = "LENGTH")]
+    pub gauge: Option<String>,
     /// The indenter's material: a name such as steel, bronze, alumina, rigid, or E,NU.
     #[arg(long, value_name = "NAME|E,NU")]
     pub material: Option<String>,

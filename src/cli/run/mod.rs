@@ -1,6 +1,6 @@
 //! `mdr-tui run`: the simulation without a screen.
 //!
-//! What its parts need is imported here, and they begin with `use super::*`.
+//! This module imports what its parts need; they begin with `use super::*`.
 
 use std::fs;
 use std::io::{self, Write};
@@ -78,7 +78,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if matches!(outcome, Ok(Some(_))) {
         locked(&job.safe).save(&job.session, &job.job);
     }
-    // What has come up during the run; the same warning may have got another cycle.
+    // Shows what has come up during the run; the same warning may now name another cycle.
     let now = remarks(&job.session);
     if now.len() > told.len() {
         let new = now.iter().filter(|line| !told.contains(line));
@@ -89,8 +89,8 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
     // Saves what was computed, whatever happened.
     if let Err(error) = job.write_end() {
-        // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may go
-        // elsewhere.
+        // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may still be
+        // saved elsewhere.
         locked(&job.safe).save_silently(&job.session, &job.job);
         return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
@@ -110,7 +110,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
         Ok(Some(why)) => {
             complain(&format!("{why}; {}", job.how_to_resume()));
-            // After a bug, the same command would end in the same place.
+            // After a bug, the same command would fail at the same place.
             let can_resume = !is_bug && locked(&job.safe).checkpoints.kept().is_some();
             Ok(ExitCode::from(if can_resume { UNFINISHED } else { FAILED }))
         }
@@ -118,16 +118,16 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
 }
 
-/// Ends the process soon after a signal, whatever it is doing: a long step, or a search before the first one.
+/// Ends the process soon after a signal, even during a long step or a search before the first step.
 struct Guard {
-    /// Set by the first of the two that end the run: the run itself, or the thread that waits for a signal.
+    /// Set by whichever ends the run first: the run itself, or the thread that waits for a signal.
     is_over: Arc<AtomicBool>,
-    /// What is saved at the end; nothing before the first step.
+    /// What to save at the end; unset before the first step.
     safe: Arc<OnceLock<Arc<Mutex<Safe>>>>,
 }
 
 impl Guard {
-    /// Waits for `stop` in a thread of its own.
+    /// Waits for `stop` in a separate thread.
     fn watch(stop: Arc<AtomicBool>) -> Self {
         let guard = Self {
             is_over: Arc::default(),
@@ -146,17 +146,17 @@ impl Guard {
                 std::process::exit(end_at_once(safe).into());
             }
         };
-        // A system that has no thread left ends runs between steps alone.
+        // If the system cannot start a thread, runs end only between steps.
         let _ = thread::Builder::new().spawn(watch);
         guard
     }
 
-    /// Saves the run that `safe` keeps from here on.
+    /// Saves the run in `safe` from now on.
     fn keeps(&self, safe: &Arc<Mutex<Safe>>) {
         let _ = self.safe.set(Arc::clone(safe));
     }
 
-    /// From here on the run ends by itself; never returns if the process is being ended.
+    /// Marks the end of the run; never returns if the process is already being ended.
     fn is_done(&self) {
         while self.is_over.swap(true, Ordering::SeqCst) {
             thread::park();
@@ -164,7 +164,7 @@ impl Guard {
     }
 }
 
-/// Saves the copy of a run in the middle of a step, and tells the exit code.
+/// Saves the copy of a run in the middle of a step, and returns the exit code.
 fn end_at_once(safe: Option<&Arc<Mutex<Safe>>>) -> u8 {
     let Some(safe) = safe else {
         complain("interrupted before the first step: nothing is computed yet");
@@ -184,7 +184,7 @@ fn end_at_once(safe: Option<&Arc<Mutex<Safe>>>) -> u8 {
     }
 }
 
-/// What survives the run: a copy in memory, and a checkpoint on disk.
+/// What survives a failure: a copy in memory, and a checkpoint on disk.
 struct Safe {
     checkpoints: Autosave,
     /// The run a moment ago.
@@ -192,7 +192,7 @@ struct Safe {
 }
 
 impl Safe {
-    /// Writes a checkpoint. If that fails, the user is told once and the run continues.
+    /// Writes a checkpoint. If that fails, tells the user once; the run continues.
     fn save(&mut self, session: &Session, job: &RunJob) {
         if let Some(word) = self.save_silently(session, job) {
             complain(&word);
@@ -222,7 +222,7 @@ impl Safe {
 
 struct Job<'a> {
     options: &'a Run,
-    /// What messages call the run.
+    /// The name of the run in messages.
     name: String,
     session: Session,
     job: RunJob,
@@ -230,12 +230,13 @@ struct Job<'a> {
     safe: Arc<Mutex<Safe>>,
     /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
-    /// Snapshots that could not be written when their cycle came, to be tried again at the end.
+    /// Snapshots that could not be written at their cycle and are tried again at the end.
     owed: Vec<(String, String)>,
 }
 
 impl Job<'_> {
-    /// Estimates the error at the end, which the headers of the files then state. An accuracy has stated it before.
+    /// Estimates the error at the end for the headers of the files, unless a search for an accuracy has already stated
+    /// it.
     fn estimate(&mut self, go_on: &dyn Fn() -> bool) {
         if !self.job.statements.is_empty() {
             return;
@@ -249,7 +250,8 @@ impl Job<'_> {
         }
     }
 
-    /// The snapshots state what the run states at its end, as they do where its `scenario.toml` is run again.
+    /// Copies the errors stated at the end into the snapshots' headers, as if the run's `scenario.toml` had been run
+    /// again.
     fn restate(&mut self) {
         let line = |(key, value): &(String, String)| header::line(key, value);
         let stated: String = self.session.statements().iter().map(line).collect();
@@ -267,11 +269,11 @@ impl Job<'_> {
     }
 
     /// Steps to the end, taking snapshots on the way, until there is a reason to stop. Returns why and where it stopped
-    /// before its end.
+    /// early.
     fn advance(&mut self, why_stop: &dyn Fn() -> Option<&'static str>) -> Result<Option<String>> {
         let end = self.job.cycles;
         let progress = Progress::new(end, self.options.quiet);
-        // A bug leaves this one behind, and the copy takes its place.
+        // A bug may leave this clone half-stepped; the copy then replaces it.
         let mut session = self.session.clone();
         let (mut before, mut outcome) = (None, Ok(()));
         let goal = session.heading(end);
@@ -293,8 +295,8 @@ impl Job<'_> {
         }
     }
 
-    /// Takes the snapshots that are due, records the moment and saves what is due. `before` is the session before
-    /// the step, where a snapshot may lie within it.
+    /// Takes the snapshots that are due, records the moment and saves if due. `before` is the session before the step,
+    /// if a snapshot may lie within the step.
     fn step_is_over(&mut self, session: &Session, before: &mut Option<Session>) -> Result<()> {
         let simulation = session.simulation();
         let (cycle, close) = (simulation.cycle(), simulation.rounding());
@@ -315,7 +317,7 @@ impl Job<'_> {
             true => f64::INFINITY,
             false => simulation.next_moment(),
         };
-        // A copy between two steps takes a fraction of a step and does not change the run.
+        // A copy between two steps costs a fraction of a step and does not change the run.
         *before = self.job.next_snapshot(reach).map(|_| session.clone());
         Ok(())
     }
@@ -335,7 +337,7 @@ impl Job<'_> {
         }
     }
 
-    /// After a bug, goes back to the copy: the interrupted step has left half a state.
+    /// After a bug, returns to the copy, because the interrupted step has left an inconsistent state.
     fn go_back(&mut self) -> String {
         let (session, job) = locked(&self.safe).copy.get().clone();
         self.session = session;
@@ -350,8 +352,8 @@ impl Job<'_> {
         locked(&self.safe).how_to_resume(self.session.simulation().cycle())
     }
 
-    /// Takes the snapshots that are due before the cycle `end` and not before `session`. Those that cannot be
-    /// written are tried again at the end.
+    /// Takes the snapshots that are due from the cycle of `session` to the cycle `end`. Those that cannot be written
+    /// are tried again at the end.
     fn take_snapshots(&mut self, session: &Session, end: f64) -> Result<()> {
         while let Some(snapshot) = self.job.next_snapshot(end) {
             let (name, table) = (file_of(snapshot), table_at(snapshot, session)?);
@@ -365,7 +367,7 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// Writes the final files, as many as possible.
+    /// Writes as many of the final files as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
         let rows = self.directory.rows();
@@ -393,7 +395,7 @@ impl Job<'_> {
     }
 }
 
-/// The table of the state at a cycle that `session` has reached or is yet to reach.
+/// Returns the table of the state at a cycle that `session` has reached or has yet to reach.
 fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let simulation = session.simulation();
     if snapshot.cycle() <= simulation.cycle() + simulation.rounding() {
@@ -404,7 +406,7 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     Ok(state::table(&glimpse))
 }
 
-/// The name of a snapshot's file.
+/// Returns the name of a snapshot's file.
 fn file_of(snapshot: &CycleAsGiven) -> String {
     format!("state-{}.csv", snapshot.0)
 }

@@ -135,7 +135,7 @@ impl Claim {
         }
     }
 
-    /// Refuses to go on where what was claimed has been moved or removed: another process may have its place by now.
+    /// Checks that what was claimed was neither moved nor removed: its place may belong to another process by now.
     ///
     /// # Errors
     ///

@@ -21,7 +21,7 @@ pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 /// The name of the file with the history's rows, until the run ends.
 pub const RUN_ROWS: &str = ".mdr-tui-history";
 
-/// The directory of one run's files. No other process claims it before the last copy of this is dropped.
+/// The directory of one run's files. No other process can claim it until the last copy of this is dropped.
 #[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
@@ -186,7 +186,7 @@ impl RunDirectory {
         remove(&self.rows())
     }
 
-    /// Refuses to write where the directory may belong to another run by now.
+    /// Checks that the directory is still this run's. Another run may have begun in its place.
     ///
     /// # Errors
     ///

@@ -8,7 +8,7 @@
 //! line is busy; the next chunk is sent when that is at most [`DELAY`], and is as large as keeps it so.
 //!
 //! The round trip is measured by a request of another kind, on an empty line. Its answer also tells where in the queue of
-//! requests the terminal is, in case answers were lost. A terminal that does not know both counts as silent.
+//! requests the terminal is, in case answers were lost. A terminal that does not answer both counts as silent.
 
 use std::collections::VecDeque;
 
@@ -211,7 +211,7 @@ impl Flow {
         match (request, self.marks.iter().position(is_place)) {
             // What was asked before will have no answer.
             (Request::Place, Some(place)) => drop(self.marks.drain(..place)),
-            // An answer from before was taken for the one to this.
+            // An earlier answer was mistaken for this one.
             (Request::Place, None) => return self.forget(),
             // That is to a chunk from before answers were lost.
             (Request::Status, Some(0)) => return,

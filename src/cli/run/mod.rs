@@ -133,7 +133,7 @@ impl Guard {
             is_over: Arc::default(),
             safe: Arc::default(),
         };
-        // Not kept alive by this thread, which never ends: the directory would stay claimed.
+        // A weak reference: this thread never ends, and would keep the directory claimed.
         let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::downgrade(&guard.safe));
         let watch = move || {
             while !stop.load(Ordering::Relaxed) {

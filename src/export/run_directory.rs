@@ -13,6 +13,8 @@ use super::file::{
 };
 use super::header::number;
 use super::safe_open;
+use crate::scenario::Refusal;
+use crate::scenario::bounded_read::Unread;
 use crate::scenario::checkpoint::Stamp;
 
 /// The name of the checkpoint in the directory of an unfinished run.
@@ -65,7 +67,7 @@ impl RunDirectory {
 
     /// Returns the names of all files except the program's internal ones.
     fn results(&self) -> Result<Vec<OsString>, WriteError> {
-        let failed = WriteError::io(&self.path);
+        let failed = |cause| Refusal::unread(self.path.display(), &Unread::Io(cause));
         let entries = fs::read_dir(&self.path).map_err(failed)?;
         let names = entries.map(|entry| entry.map(|entry| entry.file_name()));
         let names: Vec<OsString> = names.collect::<Result<_, _>>().map_err(failed)?;

@@ -2,7 +2,11 @@
 //! dissipates. An arrow marks the present moment and its direction. On a compliant rig the loop that its sensor sees is
 //! drawn too; it has the same forces and the same area as the contact's loop.
 
-use super::*;
+use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, named};
+use crate::charts::run::{Live, Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Point};
+use crate::traces::{Axes, Loop};
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

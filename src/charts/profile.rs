@@ -1,8 +1,13 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact below it. Wear that would be thinner than a line
 //! is drawn magnified.
 
-use super::*;
+use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, magnification, of_states, over_r};
+use crate::charts::run::{Medium, Run};
 use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

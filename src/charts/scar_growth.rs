@@ -1,6 +1,11 @@
 //! The scar's radius and depth over the friction work: what a profilometer and the fretting loops of a test measure.
 
-use super::*;
+use super::{E_D, NO_CYCLE, NO_HISTORY, Recipe, View, cycles_shown, ghosts, magnification};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Scale};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -1,6 +1,11 @@
 //! The 1D profile g(x) and the indentation depth d: springs are in contact where g < d.
 
-use super::*;
+use super::{A, C, NO_STATE, Recipe, View, ghosts, of_states, over_r};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

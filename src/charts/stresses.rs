@@ -1,6 +1,11 @@
 //! Pressure p(r) and shear stress τ(r). On a screen τ is drawn as τ/μ, which meets ±p where the contact slips.
 
-use super::*;
+use super::{A, C, NO_STATE, Recipe, View, ghosts, over_r};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Scale};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -1,7 +1,13 @@
 //! Wear volume V over cycles. V = k E_d from the friction work would differ by less than the width of a line; the panel
 //! beside it shows the difference.
 
-use super::*;
+use super::{E_D, Recipe, V, View, ghosts, over_cycles, series};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::units::format_value;
+use crate::plot::{Axis, Chart};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -1,11 +1,7 @@
 //! `mdr-tui run`: the simulation without a screen.
-//!
-//! This module imports what its parts need; they begin with `use super::*`.
 
 use std::fs;
-use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -17,16 +13,15 @@ use anyhow::{Result, anyhow};
 use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::progress::Progress;
-use super::{FAILED, UNFINISHED, accuracy, complain, given, provenance, stop};
+use super::{FAILED, UNFINISHED, accuracy, complain, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{WriteError, shell_path};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, last_loop, state};
 use crate::panics::locked;
+use crate::scenario::checkpoint;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Scenario, checkpoint, printable};
-use crate::studies::refinement;
 
 mod begin;
 mod past;

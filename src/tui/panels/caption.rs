@@ -2,9 +2,19 @@
 //! of the colours. A small picture has only the load and the scale of the stress.
 
 use ratatui::buffer::Cell;
+use ratatui::layout::Constraint::{Length, Min};
+use ratatui::layout::{Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use super::cut::Section;
-use super::*;
+use crate::math::scan::largest;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Depth, Look, Role, Theme};
+use crate::plot::units::format_value;
+use crate::reading::Moment;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The minimum size of a picture with captions below it, and their rows.
 const ROOMY: [u16; 2] = [60, 16];

@@ -1,12 +1,20 @@
 //! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts are drawn over
 //! each plot; in the difference, by how much they differ from this run.
 
-use super::*;
-use crate::charts::{A, C, Live, ghosts};
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Rect};
+
+use super::spread_top;
+use crate::charts::{A, C, Live, Recipe, ghosts};
 use crate::math::scan::rms;
-use crate::plot::{Axis, nice_bounds};
+use crate::plot::theme::Role;
+use crate::plot::units::{format_number, format_value};
+use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
+use crate::reading::Moment;
 use crate::traces::Axes;
 use crate::tui::beside::{Comparison, name_of};
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// Minimum width of a column of numbers, in cells.
 const COLUMN: usize = 11;

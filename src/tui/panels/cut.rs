@@ -1,11 +1,18 @@
 //! Places the bodies of the cross-section: the heights of indenter and half-space along the motion, what is magnified,
 //! and where it is on the screen.
 
+use ratatui::layout::Rect;
+
+use super::Shown;
 use super::stress_map::Shares;
-use super::*;
 use crate::charts::magnification;
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::theme::Theme;
+use crate::plot::units::format_number;
 use crate::reading::Zone;
 use crate::simulation::drive::Control;
+use crate::tui::frame::Frame;
 
 /// The picture is this many times as wide as the domain, so that the sides of the bodies are visible.
 const WIDER: f64 = 1.35;
@@ -243,6 +250,7 @@ fn amplitude(frame: &Frame) -> f64 {
 mod tests {
     use super::*;
     use crate::oracle::power_law::PowerLaw;
+    use crate::reading::Curves;
     use crate::scenario::Scenario;
     use crate::simulation::Simulation;
 

@@ -9,11 +9,23 @@
 //!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
 //! ```
 
-use super::*;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+use ratatui::text::Line;
+
+use super::{Picture, Shown};
+use crate::charts::Recipe;
 use crate::math::geometry::Geometry;
-use crate::plot::shades::paint_halves;
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades::{self, has_blocks, paint_halves};
 use crate::plot::step::Step;
-use crate::plot::theme::look_of;
+use crate::plot::theme::{Role, Theme, look_of};
+use crate::plot::units::format_value;
+use crate::reading::Curves;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The panel.
 pub static RECIPE: Recipe<Picture> = Recipe {

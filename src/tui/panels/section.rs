@@ -15,11 +15,16 @@
 //! stay aligned where the contact sticks, and separate where it slips. The flanks of the indenter move with it; between
 //! them the contact stays closed.
 
+use ratatui::style::{Color, Modifier, Style};
+
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
-use super::*;
-use crate::charts::U_X;
-use crate::plot::theme::look_of;
-use crate::reading::Zone;
+use super::{Picture, Shown, caption};
+use crate::charts::{Recipe, U_X};
+use crate::math::grid::interpolate;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Role, look_of};
+use crate::reading::{Curves, Zone};
+use crate::tui::canvas::Canvas;
 
 /// The panel.
 pub static RECIPE: Recipe<Picture> = Recipe {

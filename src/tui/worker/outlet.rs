@@ -1,15 +1,20 @@
 //! What the worker sends to the screen: frames of the present state, and notices.
 
 use std::fmt::Display;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use std::time::{Duration, Instant};
 
-use super::*;
+use super::Worker;
 use crate::charts::{Live, Medium, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
-use crate::reading::{CycleFigures, Observation};
-use crate::tui::beside::COMPARED;
-use crate::tui::frame::Slot;
+use crate::reading::{Curves, CycleFigures, Observation};
+use crate::tui::beside::{COMPARED, ComparisonRun};
+use crate::tui::event::Event;
+use crate::tui::frame::{Activity, Facts, Frame, Slot};
 use crate::tui::line::one_line;
 
 /// Sends frames through a slot, at most one per interval, and everything else as events.

@@ -402,12 +402,12 @@ fn boundary_elements_wear_alike() {
         f64::from(cycles),
     );
     let volume = 2.0 * 2.0 * bem.h * worn.iter().sum::<f64>();
-    is_near(ours.wear_volume(), volume, 1e-2);
+    let of_volume = (ours.wear_volume() / volume - 1.0).abs();
     let deepest = largest(&worn);
     let errors = bem.x.iter().zip(&worn);
     let errors =
         errors.map(|(&x, worn)| ours.setup().grid.interpolate(ours.worn_depth(), x) - worn);
     let mean = errors.map(|error| error * error).sum::<f64>() / bem.x.len() as f64;
     let rms = mean.sqrt() / deepest;
-    assert!(rms < 1e-2, "{rms:e}");
+    assert!(rms < 3e-3 && of_volume < 3e-3, "{rms:e} {of_volume:e}");
 }

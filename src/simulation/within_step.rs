@@ -18,6 +18,7 @@
 use super::contact::Contact;
 use super::model::Model;
 use crate::contact::tangential::SpringState;
+use crate::math::geometry::Geometry;
 
 /// The slip of a spring under load within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +102,11 @@ impl Within {
     ) {
         let material = &model.setup.material;
         let (coefficient, reach) = (material.friction(), material.reach());
-        let increment = after.shift - before.shift;
+        // The displacement of a line contact is told against a gauge: its springs move by less.
+        let increment = match model.setup.geometry {
+            Geometry::Round => after.shift - before.shift,
+            Geometry::Line { .. } => slip[0] + after.spring.nodal[0] - before.spring.nodal[0],
+        };
         let sinks = material.normal_modulus() * (after.depth - before.depth);
         let end = before.normal.nodes.max(after.normal.nodes);
         let loads = |j: usize| [before.load.nodal[j], after.load.nodal[j]];

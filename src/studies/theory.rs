@@ -46,6 +46,17 @@ impl Line {
     }
 }
 
+/// Whether the closed forms of a sine hold at all its moments.
+fn is_sine(swing: &Oscillation) -> bool {
+    *swing.waveform() == Waveform::Sine || swing.amplitude() == 0.0
+}
+
+/// Whether the tangential motion begins at rest and swings about it, under a normal one that is held.
+fn is_from_rest(normal: &Oscillation, tangential: &Oscillation) -> bool {
+    let is_centred = tangential.mean() == 0.0 && tangential.phase() == 0.0;
+    normal.amplitude() == 0.0 && is_centred && is_sine(tangential)
+}
+
 /// Where in a cycle from rest the tangential motion is.
 fn branch(cycle: f64) -> Branch {
     match cycle {
@@ -74,8 +85,6 @@ impl Theory {
         };
         // The closed forms begin with the unworn indenter on a stiff rig. For waveforms other than sines they only hold
         // at the turning points.
-        let is_sine =
-            |swing: &Oscillation| *swing.waveform() == Waveform::Sine || swing.amplitude() == 0.0;
         let is_stiff = setup.drive.rig_compliance() == 0.0;
         if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
             return theory;
@@ -92,8 +101,7 @@ impl Theory {
             stick_radius,
         };
         theory.limit = theory.stick_radius.filter(|_| wears).map(limit);
-        let from_rest =
-            normal.amplitude() == 0.0 && tangential.mean() == 0.0 && tangential.phase() == 0.0;
+        let from_rest = is_from_rest(normal, tangential);
         let cattaneo = CattaneoMindlin {
             e_star,
             g_star: setup.material.tangential_modulus(),
@@ -113,17 +121,14 @@ impl Theory {
         let stick_radius = melan.map(|(_, radius)| radius);
         let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
         let normal = setup.drive.normal().oscillation();
-        let from_rest = |force: &&Oscillation| {
-            let is_whole = force.mean() == 0.0 && force.phase() == 0.0;
-            is_whole && *force.waveform() == Waveform::Sine && normal.amplitude() == 0.0
-        };
         let load = normal.highest() / length;
         let held = setup.material.friction() * load;
         let amplitude = match setup.drive.tangential() {
-            Some(Control::Force(force)) if !is_worn => Some(force).filter(from_rest),
+            Some(Control::Force(force)) if !is_worn && is_from_rest(normal, force) => {
+                Some(force.amplitude() / length)
+            }
             _ => None,
         };
-        let amplitude = amplitude.map(|force| force.amplitude() / length);
         let line = |radius| Line {
             cylinder: Cylinder {
                 e_star: setup.material.normal_modulus(),

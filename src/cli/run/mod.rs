@@ -321,7 +321,8 @@ impl Job<'_> {
     fn checkpoint_if_due(&mut self, session: &Session) {
         let mut safe = locked(&self.safe);
         safe.copy.refresh(|| (session.clone(), self.job.clone()));
-        if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
+        let is_time = |at: Instant| at.elapsed() >= ANOTHER_TRY;
+        if self.job.history.is_full() && self.unwritten.is_none_or(is_time) {
             // Rows that cannot be written stay in memory.
             let rows = self.directory.check().map(|()| self.directory.rows());
             let is_written = rows.is_ok_and(|rows| self.job.history.spill(&rows).is_ok());

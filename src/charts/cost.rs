@@ -1,4 +1,4 @@
-//! Time per step on this machine, over finished cycles.
+//! Time per step on this machine, over complete cycles.
 
 use super::*;
 
@@ -14,7 +14,7 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    let cost = finished_series(run, "step_cost_s", Role::Shear)?;
+    let cost = finished_series(run, Column::StepCost, Role::Shear)?;
     if !cost.ys.iter().any(|value| value.is_finite()) {
         return Err("measured while it runs");
     }

@@ -16,12 +16,12 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// The largest worn depth of every state, for histories of runs that did not record it.
+/// Returns the largest worn depth of every state, for histories that did not record it.
 fn of_states(run: &Run) -> Option<Curve> {
     let deepest = run
         .states
         .iter()
-        .map(|state| Some((state.cycle(), largest(state.column("wear_m")?))));
+        .map(|state| Some((state.cycle(), largest(state.column(Column::Wear)?))));
     let (cycles, depths): (Vec<f64>, Vec<f64>) = deepest.flatten().unzip();
     let curve = Curve::new("simulated", cycles, depths, Role::Profile);
     Some(curve.scattered([])).filter(|curve| !curve.xs.is_empty())
@@ -29,7 +29,7 @@ fn of_states(run: &Run) -> Option<Curve> {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let depth = series(run, "scar_depth_m", "", Role::Profile).ok();
+    let depth = series(run, Column::ScarDepth, "", Role::Profile).ok();
     let depth = depth.or_else(|| of_states(run)).ok_or(NO_STATE)?;
     let ordinate = Axis::new(run.pick("depth", "worn depth"), "m")
         .from_zero()

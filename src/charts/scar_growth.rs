@@ -1,4 +1,4 @@
-//! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
+//! The scar's radius and depth over the friction work: what a profilometer and the fretting loops of a test measure.
 
 use super::*;
 
@@ -22,12 +22,12 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 /// The columns.
-const DEPTH: Axes = Axes::new("dissipated_energy_J", "scar_depth_m", "depth");
-const RADIUS: Axes = Axes::new("dissipated_energy_J", "scar_radius_m", "radius");
+const DEPTH: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarDepth);
+const RADIUS: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarRadius);
 
-/// The work at the last of the cycles that charts show, J, where each cycle takes as much as those so far.
+/// Extrapolates the friction work, J, to the last cycle that charts show, at the mean rate so far.
 fn shown_work(run: &Run) -> Option<f64> {
-    let [cycles, work] = run.over_cycles(["cycle", "dissipated_energy_J"])?;
+    let [cycles, work] = run.over_cycles([Column::Cycle, Column::DissipatedEnergy])?;
     let (cycle, done) = (*cycles.last()?, *work.last()?);
     let [_, end] = cycles_shown(run)?;
     (cycle >= 1.0).then(|| done * (end / cycle).max(1.0))
@@ -35,7 +35,11 @@ fn shown_work(run: &Run) -> Option<f64> {
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let columns = run.over_cycles(["dissipated_energy_J", "scar_radius_m", "scar_depth_m"]);
+    let columns = run.over_cycles([
+        Column::DissipatedEnergy,
+        Column::ScarRadius,
+        Column::ScarDepth,
+    ]);
     let [work, radii, depths] = columns.ok_or(NO_HISTORY)?;
     let radius = Curve::new("radius", work.clone(), radii, Role::Contact);
     let expected = run.expected_wear();

@@ -1,4 +1,4 @@
-//! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
+//! The 1D profile g(x) and the indentation depth d: springs are in contact where g < d.
 
 use super::*;
 
@@ -21,7 +21,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         let (ends, depth) = ([0.0, run.edge()], [live.moment.depth; 2]);
         Curve::new("depth d", ends, depth, Role::Contact).dashed()
     });
-    let springs = of_states(run, "g_m", run.pick("g", ""), Role::Profile);
+    let springs = of_states(run, Column::Profile1d, run.pick("g", ""), Role::Profile);
     Ok(over_r(run, "x", ("g", "m"))
         .curves(depth)
         .curves(ghosts::on(run, Axes::SPRINGS))

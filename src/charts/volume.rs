@@ -1,5 +1,5 @@
-//! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
-//! is wide: the panel beside shows the difference.
+//! Wear volume V over cycles. V = k E_d from the friction work would differ by less than the width of a line; the panel
+//! beside it shows the difference.
 
 use super::*;
 
@@ -17,7 +17,7 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let volume = series(run, "wear_volume_m3", "", Role::Profile)?;
+    let volume = series(run, Column::WearVolume, "", Role::Profile)?;
     let ordinate = Axis::new("V", "m³").from_zero();
     let mut chart = over_cycles(run, ordinate.expecting(run.expected_volume()));
     if let Some(live) = &run.live {

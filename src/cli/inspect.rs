@@ -1,4 +1,4 @@
-//! `mdr-tui inspect`: what is understood of a measured table, before anything is fitted to it.
+//! `mdr-tui inspect`: how a measured table is understood, before anything is fitted to it.
 
 use anyhow::{Result, bail};
 use serde::Serialize;
@@ -8,33 +8,34 @@ use super::{results, small_multiples};
 use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
+use crate::reading::column::unit_of;
 use crate::scenario::columns::Columns;
 use crate::studies::measured::record::{Figures, Record};
 use crate::studies::measured::{Kind, Measured, loop_columns};
-use crate::traces::{Axes, unit_of};
+use crate::traces::Axes;
 
-/// Cycles of a record that are printed one by one; of more, as many in even steps.
+/// Maximum number of cycles printed; a longer record is thinned evenly to this number.
 const MOST_ROWS: usize = 20;
 
-/// What is understood of a table.
+/// How a table is understood.
 #[derive(Serialize)]
 struct Understood {
     file: String,
-    /// How the text is written.
+    /// The format of the text.
     written: String,
-    /// What it is taken for.
+    /// The kind of data.
     kind: &'static str,
     rows: usize,
     columns: Vec<Column>,
     notes: Vec<String>,
-    /// The figures of each cycle of a loop.
+    /// The measured figures of each cycle of a loop.
     cycles: Vec<CycleRow>,
 }
 
 #[derive(Serialize)]
 struct Column {
     name: String,
-    /// As this program names it, in SI units.
+    /// The name that this program uses, in SI units.
     read_as: String,
     least: f64,
     largest: f64,
@@ -57,7 +58,7 @@ struct CycleRow {
     mean_force_N: f64,
 }
 
-/// Prints and draws what is understood of a file.
+/// Prints and draws how a file is understood.
 pub fn inspect(options: &Inspect) -> Result<()> {
     let columns = Columns::read_as(&options.file, &options.naming.of_columns())?;
     let kind = Kind::of(&columns);
@@ -123,7 +124,7 @@ fn understood(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Und
     }
 }
 
-/// Sides, centre, offset and tilt of a trace, as far as they show without a model.
+/// Describes sides, centre, offset and tilt of a trace, as far as they can be seen without a model.
 fn of_trace(measured: &Measured) -> Vec<String> {
     let (at, values) = (&measured.at, &measured.values);
     if measured.is_averaged || !measured.is_two_sided() {
@@ -153,7 +154,7 @@ fn of_trace(measured: &Measured) -> Vec<String> {
     notes
 }
 
-/// The figures of every cycle that is looked at.
+/// Returns the figures of every selected cycle.
 fn cycles(columns: &Columns, options: &Inspect) -> Result<Vec<CycleRow>> {
     let ([u, force], _) = columns.whole_rows(loop_columns(columns))?;
     let mut record = Record::new(&u, &force).map_err(|why| columns.refuse(why))?;
@@ -188,7 +189,7 @@ fn row(number: usize, figures: &Figures, load: Option<f64>) -> CycleRow {
     }
 }
 
-/// Zeros that are off, and what drifts from the first cycle to the last.
+/// Describes zeros that are off, and drift from the first cycle to the last.
 fn trends(cycles: &[CycleRow]) -> Vec<String> {
     let (Some(first), Some(last)) = (cycles.first(), cycles.last()) else {
         return Vec::new();
@@ -272,12 +273,11 @@ impl Understood {
 
 fn chart(measured: &Measured) -> Chart {
     let axes = measured.axes;
-    let (name, unit) = axes.x.rsplit_once('_').unwrap_or((axes.x, ""));
     let curve = Curve::new("", &measured.at[..], &measured.values[..], Role::Profile);
     Chart::new(
         "",
-        Axis::new(name, unit),
-        Axis::new(axes.symbol, axes.unit()),
+        Axis::new(axes.x.quantity(), axes.x.unit()),
+        Axis::new(axes.y.symbol(), axes.y.unit()),
     )
     .curve(curve)
 }

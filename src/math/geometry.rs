@@ -1,15 +1,15 @@
-//! What a contact is from above: a disc under a shape of revolution, or a strip under a long cylinder.
+//! The shape of a contact from above: a disc under a body of revolution, or a strip under a long cylinder.
 //!
-//! Both have the same springs and the same Eq. (3). What differs is here and in [`line`](super::abel::line): two
-//! kernels, and how loads, works and depths add up.
+//! Both share the springs and Eq. (3). They differ here and in [`line`](super::abel::line): in two kernels, and in how
+//! loads, works and depths add up.
 //!
 //! # Formula
 //!
-//! | | round | line of the length L, plane strain |
+//! | | round | line of length L, plane strain |
 //! |---|---|---|
 //! | force of the springs | 2∫ q dx | L q(0) |
-//! | work of the springs on the slip e | 2∫ q e dx | L [(2/π) ∫ q (e − e(0)) dx/x + q(0) e(0)] |
-//! | volume of a depth δ | 2π∫ δ r dr | 2L ∫ δ dx |
+//! | work of the springs over the slip e | 2∫ q e dx | L [(2/π) ∫ q (e − e(0)) dx/x + q(0) e(0)] |
+//! | volume of the depth δ | 2π∫ δ r dr | 2L ∫ δ dx |
 //! | contact area | πa² | 2aL |
 
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -50,7 +50,7 @@ const LINE_WORDS: [(&str, &str); 16] = [
 /// The plan of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Geometry {
-    /// A disc: everything is a shape of revolution, r the distance from the axis.
+    /// A disc under a body of revolution; r is the distance from the axis.
     #[default]
     Round,
     /// A strip in plane strain: r is the distance from the centre line.
@@ -61,7 +61,7 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// The length of a line contact, m.
+    /// Returns the length of a line contact, m.
     pub fn length(self) -> Option<f64> {
         match self {
             Self::Round => None,
@@ -74,7 +74,7 @@ impl Geometry {
         self.length().is_some()
     }
 
-    /// By what the work of a spring at `x` (m) counts, beside dx.
+    /// Returns the weight of the work of a spring at `x` (m), in addition to dx.
     pub fn measure(self, x: f64) -> f64 {
         match self {
             Self::Round => 1.0,
@@ -82,7 +82,7 @@ impl Geometry {
         }
     }
 
-    /// The weights of the volume (m³) of a worn depth (m) at the nodes, m².
+    /// Returns the weights (m²) of the volume (m³) of a worn depth (m) at the nodes.
     pub fn volume_weights(self, grid: &RadialGrid) -> Vec<f64> {
         match self {
             Self::Round => worn::volume_weights(grid),
@@ -93,7 +93,7 @@ impl Geometry {
         }
     }
 
-    /// ∫ y dA over the contact of nodal values `ys` at `rs` (m) that are linear in r².
+    /// Integrates y over the contact area: nodal values `ys` at `rs` (m), linear in r².
     pub fn area_integral(self, rs: &[f64], ys: &[f64]) -> f64 {
         match self {
             Self::Round => volume_of_revolution(rs, ys),
@@ -101,7 +101,7 @@ impl Geometry {
         }
     }
 
-    /// The area of a contact of the radius or half-width `radius` (m), m².
+    /// Returns the area (m²) of a contact of radius or half-width `radius` (m).
     pub fn area(self, radius: f64) -> f64 {
         match self {
             Self::Round => PI * radius * radius,
@@ -119,7 +119,7 @@ impl Geometry {
         }
     }
 
-    /// What a reader of forces and volumes must know; nothing of a round contact.
+    /// Tells what forces and volumes refer to; `None` for a round contact.
     pub fn remark(self) -> Option<String> {
         let length = self.length()?;
         Some(match length == 1.0 {

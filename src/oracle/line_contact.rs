@@ -1,5 +1,5 @@
 //! A cylinder on a flat, f = r²/2R, in plane strain: Hertz, partial slip, its wear to the limit, gross slip. All loads,
-//! works and volumes are per length of the line.
+//! works and volumes are per unit length of the line.
 //!
 //! Flamant's w′ = −(2/πE*) ⨍ p/(x − ξ) dξ for the sum of both surfaces, normal and tangential alike. With
 //! m = Q/(μP), c² = a²(1 − m) and s = √(x² − c²):
@@ -18,7 +18,7 @@ use super::fretting_loop::{Branch, masing};
 use super::special::bisect;
 use std::f64::consts::PI;
 
-/// A cylinder under a load that is held.
+/// A cylinder under a held load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     /// E*, Pa.
@@ -37,7 +37,7 @@ impl Cylinder {
         (4.0 * self.load * self.radius / (PI * self.e_star)).sqrt()
     }
 
-    /// p of a half-width `a` at x, Pa.
+    /// p at x for the half-width `a`, Pa.
     pub fn pressure(&self, a: f64, x: f64) -> f64 {
         0.5 * self.e_star / self.radius * (a * a - x * x).max(0.0).sqrt()
     }
@@ -71,7 +71,7 @@ impl Cylinder {
         0.5 * self.friction / self.radius * (x * root - c * c * (x / c).acosh())
     }
 
-    /// E_d of a cycle with the amplitude Q, J/m.
+    /// E_d per cycle of amplitude Q, J/m.
     pub fn energy_per_cycle(&self, amplitude: f64) -> f64 {
         let m = self.share(amplitude);
         // At m = 1 the last term is 0.
@@ -84,8 +84,8 @@ impl Cylinder {
         scale * (2.0 * m - m * m + log)
     }
 
-    /// The displacement on first loading to Q against a point at the depth `gauge`, m; with μP in the place of Q, that from
-    /// which all slips.
+    /// The displacement on first loading to Q against a point at
+    /// depth `gauge`, m; with Q = μP it is the onset of gross slip.
     pub fn shift(&self, force: f64, gauge: f64) -> f64 {
         let stuck = |a: f64| {
             let load = PI * self.e_star * a * a / (4.0 * self.radius);
@@ -99,7 +99,7 @@ impl Cylinder {
         self.friction * (stuck(self.half_width()) - stuck(self.stick_half_width(force)))
     }
 
-    /// b, m: where the scar ends that a permanent stick zone of half-width c leaves.
+    /// b, m: the end of the scar around a permanent stick zone of half-width c.
     pub fn scar_half_width(&self, c: f64) -> f64 {
         let ratio = (self.half_width() / c).powi(2);
         let theta = bisect(0.0, 20.0, |theta| {
@@ -149,7 +149,7 @@ mod tests {
         load: 0.7,
     };
 
-    /// Loads, volumes and work by quadrature of what stands beside them.
+    /// Checks loads, volumes and work by quadrature of the other closed forms.
     #[test]
     fn the_forms_agree_with_each_other() {
         let a = CYLINDER.half_width();

@@ -1,4 +1,4 @@
-//! Owned, read-only snapshots of one moment: all that files and screens see of a simulation.
+//! Owned, read-only snapshots of one moment: everything that files and screens see of a simulation.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::math::grid::RadialGrid;
 use crate::simulation::{Simulation, stability, traction};
 
 bitflags! {
-    /// Which curves a reader shows. What nobody shows is not computed.
+    /// The curves that a reader shows. Others are not computed.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct Curves: u8 {
         /// f.
@@ -33,14 +33,14 @@ bitflags! {
         const SHEAR = 1 << 4;
         /// u_x(r) of the surface: one transform.
         const SURFACE = 1 << 5;
-        /// Stick, slip or open, node by node.
+        /// Stick, slip or open at each node.
         const ZONES = 1 << 6;
         /// u_z(r) of the surface: one transform.
         const DEPRESSION = 1 << 7;
     }
 }
 
-/// What a node does at the moment.
+/// The state of a node at the moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Zone {
@@ -53,7 +53,7 @@ pub enum Zone {
 }
 
 impl Zone {
-    /// The name in files.
+    /// Returns the name used in files.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -70,8 +70,8 @@ pub struct Moment {
     pub depth: f64,
     /// u_x⁽⁰⁾, m.
     pub shift: f64,
-    /// The displacement of the rig's actuator, m, which its sensor sees: that of the indenter and of
-    /// the rig; `None` if the rig is stiff.
+    /// Displacement of the rig's actuator, m, which its sensor sees: the indenter's plus the rig's own; `None` if the
+    /// rig is stiff.
     pub rig_displacement: Option<f64>,
     /// F_z, N.
     pub normal_force: f64,
@@ -79,26 +79,26 @@ pub struct Moment {
     pub tangential_force: f64,
     /// a, m.
     pub contact_radius: f64,
-    /// c of this moment, m; none without tangential motion.
+    /// c at this moment, m; `None` without tangential motion.
     pub stick_radius: Option<f64>,
     /// The smallest c of the last period of the motion, m.
     pub permanent_stick_radius: Option<f64>,
-    /// V of the profile, m³, that of a scar which the run began with included.
+    /// V of the profile, m³, including a scar that the run began with.
     pub wear_volume: f64,
     /// V of that scar, m³; 0 without one.
     pub initial_volume: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
-    /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
-    /// and under laws that do not follow energy.
+    /// 1 − V/∫k dE_d: the disagreement of the 3D side and the 1D side. `None` before anything has worn and under laws
+    /// that do not follow energy.
     pub energy_residual: Option<f64>,
-    /// The largest stiffness that the method tolerates, relative to that of the last step or of its stiffest
-    /// sub-step: below 1 a sawtooth grows. `None` if nothing has worn in the step, and after a jump.
+    /// The largest stiffness that the method tolerates, relative to the stiffness of the last step or its stiffest
+    /// sub-step: below 1 a sawtooth grows. `None` if nothing wore in the step, and after a jump.
     pub stability_margin: Option<f64>,
 }
 
 impl Moment {
-    /// What the surface does at a radius (m).
+    /// Returns the state of the surface at a radius (m).
     pub fn zone_at(&self, r: f64) -> Zone {
         match self.stick_radius {
             _ if r >= self.contact_radius => Zone::Open,
@@ -107,26 +107,26 @@ impl Moment {
         }
     }
 
-    /// V/E_d of the run, m³/J = 1/Pa: what the wear coefficient of the whole test amounts to. None before
-    /// any work of friction.
+    /// Returns V/E_d of the run, m³/J = 1/Pa: the effective wear coefficient of the whole test. `None` before any
+    /// friction work.
     pub fn wear_per_energy(&self) -> Option<f64> {
         let worn = self.wear_volume - self.initial_volume;
         (self.dissipated_energy > 0.0).then(|| worn / self.dissipated_energy)
     }
 }
 
-/// The scalars and the curves that were asked for; a curve that was not is empty.
+/// The scalars and the requested curves; the other curves are empty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observation {
     /// The scalars.
     pub moment: Moment,
-    /// Round, or a line.
+    /// Geometry of the contact.
     pub geometry: Geometry,
     /// The transform method.
     pub method: AbelMethod,
-    /// The wear law's name; none without wear.
+    /// Name of the wear law; `None` without wear.
     pub law: Option<&'static str>,
-    /// Nodes r = x, and where the permanent stick zone ends among them.
+    /// Nodes r = x, with the border of the permanent stick zone among them.
     pub grid: RadialGrid,
     /// Nodes r = x, m.
     pub radii: Arc<[f64]>,
@@ -142,7 +142,7 @@ pub struct Observation {
     pub normal_load: Vec<f64>,
     /// q_x, N/m.
     pub tangential_load: Vec<f64>,
-    /// How both loads fall to zero at the end of a scar.
+    /// How each load falls to zero at the end of a scar, if it does.
     pub domes: [Option<Dome>; 2],
     /// u_x of the springs, m.
     pub spring: Vec<f64>,
@@ -159,15 +159,15 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// The worn depth f − f₀ at the radius `r`, m, as the transforms take it between nodes; needs
+    /// Returns the worn depth f − f₀ at the radius `r`, m, with the interpolation of the transforms; needs
     /// [`Curves::PROFILE`].
     pub fn worn_depth_at(&self, r: f64) -> f64 {
-        // Between nodes the interpolant may swing below zero by a little.
+        // Between nodes the interpolant may dip slightly below zero.
         worn::interpolate(&self.grid, &self.wear, r).max(0.0)
     }
 
-    /// The springs' load on a half-space of Poisson's ratio `poisson`, which its stresses follow from;
-    /// needs [`Curves::SPRINGS`], without which nothing is loaded.
+    /// Returns the springs' load on a half-space of Poisson's ratio `poisson`, from which its stresses follow; needs
+    /// [`Curves::SPRINGS`], otherwise the load is zero.
     pub fn spring_load(&self, poisson: f64) -> SpringLoad {
         let [of_normal, of_tangential] = self.domes;
         let normal = (&self.normal_load[..], of_normal);
@@ -179,7 +179,7 @@ impl Observation {
 }
 
 impl Observation {
-    /// The worn depths of the indenter and of the half-space at the node `j`, m, where the indenter takes `share`
+    /// Returns the worn depths of the indenter and of the half-space at the node `j`, m, if the indenter takes `share`
     /// of the wear. Their sum is the worn depth.
     pub fn wear_of_bodies(&self, share: f64, j: usize) -> [f64; 2] {
         let indenter = share * self.wear[j];
@@ -188,7 +188,7 @@ impl Observation {
 }
 
 impl Simulation {
-    /// The scalars of the present moment.
+    /// Returns the scalars of the present moment.
     pub fn moment(&self) -> Moment {
         let (state, contact) = (self.state(), &self.state().contact);
         let wear_volume = self.wear_volume();
@@ -219,9 +219,9 @@ impl Simulation {
         }
     }
 
-    /// 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs
-    /// of the 1D side. None without load. Between nodes p is linear in r², and falls like a root towards the edge, but
-    /// for that of a dome, which is even.
+    /// Returns 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs of the
+    /// 1D side. `None` without load. p is linear in r² between nodes and falls like a root towards the edge, except for
+    /// a dome's pressure, which is uniform.
     pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
         let contact = &self.state().contact.normal;
         let force = self.state().contact.normal_force(self.model());
@@ -245,12 +245,12 @@ impl Simulation {
         Some(1.0 - (inside + edge) / force)
     }
 
-    /// The present moment with the curves of `curves`.
+    /// Observes the present moment with the requested `curves`.
     pub fn observe(&self, curves: Curves) -> Observation {
         let (model, contact) = (self.model(), &self.state().contact);
         let nodes = model.nodes();
         let with_springs = model.springs() > 0;
-        // Springs that the scene does not have carry nothing.
+        // If the scene has no springs, they carry nothing.
         let or_zero = |values: &[f64]| {
             if with_springs {
                 values.to_vec()
@@ -311,7 +311,7 @@ impl Simulation {
                 let mut out = vec![0.0; nodes];
                 contact.depression(model, &mut out);
                 let (depth, inside, worn) = (contact.depth, contact.normal.nodes, worn());
-                // The surface of a line contact is told against its centre.
+                // In a line contact the surface is measured from its centre.
                 let centre = if self.setup().geometry.is_line() {
                     worn[0]
                 } else {

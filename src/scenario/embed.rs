@@ -1,5 +1,5 @@
-//! Tables that a scenario reads from files: read once, when the scenario is loaded, and stored in
-//! it as lists of numbers. So the scenario of a run, or a checkpoint, needs no other file.
+//! Embeds tables from files: they are read once, when the scenario is loaded, and stored in it as lists of numbers, so
+//! that the scenario of a run, or a checkpoint, needs no other file.
 
 use std::path::Path;
 

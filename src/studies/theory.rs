@@ -1,5 +1,4 @@
-//! Closed forms for the scenario on the screen, where they exist, to draw over the plots and to
-//! check the run.
+//! Closed forms for the scenario on the screen, if there are any, to draw over the plots and to check the run.
 
 use crate::contact::indenter::Indenter;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
@@ -14,13 +13,13 @@ use crate::simulation::{Setup, Unworn};
 /// The closed forms that apply.
 #[derive(Debug, Clone, Default)]
 pub struct Theory {
-    /// The permanent stick radius by Melan's theorem, m; none if there is no such zone.
+    /// The permanent stick radius by Melan's theorem, m; `None` without a permanent stick zone.
     pub stick_radius: Option<f64>,
     limit: Option<LimitingProfile>,
     line: Option<Line>,
     unworn: Option<(PowerLaw, f64)>,
     cattaneo: Option<CattaneoMindlin>,
-    /// 1/κ = μE*/G*: u_x over depth from which the unworn indenter slips as a whole.
+    /// 1/κ = μE*/G*: the ratio of u_x to depth at which gross slip of the unworn indenter begins.
     pub slip_per_depth: f64,
 }
 
@@ -68,7 +67,7 @@ fn branch(cycle: f64) -> Branch {
 }
 
 impl Theory {
-    /// What applies to the parts of a simulation.
+    /// Finds the closed forms for the parts of a simulation.
     pub fn of(setup: &Setup) -> Self {
         let e_star = setup.material.normal_modulus();
         if let Some(length) = setup.geometry.length() {
@@ -84,8 +83,8 @@ impl Theory {
         let Some((normal, tangential)) = drive.normal().displacement().zip(tangential) else {
             return theory;
         };
-        // The closed forms begin with the unworn indenter on a stiff rig. For other waveforms than sines they hold at
-        // the turning points alone.
+        // The closed forms begin with the unworn indenter on a stiff rig. For waveforms other than sines they only hold
+        // at the turning points.
         let is_stiff = setup.drive.rig_compliance() == 0.0;
         if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
             return theory;
@@ -115,7 +114,7 @@ impl Theory {
         theory
     }
 
-    /// What applies to a line of this `length` (m).
+    /// Finds the closed forms for a line contact of this `length` (m).
     fn of_line(setup: &Setup, length: f64) -> Self {
         let is_worn = setup.scar.is_some();
         let melan = Unworn::of(setup).melan().filter(|_| !is_worn);
@@ -150,7 +149,7 @@ impl Theory {
         }
     }
 
-    /// f∞(r), m: what wear leads to.
+    /// Returns f∞(r), m: the limiting profile of wear.
     pub fn limiting_profile(&self, radii: &[f64]) -> Option<Vec<f64>> {
         if let (Some(line), Some(stick)) = (&self.line, self.stick_radius) {
             let unworn = |x: f64| 0.5 * x * x / line.cylinder.radius;
@@ -161,8 +160,8 @@ impl Theory {
         Some(over(radii, |r| limit.profile(r)))
     }
 
-    /// About the deepest wear after `cycles` cycles, m: by Archard's law under the pressure of the unworn
-    /// contact, and never more than where wear ends. `None` where nothing slips, or without a closed form.
+    /// Estimates the deepest wear after `cycles` cycles, m, by Archard's law under the pressure of the unworn contact,
+    /// limited by the depth at which wear ends. `None` if nothing slips, or without a closed form.
     pub fn expected_wear(&self, setup: &Setup, cycles: Option<f64>) -> Option<f64> {
         let law = setup.wear?;
         let nodes = setup.grid.nodes();
@@ -179,7 +178,7 @@ impl Theory {
             Some(4.0 * law.coefficient() * stress * shift.amplitude() * cycles?)
         };
         let reached = by_law().into_iter().chain(settled).reduce(f64::min)?;
-        // A displacement holds no more than the depth that it presses to.
+        // Under a prescribed displacement, wear cannot exceed the largest depth.
         let most = setup.largest_depth().filter(|_| !setup.geometry.is_line());
         let most = most.unwrap_or(f64::INFINITY);
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
@@ -199,7 +198,7 @@ impl Theory {
         Some(depth * share.powf(power) * self.slip_per_depth)
     }
 
-    /// p(r), Pa, of the unworn indenter at a depth (m).
+    /// Returns p(r), Pa, of the unworn indenter at a depth (m).
     pub fn unworn_pressure(&self, depth: f64, radii: &[f64]) -> Option<Vec<f64>> {
         if let Some(line) = &self.line {
             let pressed = line.under(line.cylinder.e_star * depth);
@@ -231,12 +230,12 @@ impl Theory {
     }
 }
 
-/// The value at every radius.
+/// Evaluates a function at every radius.
 pub(super) fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
     radii.iter().map(|&r| value(r)).collect()
 }
 
-/// The profile as a power of r, where it is one.
+/// Returns the profile as a power law, if it is one.
 fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
     match *indenter {
         _ if indenter.tip_radius() > 0.0 => None,

@@ -1,4 +1,4 @@
-//! Where ghosts come from: files, states that the user freezes, and scenarios that run beside.
+//! Sources of ghosts: files, states frozen by the user, and scenarios run beside.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -12,15 +12,15 @@ use crate::scenario::session::{Session, SessionError};
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
 
-/// The most ghosts at once: each has a stroke of its own.
+/// Maximum number of ghosts; each has a different stroke.
 pub const MOST: usize = 4;
 
-/// Curves beside the run.
+/// Curves to compare the run with.
 #[derive(Debug, Clone)]
 pub struct Source {
     /// Its name, and its curves if they do not change.
     ghost: Arc<Ghost>,
-    /// The run whose curves at the same cycle they are, if there is one.
+    /// A run that computes its curves at the same cycle, if it is one.
     pub(super) beside: Option<Box<Beside>>,
 }
 
@@ -46,13 +46,13 @@ impl Source {
         Ok(Self::still(ghost))
     }
 
-    /// The present state of a run.
+    /// Freezes the present state of a run.
     pub(super) fn frozen(run: &Recorded) -> Self {
         let name = format!("cycle {:.2}", run.cycle());
         Self::still(ghost(&name, run, Curves::all()))
     }
 
-    /// A run that goes on as it was before it was changed.
+    /// Continues a run as it was before it was changed.
     pub(super) fn before(session: Session) -> Self {
         Self {
             ghost: Arc::new(Ghost::new("before")),
@@ -60,7 +60,7 @@ impl Source {
         }
     }
 
-    /// Curves that do not change.
+    /// Makes a source with fixed curves.
     fn still(ghost: Ghost) -> Self {
         Self {
             ghost: Arc::new(ghost),
@@ -68,12 +68,12 @@ impl Source {
         }
     }
 
-    /// What legends call it.
+    /// Returns its name in legends.
     pub(super) fn name(&self) -> &str {
         &self.ghost.name
     }
 
-    /// Its curves, `curves` of them if they are computed for each frame.
+    /// Returns its curves; if it is a run, those selected by `curves`.
     pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
         let Some(beside) = &self.beside else {
             return Arc::clone(&self.ghost);

@@ -4,6 +4,7 @@
 //! Lengths are in a₀ or d₀ throughout; each bound is a target, not a measured value, unless its test
 //! says so.
 
+use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
 use crate::common::{
     Scene, apart, as_published, cattaneo, fig3_motion, force, holds, in_steps, largest, limit,
     load, ours, rms, run, run_setup, swing,
@@ -12,7 +13,6 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B};
 use mdr_tui::math::abel::worn;
 use mdr_tui::math::grid::interpolate;
-use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Log};
 use mdr_tui::simulation::{Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};

@@ -67,7 +67,7 @@ impl Counted {
     /// Draws, and returns the bytes that this takes.
     fn draw(&mut self) -> usize {
         let screen = self.screen();
-        self.line.frame(screen).len()
+        self.line.chunk(&screen, usize::MAX).0.len()
     }
 }
 
@@ -82,6 +82,7 @@ fn take_few_bytes(
     of: fn(&mut Counted) -> usize,
 ) {
     let total: usize = (0..count).map(|_| of(counted) + REQUEST).sum();
+    eprintln!("bytes {} of {budget}", total / count);
     let (bytes, area) = (total / count, counted.explorer.app.explorer.stage.area);
     assert!(bytes <= budget, "{bytes} bytes per frame in {area}");
     assert_eq!(counted.draw(), 0, "a paused screen sends something");
@@ -195,7 +196,8 @@ fn meant(cell: &Cell) -> String {
     let mut screen = Buffer::empty(Rect::new(0, 0, COLUMNS as u16, ROWS as u16));
     screen[(0, 0)] = cell.clone();
     let mut parser = terminal();
-    parser.process(AnsiWriter::default().frame(screen).as_bytes());
+    let (text, _) = AnsiWriter::default().chunk(&screen, usize::MAX);
+    parser.process(text.as_bytes());
     seen(&parser, 0, 0)
 }
 
@@ -218,7 +220,7 @@ proptest! {
                 meant_cells.content[at].reset();
                 meant_cells.content[at].set_char(sign).set_style(style);
             }
-            parser.process(line.frame(meant_cells.clone()).as_bytes());
+            parser.process(line.chunk(&meant_cells, usize::MAX).0.as_bytes());
             for (at, cell) in meant_cells.content.iter().enumerate() {
                 let (row, column) = (at / COLUMNS, at % COLUMNS);
                 prop_assert_eq!(seen(&parser, row as u16, column as u16), meant(cell), "{} {}", row, column);

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Scene, apart, holds, ours, run_setup};
-use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::oracle::half_space::{
+use crate::closed_forms::half_space::{
     DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
     sliding_at_trailing_edge, sliding_inside,
 };
+use crate::common::{Scene, apart, holds, ours, run_setup};
+use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::subsurface::{SpringLoad, Stress};
 use mdr_tui::simulation::Simulation;

@@ -2,10 +2,10 @@
 //!
 //! The constants are about 1.5 times what was measured at N = 50 … 800.
 
+use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
 use crate::common::{Scene, cattaneo, fig3_motion, force, holds, largest, limit, near, run, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
-use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::fretting_loop::Branch;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;

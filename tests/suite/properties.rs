@@ -1,13 +1,13 @@
 //! What must hold whatever the numbers: linearity, similarity, signs, silence outside the contact,
 //! and states that stay finite at every extreme.
 
+use crate::closed_forms::abel_pairs::p_of_cut_power;
 use crate::common::{Scene, holds, largest, limit, ours, run, run_setup, swing};
 use crate::test_dir::has;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B};
 use mdr_tui::math::abel::AbelPlan;
 use mdr_tui::math::grid::RadialGrid;
-use mdr_tui::oracle::abel_pairs::p_of_cut_power;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Observation, Zone};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation, Target};

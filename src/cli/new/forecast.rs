@@ -1,5 +1,5 @@
-//! What closed forms say of a scenario before it is run: size and pressure of the unworn contact, and
-//! whether it will stick in the middle or slip as a whole.
+//! Predictions of closed forms before a scenario is run: size and pressure of the unworn contact, and whether it will
+//! be in partial or gross slip.
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
@@ -9,17 +9,17 @@ use crate::scenario::Scenario;
 use crate::simulation::drive::Oscillation;
 use crate::simulation::{Setup, Unworn};
 
-/// Seconds of a day.
+/// Seconds per day.
 const DAY: f64 = 86_400.0;
 
-/// The closed forms of a scenario whose tangential displacement is prescribed.
+/// The closed forms of a scenario with a prescribed tangential displacement.
 pub struct Forecast<'a> {
     setup: &'a Setup,
     shift: &'a Oscillation,
 }
 
 impl<'a> Forecast<'a> {
-    /// What is known of a scenario; `None` where nothing is moved by a displacement.
+    /// Returns the predictions for a scenario; `None` without a prescribed displacement.
     pub fn of(scenario: &'a Scenario) -> Option<Self> {
         let setup = scenario.setup();
         let shift = setup.drive.tangential()?.displacement()?;
@@ -40,7 +40,7 @@ impl<'a> Forecast<'a> {
         }
     }
 
-    /// Size and pressure of the unworn contact.
+    /// Describes size and pressure of the unworn contact.
     pub fn contact(&self) -> String {
         let value = |value: f64, unit: &str| format_value(value, unit, 3);
         let unworn = Unworn::of(self.setup);
@@ -66,7 +66,7 @@ impl<'a> Forecast<'a> {
         )
     }
 
-    /// The regime that the unworn contact is in.
+    /// Describes the regime of the unworn contact.
     pub fn regime(&self) -> String {
         let share = self.shift.amplitude() / self.threshold();
         let threshold = format_value(self.threshold(), "m", 3);
@@ -90,7 +90,7 @@ impl<'a> Forecast<'a> {
         }
     }
 
-    /// How many cycles of the test a day takes.
+    /// Says how many cycles the rig runs per day.
     pub fn a_day(&self) -> String {
         let frequency = self.shift.angular_frequency() / TAU;
         let (cycles, frequency) = (plain(frequency * DAY), plain(frequency));

@@ -4,7 +4,7 @@ use super::super::results;
 use super::*;
 use crate::studies::sweep::sensitivity;
 
-/// Runs the study of sensitivities and prints, or writes, its table.
+/// Runs the sensitivity study and prints or writes its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let pool = super::pool(options, usize::MAX)?;

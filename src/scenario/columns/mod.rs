@@ -20,7 +20,6 @@ mod names;
 mod text;
 
 pub use layout::Separator;
-pub use names::OWN;
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
@@ -74,7 +73,7 @@ pub struct Columns {
     pub names: Vec<String>,
     /// How the text is written: its encoding, its separators, its decimal mark.
     pub written: String,
-    /// The same names in units of [`OWN`], and what one of the file's units is worth in those.
+    /// The same names in units of [`UNITS`](crate::reading::column::UNITS), and what one of the file's units is worth in those.
     own: Vec<(String, f64)>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<Row>,
@@ -247,8 +246,8 @@ impl Columns {
     }
 
     /// Whether there is a column of this name, as `r_m`, in any unit of its kind.
-    pub fn has(&self, name: &str) -> bool {
-        self.find(name).is_some()
+    pub fn has(&self, name: impl AsRef<str>) -> bool {
+        self.find(name.as_ref()).is_some()
     }
 
     /// The numbers of the column `name`, as `r_m`, in the unit of the name, one per row.
@@ -278,11 +277,11 @@ impl Columns {
     /// If a column is missing, or one of its fields is neither a number nor a word for a missing one.
     pub fn whole_rows<const N: usize>(
         &self,
-        names: [&str; N],
+        names: [impl AsRef<str>; N],
     ) -> Result<([Vec<f64>; N], Vec<usize>), Refusal> {
         let mut places = [(0, 1.0); N];
         for (place, name) in places.iter_mut().zip(names) {
-            *place = self.place(name)?;
+            *place = self.place(name.as_ref())?;
         }
         let (mut columns, mut kept) = ([const { Vec::new() }; N], Vec::new());
         for (k, row) in self.rows.iter().enumerate() {
@@ -326,7 +325,7 @@ impl Columns {
         self.own.iter().enumerate().map(column).collect()
     }
 
-    /// Each column as it is in the file, its name in units of [`OWN`], and what one of its units is worth in those.
+    /// Each column as it is in the file, its name in units of [`UNITS`](crate::reading::column::UNITS), and what one of its units is worth in those.
     pub fn described(&self) -> impl Iterator<Item = (&str, &str, f64)> {
         let own = self.own.iter().enumerate();
         own.map(|(at, (own, size))| {

@@ -32,7 +32,7 @@ use super::{Scratch, deepest, refuse, steady_cycle};
 use crate::math::chebyshev;
 use crate::math::scan::largest;
 
-/// A jump must save this much: the cycles it covers over what its evaluation costs, in cycles.
+/// Minimum saving of a jump: cycles covered per cycle of evaluation.
 const WORTH: f64 = 1.5;
 
 /// A run whose wear up to its goal is at most this part of the error that a jump may have goes there at once.
@@ -44,37 +44,37 @@ const MOST_STAGES: usize = 40;
 /// The first jump wears this much at most, in depths and in units of the root of the tolerance.
 const FIRST: f64 = 0.3;
 
-/// The most cycles of a jump, also where nothing wears any more.
+/// Maximum length of a jump, in cycles, also if nothing wears any more.
 const LONGEST: f64 = 1e9;
 
-/// How many times its rms the error of a single node may be.
+/// Maximum error of a single node, relative to the rms.
 const PEAK: f64 = 10.0;
 
-/// The largest error of the friction work that a jump may make, relative to all of it, however shallow the scar is.
+/// Maximum error of the friction work by a jump, relative to all of it, however shallow the scar is.
 const LEAST_CERTAIN: f64 = 1e-4;
 
-/// The part of the domain beyond which a contact is given room before a jump is made shorter for the want of it.
+/// A contact beyond this fraction of the domain gets a wider domain before a jump is shortened for lack of room.
 const NEAR_EDGE: f64 = 0.8;
 
-/// Most periods of direct stepping before a jump is tried again.
+/// Maximum number of periods stepped directly before another try.
 const LONGEST_REST: u32 = 16;
 
-/// What came of a try to jump.
+/// Result of a try to jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in super::super) enum Jumped {
-    /// The state is that after the jump.
+    /// The state is the one after the jump.
     Done,
     /// The same, and without a goal the jump would have gone further.
     Shortened,
-    /// Jumps do not pay here: the state is as it was, and wants direct steps.
+    /// Jumps do not pay here: the state is unchanged, and needs direct steps.
     NotWorthIt,
-    /// No jump before the goal pays: direct steps up to there.
+    /// No jump before the goal pays: step directly up to there.
     TooNear,
-    /// The contact would grow beyond the domain: the state is as it was.
+    /// The contact would grow beyond the domain: the state is unchanged.
     WithoutRoom,
 }
 
-/// Whether the state is one that cycles can be jumped from: at the end of a period but the first.
+/// Whether cycles can be jumped from this state: at the end of any period but the first.
 pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
     let (Integrator::CycleJump { .. }, Some(period)) =
         (setup.integrator, setup.drive.repeats_after())
@@ -90,10 +90,10 @@ pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
         && state.cycle % period == 0.0
 }
 
-/// Jumps over at most `most` cycles, into `next`; where jumps do not pay, `next` is `state` with a rest.
+/// Jumps over at most `most` cycles, into `next`; if jumps do not pay, `next` is `state` with a rest.
 ///
-/// The first try is as long as it would be without a goal. A run that is saved where a jump has ended, its own goal far
-/// away, is repeated with that cycle as its goal: a shorter first try, rejected, would lead to other jumps.
+/// The first try is as long as it would be without a goal. A run saved at the end of a jump towards a distant goal is
+/// repeated with that cycle as its goal; a shorter first try, if rejected, would lead to other jumps.
 pub(in super::super) fn jump(
     model: &Model,
     state: &State,
@@ -154,9 +154,9 @@ pub(in super::super) fn jump(
 struct Search<'a> {
     model: &'a Model,
     state: &'a State,
-    /// What a cycle does there.
+    /// The cycle at that state.
     first: &'a SteadyCycle,
-    /// The springs there, shaken down.
+    /// The springs at that state, shaken down.
     springs: &'a State,
     spare: &'a mut State,
     scratch: &'a mut Scratch,
@@ -213,7 +213,7 @@ impl Search<'_> {
             return Err(Refused::TooShort(0.0));
         };
         let period = f64::from(setup.drive.cycles_to_settle());
-        // Under a held force the depth of indentation grows with the scar, and says nothing of the contact.
+        // Under a held force the depth of indentation grows with the scar, and says nothing about the contact.
         let depth = setup.depth_scale(first.elastic_depth);
         let near_edge = NEAR_EDGE * setup.grid.radius();
         let mut length = if state.jump.length > 0.0 {
@@ -235,17 +235,17 @@ impl Search<'_> {
             let tried = self.attempt(memory, covered, stages);
             let error = match &tried {
                 Ok(jump) => error(state, first, jump, tolerance * depth, tolerance),
-                // The state before the jump still has the springs as they were.
+                // The state before the jump still has the springs unchanged.
                 Err(cause) if cause.lacks_room() && state.contact.normal.radius > near_edge => {
                     return Err(Refused::WithoutRoom);
                 }
-                // What fails in the middle of a jump is left to a shorter one, or to direct steps.
+                // If a jump fails inside, a shorter one or direct steps take over.
                 Err(_) => f64::INFINITY,
             };
             let next = covered * (0.75 * error.powf(-1.0 / 3.0)).clamp(0.2, 2.0);
             match tried {
                 Ok(jump) if error <= 1.0 => {
-                    // A goal that was near says nothing about the next jump.
+                    // A goal that was near tells nothing about the next jump.
                     let next = if most < length {
                         next.max(length)
                     } else {
@@ -306,7 +306,7 @@ fn go_back(memory: &mut State, springs: &State) {
 
 /// Why there is no jump.
 enum Refused {
-    /// It would cover so few cycles that direct steps are better: how long it would have been, in cycles.
+    /// It would cover so few cycles that direct steps are better; the number of cycles.
     TooShort(f64),
     /// The contact is about to outgrow the domain.
     WithoutRoom,
@@ -342,15 +342,15 @@ fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, toleranc
     let work = chebyshev::error(covered, 0.0, jump.friction_work, before, after).abs();
     let total = state.ledger.dissipated_energy + jump.friction_work;
     let of_depth = f64::sqrt(sum / f64::max(count, 1.0)).max(largest / PEAK) / allowed;
-    // The part of the scar's depth that is allowed is allowed of the work as well.
+    // The error allowed for the work is the same fraction as for the scar's depth.
     let scar = deepest(&jump.wear).unwrap_or(f64::INFINITY);
     let of_scar = (allowed / scar).min(LEAST_CERTAIN).max(tolerance);
     of_depth.max(work / (of_scar * total).max(f64::MIN_POSITIVE))
 }
 
-/// The state after a jump from `state`, with the springs of `memory`.
+/// Returns the state after a jump from `state`, with the springs of `memory`.
 fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
-    // Rounding must not take work back where none is done any more.
+    // Rounding must not undo work when no more is done.
     let friction_work = jump.friction_work.max(0.0);
     let worn = scar_volume(model, &jump.wear) - scar_volume(model, &state.wear);
     let mut end = State {
@@ -380,15 +380,15 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
     }
     end.stats.jumps += 1;
     end.last.duration = 0.0;
-    // A jump has as many stages as it needs: the limit of a step is not its own.
+    // A jump has as many stages as it needs, so the limit of a step does not apply.
     end.last.stiffness = 0.0;
     end.last.growth.fill(0.0);
     end.last.wear.fill(0.0);
     end
 }
 
-/// Leaves the next periods to direct steps, ever more of them while jumps do not pay. What made jumps of `length`
-/// cycles too short may be over by then: the next one tried is twice as long.
+/// Leaves the next periods to direct steps, more each time while jumps do not pay. The obstacle to jumps of `length`
+/// cycles may be gone by then: the next try is twice as long.
 fn rest(setup: &Setup, state: &mut State, length: f64) {
     let patience = state.jump.patience.max(1);
     state.jump.rest_until = state.cycle + f64::from(patience * setup.drive.cycles_to_settle());

@@ -30,7 +30,7 @@ use crate::math::abel::kink;
 use crate::math::scan::{largest, leading};
 use crate::math::vector::add_to;
 
-/// A motion has turned where it has come no further since than this part of its amplitude.
+/// A motion has just turned if it has moved by less than this fraction of its amplitude since.
 const AT_TURN: f64 = 1e-9;
 
 /// What a cycle does once the springs have shaken down on the depth `worn` (m) with its 1D image (m), on average
@@ -54,7 +54,7 @@ pub(super) fn cycle(
     outcome
 }
 
-/// What looking at a steady-state period costs, in periods stepped directly.
+/// Returns the cost of evaluating a steady-state period, in periods stepped directly.
 pub(super) fn cost(setup: &Setup) -> f64 {
     if plain_swing(setup).is_some() {
         2.0 / setup.steps_in_a_cycle()
@@ -63,7 +63,7 @@ pub(super) fn cost(setup: &Setup) -> f64 {
     }
 }
 
-/// Solves the contact that is asked for on the profile in `scratch`, into `spare`.
+/// Solves the contact of the targets on the profile in `scratch`, into `spare`.
 fn solve(
     model: &Model,
     memory: &State,
@@ -75,7 +75,7 @@ fn solve(
     problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
 }
 
-/// Makes the contact in `spare` that of `memory`, at `cycle`.
+/// Moves the contact from `spare` to `memory`, at `cycle`.
 fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
     std::mem::swap(&mut memory.contact, &mut spare.contact);
     memory.cycle = cycle;
@@ -133,7 +133,7 @@ fn period(
     Ok(steady)
 }
 
-/// The tangential motion, where a cycle needs no steps.
+/// Returns the tangential motion, if a cycle needs no steps.
 fn plain_swing(setup: &Setup) -> Option<SpringMotion<'_>> {
     let swing = setup.drive.shift_of_springs()?;
     let is_plain = setup.drive.normal().oscillation().amplitude() == 0.0
@@ -144,7 +144,7 @@ fn plain_swing(setup: &Setup) -> Option<SpringMotion<'_>> {
     is_plain.then_some(swing)
 }
 
-/// A steady-state cycle of ±U at a depth that is held.
+/// Computes a steady-state cycle of ±U at a held depth.
 fn plain_cycle(
     model: &Model,
     memory: &mut State,
@@ -211,7 +211,7 @@ fn turn_back(model: &Model, contact: &mut Contact, swing: SpringMotion<'_>) {
     let (reach, amplitude) = (setup.material.reach(), swing.amplitude());
     let rises = if swing.rises_at_start() { 1.0 } else { -1.0 };
     let since = amplitude + rises * (swing.after_turns(0.0) - swing.mean());
-    // A cycle that ends at a turn ends a whole stroke.
+    // A cycle that ends at a turn ends a complete stroke.
     let (sign, since) = match since <= AT_TURN * amplitude {
         true => (-rises, 2.0 * amplitude),
         false => (rises, since),

@@ -28,6 +28,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow, ensure};
 
+use crate::reading::Column;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
@@ -81,15 +82,15 @@ pub enum Switch {
 /// How to fit.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// The cycles of each run; default: `run.cycles`, or the last cycle of the histories.
+    /// Number of cycles of each run; default: `run.cycles`, or the last cycle of the histories.
     pub cycles: Option<f64>,
     /// Whether outliers count less.
     pub robust: bool,
     /// Whether level, shift and tilt are fitted.
     pub nuisances: [Switch; 3],
-    /// Whether the stroke of the scenario is that of the loops.
+    /// Whether the scenario takes its stroke from the loops.
     pub takes_stroke: bool,
-    /// After how many seconds the search ends with the best that it has.
+    /// Seconds after which the search ends with the best result so far.
     pub budget: Option<f64>,
 }
 
@@ -263,8 +264,8 @@ impl Fit {
     /// `scenario` with these values of the keys.
     fn at(&self, scenario: &Scenario, theta: &[f64]) -> Result<Scenario, SessionError> {
         let keys = self.free.iter().zip(theta);
-        let values = keys.map(|(free, theta)| (&free.key, format!("{:e}", free.value(*theta))));
-        Ok(scenario.with_all(&values.collect::<Vec<_>>())?)
+        let values = keys.map(|(free, theta)| (free.key.as_str(), free.value(*theta)));
+        Ok(scenario.with_numbers(values)?)
     }
 
     /// What may be fitted beside the keys. A trace on one side of its zero may begin at the axis or run through it.
@@ -359,8 +360,9 @@ impl Fit {
 fn cycles(scenario: &Scenario, data: &[Measured], given: Option<f64>) -> Result<f64> {
     let planned = given.or(scenario.run().cycles).unwrap_or(0.0);
     let mut last = 0.0f64;
-    let over =
-        |set: &&Measured| set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != "energy_J";
+    let over = |set: &&Measured| {
+        set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != Column::Energy
+    };
     if data.iter().any(|set| over(&set)) {
         let session = Session::start(scenario.clone())?;
         for set in data.iter().filter(over) {

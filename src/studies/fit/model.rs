@@ -3,13 +3,14 @@
 use crate::contact::indenter::Indenter;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::{largest, value_at};
+use crate::reading::Column;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
 use crate::studies::measured::{Measured, Strokes};
 use crate::traces::Axes;
 
-/// What a run says of one data set, wherever its points lie.
+/// Prediction of a run for one data set, at arbitrary points.
 #[derive(Debug, Clone)]
 pub(super) enum Response {
     /// What has worn at the nodes, m, and the unworn shape where the profile was measured.
@@ -21,13 +22,13 @@ pub(super) enum Response {
 }
 
 impl Response {
-    /// The simulated values of a data set whose abscissae are off by `shift` and whose values by `level` and by `tilt`
-    /// per unit of its abscissa.
+    /// Returns the simulated values of a data set whose abscissae are off by `shift`, and whose values by `level` and
+    /// by `tilt` per unit of the abscissa.
     pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
         let plain = |i: usize, x: f64| match self {
             Self::Scar(grid, worn, unworn) => {
                 let r = (x - shift).abs();
-                // Nothing wears outside of the grid.
+                // Nothing wears outside the grid.
                 let depth = if r <= grid.radius() {
                     grid.interpolate(worn, r)
                 } else {
@@ -44,7 +45,7 @@ impl Response {
             .collect()
     }
 
-    /// The share of the points of a scar that lie where nothing has worn.
+    /// Returns the share of a scar's points where nothing has worn.
     pub fn unworn_share(&self, set: &Measured, shift: f64) -> f64 {
         let Self::Scar(grid, worn, _) = self else {
             return 0.0;
@@ -76,7 +77,7 @@ pub(super) fn simulate(
     for (i, set) in data.iter().enumerate() {
         let stops = match set.axes {
             Axes::LOOP => vec![set.cycle.unwrap_or(cycles)],
-            axes if axes.over_r() || axes.x == "energy_J" => vec![cycles],
+            axes if axes.over_r() || axes.x == Column::Energy => vec![cycles],
             axes => {
                 let per_cycle = per_cycle(session.simulation(), axes.x);
                 set.at.iter().map(|at| at / per_cycle).collect()
@@ -86,7 +87,7 @@ pub(super) fn simulate(
         responses.push(Response::History(vec![0.0; set.at.len()]));
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let is_over_energy = data.iter().any(|set| set.axes.x == "energy_J");
+    let is_over_energy = data.iter().any(|set| set.axes.x == Column::Energy);
     // E_d and what has worn by then: V, depth, approach.
     let mut course: Vec<[f64; 4]> = Vec::new();
     for (cycle, i, j) in moments {
@@ -110,7 +111,7 @@ pub(super) fn simulate(
                 *response =
                     Response::Scar(setup.grid.clone(), simulation.worn_depth().to_vec(), unworn);
             }
-            (Response::History(values), axes) if axes.x == "energy_J" => {
+            (Response::History(values), axes) if axes.x == Column::Energy => {
                 let column = |k: usize| course.iter().map(|row| row[k]).collect::<Vec<f64>>();
                 let (energies, worn) = (column(0), column(1 + quantity(axes)));
                 let found = set
@@ -129,19 +130,19 @@ pub(super) fn simulate(
 }
 
 /// What one cycle adds to an abscissa of histories.
-pub(super) fn per_cycle(simulation: &Simulation, over: &str) -> f64 {
+pub(super) fn per_cycle(simulation: &Simulation, over: Column) -> f64 {
     let drive = &simulation.setup().drive;
     match over {
-        "time_s" => drive.period(),
+        Column::Time => drive.period(),
         // The path of the actuator: four amplitudes.
-        "distance_m" => drive
+        Column::Distance => drive
             .tangential()
             .map_or(f64::NAN, |control| 4.0 * control.oscillation().amplitude()),
         _ => 1.0,
     }
 }
 
-/// V, the largest depth and the approach since the start.
+/// Returns V, the largest depth and the approach since the start.
 fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
     let moment = simulation.moment();
     [
@@ -151,11 +152,11 @@ fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
     ]
 }
 
-/// Which of these a history tells.
+/// Returns which of these a history contains.
 fn quantity(axes: Axes) -> usize {
     match axes.y {
-        y if y == Axes::DEPTH.y => 1,
-        "approach_m" => 2,
+        Column::ScarDepth => 1,
+        Column::Approach => 2,
         _ => 0,
     }
 }

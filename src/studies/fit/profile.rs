@@ -7,13 +7,13 @@
 use super::report::Fitted;
 use super::search::{Found, Search};
 
-/// Keys whose logarithm has a larger standard error than this have an interval.
+/// Keys whose logarithm has a larger standard error get an interval.
 const VAGUE: f64 = 0.15;
 
-/// Σz² rises by so much, in units of the variance of z, at two standard errors.
+/// The rise of Σz² at two standard errors, in units of the variance of z.
 const RISE: f64 = 4.0;
 
-/// Steps away from the minimum, in e-folds; beyond the last one a key has no limit.
+/// Steps away from the minimum, in e-folds; a key without a limit up to the last one has none.
 const STEPS: [f64; 6] = [0.2, 0.5, 1.1, 2.2, 3.4, 4.6];
 
 /// Adds the intervals of keys that need them.
@@ -81,7 +81,7 @@ fn end(
     };
     let mut before = (0.0, 0.0);
     for step in STEPS {
-        // Where the contact cannot be computed, nothing was measured.
+        // If the contact cannot be computed, it cannot have been measured.
         let Some(rise) = rise_at(step) else {
             return Some(search.fit.free[i].moved(theta[i], sense * step));
         };

@@ -1,4 +1,4 @@
-//! What a fit tells: keys with their errors, nuisances, and how well each data set is matched.
+//! Results of a fit: keys with their errors, nuisances, and how well each data set is matched.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,9 +12,8 @@ use super::structure::Structure;
 use crate::math::scan::rms;
 use crate::scenario::Scenario;
 use crate::studies::measured::Measured;
-use crate::traces::unit_of;
 
-/// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
+/// Beyond this standard error of a logarithm, or correlation, the data hardly determine a key.
 const VAGUE: f64 = 0.5;
 const ALIKE: f64 = 0.95;
 
@@ -31,12 +30,12 @@ pub struct Value {
     pub value: f64,
     /// Its standard error; `None` if the data do not determine it.
     pub stderr: Option<f64>,
-    /// How much a finer computation may move it; `None` if it is not determined.
+    /// Possible change by a finer computation; `None` if not determined.
     pub numerical_error: Option<f64>,
     /// The ends of two standard errors by the profile of the likelihood, where its error is no symmetric one; an end is
     /// `None` if the data set none.
     pub interval: Option<[Option<f64>; 2]>,
-    /// Its correlations with the other keys; 0 with a key that is not determined.
+    /// Its correlations with the other keys; 0 with an undetermined key.
     pub correlations: BTreeMap<String, f64>,
 }
 
@@ -45,7 +44,7 @@ pub struct Value {
 pub struct Nuisance {
     /// `baseline`, `level`, `centre`, `shift` or `tilt`.
     pub name: &'static str,
-    /// Its unit: that of the values, of the abscissae, or their ratio.
+    /// Its unit: the values', the abscissae's, or their ratio.
     pub unit: String,
     /// The value at the minimum.
     pub value: f64,
@@ -53,34 +52,34 @@ pub struct Nuisance {
     pub stderr: f64,
 }
 
-/// How a data set is matched.
+/// The match of a data set.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SetResult {
-    /// The file.
+    /// Name of the file.
     pub file: String,
-    /// The points that were compared.
+    /// Number of compared points.
     pub points: usize,
-    /// What was left out or put right before.
+    /// What was left out or corrected beforehand.
     pub notes: Vec<String>,
-    /// What was fitted beside the keys.
+    /// Nuisances fitted besides the keys.
     pub nuisances: Vec<Nuisance>,
     /// Whether its residuals are noise.
     #[serde(flatten)]
     pub structure: Structure,
     /// Where the points lie, in the unit of the file's abscissa in SI.
     pub at: Vec<f64>,
-    /// Measured less simulated values, zeros and tilt taken off.
+    /// Measured minus simulated values, without zeros and tilt.
     pub residuals: Vec<f64>,
 }
 
-/// What came of a fit.
+/// The result of a fit.
 #[derive(Debug)]
 pub struct Fitted {
-    /// The keys in the order in which they were asked for.
+    /// The keys in the requested order.
     pub values: Vec<Value>,
-    /// How each data set is matched.
+    /// The match of each data set.
     pub sets: Vec<SetResult>,
-    /// Where data do not determine a key, or the model not the data, in a line each.
+    /// One line for each key that the data do not determine, and each data set that the model does not match.
     pub remarks: Vec<String>,
     /// The scenario with the fitted values.
     pub scenario: Scenario,
@@ -156,7 +155,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
         let left = residuals(set, simulated);
         let spent: f64 = errors.leverages[place].iter().sum();
         let freedom = freedom(left.len(), spent);
-        let (values, abscissae) = (set.axes.unit(), unit_of(set.axes.x));
+        let (values, abscissae) = (set.axes.y.unit(), set.axes.x.unit());
         let column = usize::from(!set.axes.over_r());
         let mut nuisances = Vec::new();
         for k in (0..3).filter(|&k| search.nuisances[i].active[k]) {
@@ -189,7 +188,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
 }
 
 impl SetResult {
-    /// The root of the mean square of its residuals.
+    /// Returns the root mean square of its residuals.
     pub fn rms(&self) -> f64 {
         rms(&self.residuals)
     }

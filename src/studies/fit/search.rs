@@ -18,7 +18,7 @@ use crate::scenario::Scenario;
 use crate::scenario::session::SessionError;
 use crate::studies::measured::Measured;
 
-/// The least error of a data set, relative to its own size: exact data must not weigh without end.
+/// Minimum error of a data set, relative to its own size: exact data must not get infinite weight.
 const LEAST_ERROR: f64 = 1e-4;
 
 /// The standard deviation of normal noise in medians of its size.
@@ -43,7 +43,7 @@ const ENOUGH_STEPS: u64 = 10_000;
 /// A step of the search changes Σz² by less than this part of it at the minimum: in the coarse search, and after it.
 const TOLERANCES: [f64; 2] = [1e-4, 1e-6];
 
-/// Runs that are remembered.
+/// Number of runs remembered.
 const REMEMBERED: usize = 8;
 
 type Responses = Rc<Vec<Response>>;
@@ -60,7 +60,7 @@ pub(super) struct Search<'a> {
     pub is_coarse: bool,
     on_run: &'a dyn Fn(),
     in_time: &'a dyn Fn() -> bool,
-    /// The fewest steps that a run has needed.
+    /// Smallest number of steps of a run.
     fewest_steps: Cell<u64>,
     remembered: RefCell<Vec<(Vec<u64>, Responses)>>,
 }
@@ -68,7 +68,7 @@ pub(super) struct Search<'a> {
 /// A minimum.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
-    /// The keys, positive ones by their logarithms.
+    /// The keys, positive ones as logarithms.
     pub theta: Vec<f64>,
     /// Level, shift and tilt of each data set.
     pub nuisances: Vec<[f64; 3]>,
@@ -460,7 +460,7 @@ fn first_errors(set: &Measured) -> Vec<f64> {
     given.unwrap_or_else(|| vec![size; set.values.len()])
 }
 
-/// Measured less simulated.
+/// Returns measured minus simulated values.
 pub(super) fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
     let pairs = measured.values.iter().zip(simulated);
     pairs.map(|(value, simulated)| value - simulated).collect()

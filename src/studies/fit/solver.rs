@@ -6,7 +6,7 @@ use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
 use crate::scenario::schema::{self, Kind, Range};
 use crate::scenario::{Refusal, Scenario, units};
 
-/// By how many e-folds a positive key may move.
+/// Maximum range of a positive key, in e-folds.
 const FARTHEST: f64 = 9.3;
 
 /// The step of differences, of a logarithm or relative to a value: the scenario is planned anew for
@@ -16,7 +16,7 @@ const STEP: f64 = 3e-3;
 /// The residual of every point where the contact cannot be computed: no minimum lies there.
 const HOPELESS: f64 = 1e6;
 
-/// A key that is fitted.
+/// A fitted key.
 #[derive(Debug, Clone)]
 pub(super) struct Free {
     /// The dotted path.
@@ -84,7 +84,7 @@ impl Free {
         })
     }
 
-    /// The value of the key.
+    /// Returns the value of the key.
     pub fn value(&self, theta: f64) -> f64 {
         if self.positive { theta.exp() } else { theta }
     }
@@ -94,7 +94,7 @@ impl Free {
         self.positive
     }
 
-    /// `theta` moved by so many e-folds, or as many times the size of the value, within its range.
+    /// Returns `theta` moved by so many e-folds, or by that multiple of the value, within its range.
     pub fn moved(&self, theta: f64, step: f64) -> f64 {
         let step = if self.positive {
             step
@@ -113,7 +113,7 @@ impl Free {
         (theta + step).clamp(inside(low, STEP), inside(up, -STEP).max(inside(low, STEP)))
     }
 
-    /// The standard error of the value.
+    /// Returns the standard error of the value.
     pub fn error(&self, theta: f64, error: f64) -> f64 {
         error * if self.positive { theta.exp() } else { 1.0 }
     }
@@ -126,7 +126,7 @@ impl Free {
         }
     }
 
-    /// The step of differences around `theta`.
+    /// Returns the step of differences around `theta`.
     pub fn step(&self, theta: f64) -> f64 {
         match self.positive {
             true => STEP,

@@ -1,35 +1,36 @@
-//! Whether residuals are noise: their size against that of neighbouring differences, and the runs of their signs.
+//! Tests whether residuals are noise: compares their size with
+//! neighbouring differences, and counts runs of their signs.
 
 use serde::Serialize;
 
-/// What the residuals of a data set tell.
+/// Statistics of the residuals of a data set.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Structure {
-    /// χ² per degree of freedom: by the errors of the file, or by the noise that neighbouring residuals show.
+    /// χ² per degree of freedom: by the errors of the file, or by the noise between neighbouring residuals.
     pub chi_squared: f64,
-    /// The probability of so large a χ² by the chance that lies in that noise; 0 by the errors of the file.
+    /// Probability of so large a χ² by chance, given that noise; 0 with the errors of the file.
     pub chi_squared_probability: f64,
     /// Runs of one sign.
     pub runs: usize,
-    /// How many runs chance would have.
+    /// Expected number of runs by chance.
     pub expected_runs: f64,
-    /// The probability of so few runs by chance.
+    /// Probability of so few runs by chance.
     pub probability: f64,
 }
 
-/// χ² per degree of freedom above this is said.
+/// χ² per degree of freedom above which a remark is made.
 const MOST_CHI_SQUARED: f64 = 2.0;
 
-/// Runs of signs less probable than this are said.
+/// Probability of the runs below which a remark is made.
 const LEAST_PROBABILITY: f64 = 1e-3;
 
-/// The probability of a normal value below `z`.
+/// Returns the probability of a normal value below `z`.
 fn below(z: f64) -> f64 {
     0.5 * libm::erfc(-z / std::f64::consts::SQRT_2)
 }
 
 impl Structure {
-    /// Of residuals in the order of the points and their given errors, with so many degrees of `freedom`.
+    /// Tests residuals in the order of the points, with their given errors and so many degrees of `freedom`.
     pub fn new(residuals: &[f64], errors: Option<&[f64]>, freedom: f64) -> Self {
         let squares =
             |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
@@ -86,7 +87,7 @@ impl Structure {
         }
     }
 
-    /// Why the residuals are no noise; `None` if they may be.
+    /// Explains why the residuals are not noise; `None` if they may be.
     pub fn remark(&self, name: &str) -> Option<String> {
         let Self {
             chi_squared,

@@ -1,6 +1,7 @@
 //! A map of heights or depths over x and y, averaged around the axis of its scar, or along the scar of a line contact.
 
 use super::{FEWEST, Measured, span};
+use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::scenario::columns::Columns;
 use crate::traces::Axes;
@@ -42,7 +43,7 @@ fn scatter(rings: &[Ring]) -> f64 {
 
 /// Reads a map; its axis is where the values of each ring differ least.
 pub(super) fn read(columns: &Columns, axes: Axes) -> Result<Measured, Refusal> {
-    let ([x, y, z], rows) = columns.whole_rows(["x_m", "y_m", axes.y])?;
+    let ([x, y, z], rows) = columns.whole_rows([Column::X, Column::Y, axes.y])?;
     let width = span(&x).min(span(&y));
     if x.len() < RINGS || width == 0.0 {
         return Err(columns.refuse(format!("a map needs {RINGS} rows or more, over an area")));

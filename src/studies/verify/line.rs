@@ -1,4 +1,4 @@
-//! A cylinder on a flat with a = R = E* = 1: first loading, and the end of all wear.
+//! A cylinder on a flat with a = R = E* = 1: first loading, and the limit of wear.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -15,13 +15,13 @@ use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Breakdown, Setup, Simulation};
 use crate::wear::WearLaw;
 
-/// ℓ/a, of no effect under forces.
+/// ℓ/a, irrelevant under forces.
 const GAUGE: f64 = 10.0;
 
 /// L/a, beyond the end of the scar.
 const DOMAIN: f64 = 1.3;
 
-/// Q/(μP), k E* and the cycles of the run to the limit.
+/// Q/(μP), k E* and the number of cycles of the run to the limit.
 const SHARE: f64 = 0.5;
 const WEAR: f64 = 3.0;
 const CYCLES: f64 = 400.0;
@@ -35,7 +35,7 @@ fn cylinder() -> Cylinder {
     }
 }
 
-/// One metre of it, under a tangential force of this amplitude.
+/// Returns one metre of it, under a tangential force of this amplitude.
 fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setup {
     let force = |mean, amplitude| {
         let force = Oscillation::new(mean, amplitude, 1.0, 0.0);
@@ -54,7 +54,7 @@ fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setu
     }
 }
 
-/// τ and slip after a quarter of a cycle without wear, c about a/2.
+/// Computes errors of τ and slip after a quarter of a cycle without wear, c about a/2.
 pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
     let exact = cylinder();
@@ -73,7 +73,7 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     ])
 }
 
-/// The worn depth after a long run.
+/// Computes errors of the worn depth after a long run.
 pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let exact = cylinder();
     let force = SHARE * exact.friction * exact.load;

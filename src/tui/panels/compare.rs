@@ -1,5 +1,5 @@
-//! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts lie
-//! over each plot, in the difference as their own from this run.
+//! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts are drawn over
+//! each plot; in the difference, by how much they differ from this run.
 
 use super::*;
 use crate::charts::{A, C, Live, ghosts};
@@ -8,23 +8,23 @@ use crate::plot::{Axis, nice_bounds};
 use crate::traces::Axes;
 use crate::tui::beside::{Comparison, name_of};
 
-/// Least width of a column of numbers, cells.
+/// Minimum width of a column of numbers, in cells.
 const COLUMN: usize = 11;
 
-/// The difference is not drawn below this width.
+/// Minimum width of the difference, in cells; a narrower one is not drawn.
 const NARROWEST: u16 = 17;
 
 /// The title of the difference.
 const DIFFERENCE: &str = "difference of f";
 
 /// The explanation of a comparison, which takes the place of all panels.
-pub static RECIPE: Recipe = Recipe {
+pub static RECIPE: Recipe<()> = Recipe {
     title: "comparison",
     text: "Two methods run side by side from one state: both profiles, both pressures, and below them the size \
            of the difference of the profiles, which is logarithmic. m and M change the second method, C begins \
            at the start of the scenario, c ends the comparison.",
     symbols: &[A, C, ("side by side", "the same numbers of both runs")],
-    ..Recipe::new(|_, _| Err(""))
+    ..Recipe::new(())
 };
 
 /// Draws the comparison over the whole area of the panels, with a cursor at a radius, m, if there is one.
@@ -35,7 +35,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     let [left, right] = halves.spacing(1).areas(top);
     let (seen, other) = (&frame.observation, &comparison.observation);
     let run = &frame.run;
-    // What has worn in the second run, and in ghosts, less what has worn in this one.
+    // The worn depth of the second run and of ghosts, minus the worn depth of this run.
     let mut differences = ghosts::worn(run, None);
     differences.push(Curve::new("", &*other.radii, &*other.wear, Role::Slip));
     for curve in &mut differences {
@@ -49,7 +49,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     let cells = rows.iter().flat_map(|(_, cells)| cells);
     let widths = cells.map(|cell| cell.chars().count());
     let column = widths.fold(COLUMN, usize::max);
-    // The numbers must not be cut; the difference gets the rest, if that is wide enough.
+    // The numbers must not be cut; the difference gets the rest, if it is wide enough.
     let table = 17 + 2 * column as u16;
     let left_over = bottom.width.saturating_sub(table + 1);
     let columns = Layout::horizontal([Fill(1), Length(table)]);
@@ -78,14 +78,14 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
         .curves(pair_of_pressures);
     render(&pressures, right);
     let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
-    // Interpolation at the very nodes rounds.
+    // Interpolation exactly at the nodes leaves rounding errors.
     let deepest = seen.wear.iter().copied().fold(0.0, f64::max);
     if highest <= 1e-12 * deepest {
         let mut canvas = canvas.at(below);
         let mut inside = canvas.titled(DIFFERENCE, Role::Title);
         inside.say("equal so far\nC: from the start", Role::Quiet);
     } else {
-        // Six decades: what lies below is rounding.
+        // Six decades: anything smaller is rounding error.
         let decade = highest.log10().ceil();
         let bounds = [10f64.powf(decade - 6.0), 10f64.powf(decade)];
         let ordinate = Axis::new("|difference|", "m").scale(Scale::Log);
@@ -103,7 +103,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     inside.say(&lines.join("\n"), Role::Quiet);
 }
 
-/// The numbers of both runs: a name and the two values.
+/// Returns the numbers of both runs: a name and two values per row.
 fn rows(
     frame: &Frame,
     comparison: &Comparison,

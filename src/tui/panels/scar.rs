@@ -16,26 +16,24 @@ use crate::plot::step::Step;
 use crate::plot::theme::look_of;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "scar from above",
-        needs: Curves::PROFILE.union(Curves::SPRINGS),
-        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
-               the right half the worn depth in colours. The arrow shows which way the indenter slips.",
-        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: depths,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "scar from above",
+    needs: Curves::PROFILE.union(Curves::SPRINGS),
+    text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
+           the right half the worn depth in colours. The arrow shows which way the indenter slips.",
+    symbols: &[("s ~ .", "stick, slip, open (without colours)")],
+    ..Recipe::new(Picture {
+        draw,
+        extent: depths,
+    })
 };
 
-/// The width, cells, from which the legend fits in one line, and the height from which it gets two
-/// lines below that width.
+/// Minimum width, in cells, for a legend on one line, and minimum height for two lines below that width.
 const ONE_LINE: u16 = 64;
 const TWO_LINES: u16 = 10;
 
-/// The colour of the disc at `x` and `y` from its middle (m), and the sign that stands for it without colours; depths
-/// have those between 0 and `deepest`.
+/// Returns the colour of the disc at `x` and `y` from its centre (m), and the character that replaces it without
+/// colours. The colours of depths range from 0 to `deepest`.
 fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
     let seen = &frame.observation;
     let r = if seen.geometry.is_line() {
@@ -51,12 +49,12 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
         return (theme.style(role).fg, sign);
     }
     let depth = interpolate(&seen.radii, &seen.wear, r);
-    let shade = shades::shade(depth, [0.0, deepest]);
-    let color = shades::color(theme, ColorMap::Sequential, shade);
-    (color, shades::SIGNS[shade])
+    let share = shades::share(depth, [0.0, deepest]);
+    let color = shades::color(theme, ColorMap::Sequential, share);
+    (color, shades::sign(shades::SIGNS, share))
 }
 
-/// The depths that the colours span, m.
+/// Returns the range of depths that the colours cover, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
     let deepest = largest(&frame.observation.wear);
     (deepest > 0.0).then_some([0.0, deepest])
@@ -64,7 +62,7 @@ fn depths(frame: &Frame) -> Option<[f64; 2]> {
 
 fn draw(of: &Shown, mut canvas: Canvas) {
     let frame = of.frame;
-    let mut canvas = canvas.titled(PICTURE.recipe.title, of.role);
+    let mut canvas = canvas.titled(RECIPE.title, of.role);
     let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
     let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
         return;
@@ -74,7 +72,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
-    // Nothing has worn yet where there are no bounds.
+    // Without bounds, nothing has worn yet.
     let deepest = of
         .bounds
         .map_or(frame.facts.expected_wear, |bounds| bounds[1]);
@@ -100,7 +98,8 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     legend(frame, [size, deepest], canvas);
 }
 
-/// Where the sliding parts of the indenter move: with the traction that they exert.
+/// Returns the direction in which the sliding parts of the indenter move, which is the direction of the traction that
+/// they exert.
 fn slip_direction(frame: &Frame) -> Option<f64> {
     let seen = &frame.observation;
     let (a, stick) = (seen.moment.contact_radius, seen.moment.stick_radius?);
@@ -109,12 +108,12 @@ fn slip_direction(frame: &Frame) -> Option<f64> {
     (stick < a).then(|| load.signum())
 }
 
-/// The lines of the legend.
+/// Returns the number of lines of the legend.
 fn legend_lines(area: Rect) -> u16 {
     1 + u16::from(area.width < ONE_LINE && area.height >= TWO_LINES)
 }
 
-/// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
+/// Draws the scale bar, the direction of slip, and the scale of the depth, as far as there is room.
 fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
     let value = |value| format_value(value, "m", 3);

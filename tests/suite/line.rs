@@ -370,7 +370,7 @@ impl Bem {
 /// Thirty cycles of wear in partial slip, by both codes.
 #[test]
 fn boundary_elements_wear_alike() {
-    let (k, cycles, steps) = (0.2, 30, 32);
+    let (k, cycles, steps) = (0.2, 30, 64);
     let bem = Bem::new(100, 1.25);
     let mut f: Vec<f64> = bem.x.iter().map(|x| 0.5 * x * x).collect();
     let (unworn, mut tau) = (f.clone(), vec![0.0; f.len()]);
@@ -409,5 +409,5 @@ fn boundary_elements_wear_alike() {
         errors.map(|(&x, worn)| ours.setup().grid.interpolate(ours.worn_depth(), x) - worn);
     let mean = errors.map(|error| error * error).sum::<f64>() / bem.x.len() as f64;
     let rms = mean.sqrt() / deepest;
-    assert!(rms < 3e-3 && of_volume < 3e-3, "{rms:e} {of_volume:e}");
+    assert!(rms < 2e-3 && of_volume < 4e-3, "{rms:e} {of_volume:e}");
 }

@@ -11,7 +11,7 @@ use super::{Job, Safe};
 use crate::cli::args::Run;
 use crate::cli::job::RunJob;
 use crate::cli::{accuracy, given};
-use crate::export::autosave::{Autosave, Recent, state_directory};
+use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{WriteError, directory_of};
 use crate::export::own_directory;
 use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};

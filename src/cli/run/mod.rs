@@ -1,6 +1,7 @@
 //! `mdr-tui run`: the simulation without a screen.
 
 use std::fs;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};

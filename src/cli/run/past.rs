@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 
 use super::file_of;
-use crate::cli::job::rows_sum;
 use crate::cli::job::{RunJob, rows_sum};
 use crate::cli::{complain, provenance};
 use crate::export::file::write_whole_with;

@@ -77,21 +77,21 @@ fn hertz_and_cattaneo_are_exact() {
     );
     let gauge = run.setup().drive.gauge_length().expect("a gauge");
     is_near(moment.shift, CYLINDER.shift(FORCE, gauge), 1e-10);
-    assert!(run.force_residual(&seen.pressure).expect("a load").abs() < 1e-3);
-    for (j, &x) in seen.radii.iter().enumerate() {
+    assert!(run.force_residual(seen.pressure()).expect("a load").abs() < 1e-3);
+    for (j, &x) in seen.radii().iter().enumerate() {
         let (p, tau) = (CYLINDER.pressure(1.0, x), CYLINDER.shear(FORCE, x));
         assert!(
-            (seen.pressure[j] - p).abs() < 1e-13,
+            (seen.pressure()[j] - p).abs() < 1e-13,
             "{x}: {:e}",
-            seen.pressure[j] - p
+            seen.pressure()[j] - p
         );
         assert!(
-            (seen.shear[j] - tau).abs() < 1e-13,
+            (seen.shear()[j] - tau).abs() < 1e-13,
             "{x}: {:e}",
-            seen.shear[j] - tau
+            seen.shear()[j] - tau
         );
         if x <= 1.0 {
-            let slip = seen.spring[0] - seen.surface[j] - CYLINDER.slip(FORCE, x);
+            let slip = seen.spring()[0] - seen.surface()[j] - CYLINDER.slip(FORCE, x);
             assert!(slip.abs() < 1e-13, "{x}: {slip:e}");
         }
     }

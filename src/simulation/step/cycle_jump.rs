@@ -176,12 +176,16 @@ impl Search<'_> {
         loop {
             let covered = (length.min(most).min(LONGEST) / period).floor() * period;
             let stages = chebyshev::stages_for(covered * stiffest);
+            let is_implicit = stages > most_stages;
+            if is_implicit && steady_cycle::is_even(setup, first) {
+                length = 0.5 * covered;
+                continue;
+            }
             // An implicit step costs as much as an explicit one of the most stages.
             let price = stages.min(most_stages) as f64 * steady_cycle::cost(setup) * period;
             if covered < (WORTH * price).max(period) {
                 return Err(Refused::TooShort(length));
             }
-            let is_implicit = stages > most_stages;
             let means = self.means(memory);
             let tried = match is_implicit {
                 true => means.implicit(covered),

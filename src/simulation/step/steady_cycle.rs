@@ -18,7 +18,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::contact::{self, Contact};
-use super::super::drive::{SpringMotion, Targets};
+use super::super::drive::{Control, SpringMotion, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::setup::Setup;
@@ -64,6 +64,13 @@ pub(super) fn cost(setup: &Setup) -> f64 {
     } else {
         4.0 / 3.0
     }
+}
+
+/// Whether cycles wear evenly and for ever: under a held force all of the contact slips, without a normal motion. Implicit
+/// jumps would wear less at its edge than friction works.
+pub(super) fn is_even(setup: &Setup, steady: &SteadyCycle) -> bool {
+    let is_held = matches!(setup.drive.normal(), Control::Force(_));
+    is_held && steady.stick_radius == 0.0 && plain_swing(setup).is_some()
 }
 
 /// Solves the contact that is asked for on the profile in `scratch`, into `spare`.

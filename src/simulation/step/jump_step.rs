@@ -104,10 +104,14 @@ impl Means<'_> {
         let rates = [first, &steady].map(|cycle| model.volume(&cycle.wear));
         let works = [first, &steady].map(|cycle| cycle.friction_work);
         let [falls, less] = [rates, works].map(|[before, after]| before - after);
-        let per_volume = if falls > 0.0 {
-            (less / falls).min(works[0] / rates[0]).max(0.0)
+        let of_all = if rates[0] > 0.0 {
+            works[0] / rates[0]
         } else {
             0.0
+        };
+        let per_volume = match falls > 0.0 {
+            true => (less / falls).min(of_all).max(0.0),
+            false => of_all,
         };
         let trapezoid = |[before, after]: [f64; 2]| 0.5 * covered * (before + after);
         Ok(Jump {

@@ -89,6 +89,15 @@ impl WinklerFoundation {
         2.0 * (kinked + self.cusp_integral(&load.nodal, contact))
     }
 
+    /// The compression of the first `touching` springs that carries as much as `values` do.
+    pub fn mean(&self, values: &[f64], touching: usize) -> f64 {
+        if self.geometry.is_line() {
+            return values[0];
+        }
+        let all: f64 = self.weights[..touching].iter().sum();
+        weighted_first(&self.weights, values, touching) / all
+    }
+
     /// A dome with what its integral has beyond that of its polyline.
     pub fn measured(&self, dome: Dome) -> Dome {
         let Dome { edge, last, .. } = dome;

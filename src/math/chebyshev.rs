@@ -43,6 +43,15 @@ pub fn stages_for(stiffness: f64) -> usize {
     MOST
 }
 
+/// How stiff a step of so many stages may be.
+pub fn reach(stages: usize) -> f64 {
+    let (mut one, mut two) = ([W0, 1.0, 0.0], [1.0, 0.0, 0.0]);
+    for _ in FEWEST_STAGES..=stages {
+        (one, two) = (next(one, two), one);
+    }
+    (W0 + 1.0) * one[2] / one[1]
+}
+
 /// T, T′ and T″ of a degree at w₀ from those of the two before it.
 fn next(one: [f64; 3], two: [f64; 3]) -> [f64; 3] {
     [

@@ -1,7 +1,7 @@
 //! A checkpoint: a session saved in one file and restored bit for bit.
 //!
 //! ```text
-//! mdr-tui checkpoint 6
+//! mdr-tui checkpoint 7
 //! 20517 bytes, CRC-32 9ae0daaf
 //! run 5f0c2a91, written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>
@@ -28,7 +28,7 @@ use crate::reading::Log;
 use crate::simulation::{Saved, Simulation};
 
 /// The format version written, and the only one read.
-pub const VERSION: u32 = 6;
+pub const VERSION: u32 = 7;
 
 /// Start of the first line.
 const MAGIC: &str = "mdr-tui checkpoint ";

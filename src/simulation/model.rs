@@ -1,7 +1,7 @@
 //! Everything planned once per run: the parts, the operators, and the 1D image of the indenter.
 
 use std::ops::Deref;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
@@ -30,6 +30,7 @@ pub(crate) struct Operators {
     /// f₀ and its 1D image g₀, m.
     pub unworn: Arc<[f64]>,
     unworn_1d: Vec<f64>,
+    near_response: OnceLock<Vec<[f64; 3]>>,
 }
 
 impl Operators {
@@ -54,7 +55,48 @@ impl Operators {
             plan,
             unworn,
             unworn_1d,
+            near_response: OnceLock::new(),
         }
+    }
+}
+
+/// Every so many nodes one is worn: what the others do to the pressure there has died down.
+const PROBES: usize = 24;
+
+impl Operators {
+    /// The three diagonals of M of a contact that reaches to the edge, row by row: by how much p (in E*) falls at a node for
+    /// a depth worn at the one before it, at itself and at the one behind, 1/m. Half of what the rest of the row sums up to
+    /// is added to its own.
+    pub fn near_response(&self) -> &[[f64; 3]] {
+        self.near_response.get_or_init(|| {
+            let nodes = self.grid.len();
+            let mut image = vec![0.0; nodes];
+            let mut respond = |worn: &[f64]| {
+                let mut pressure = vec![0.0; nodes];
+                self.plan.image(worn, &mut image);
+                self.plan.stress(&image, &mut pressure);
+                pressure
+            };
+            let mut rows = vec![[0.0; 3]; nodes];
+            for first in 0..PROBES.min(nodes) {
+                let mut worn = vec![0.0; nodes];
+                worn[first..]
+                    .iter_mut()
+                    .step_by(PROBES)
+                    .for_each(|w| *w = 1.0);
+                let pressure = respond(&worn);
+                for j in (first..nodes).step_by(PROBES) {
+                    for k in j.saturating_sub(1)..(j + 2).min(nodes) {
+                        rows[k][j + 1 - k] = pressure[k];
+                    }
+                }
+            }
+            let all = respond(&vec![1.0; nodes]);
+            for (row, all) in rows.iter_mut().zip(all) {
+                row[1] += 0.5 * (all - row.iter().sum::<f64>());
+            }
+            rows
+        })
     }
 }
 

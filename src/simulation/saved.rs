@@ -84,7 +84,9 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
     let contact: &Contact = &state.contact;
     let (nodes, springs) = (setup.grid.len(), setup.springs());
     let settled = state.jump.settled.as_ref();
-    let of_cycle = settled.map_or(nodes, |settled| settled.wear.len());
+    let [of_cycle, stiff] = settled.map_or([nodes; 2], |settled| {
+        [settled.wear.len(), settled.stiffness.len()]
+    });
     for (what, length, due) in [
         ("wear", state.wear.len(), nodes),
         ("image of the wear", state.image.len(), nodes),
@@ -93,6 +95,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
         ("growth of g", state.last.growth.len(), nodes),
         ("growth of f", state.last.wear.len(), nodes),
         ("wear of a cycle", of_cycle, nodes),
+        ("stiffness of a cycle", stiff, nodes),
         ("line load", contact.load.nodal.len(), nodes),
         ("pressure", state.pressure.nodal.len(), springs),
     ] {
@@ -154,7 +157,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
             "does not lie in the grid",
         ));
     }
-    if contact.normal.nodes > nodes {
+    if contact.normal.nodes > nodes || settled.is_some_and(|settled| settled.touching > nodes) {
         return Err(Unfit::new("contact", "reaches beyond the grid"));
     }
     Ok(())

@@ -69,8 +69,10 @@ pub struct SteadyCycle {
     pub friction_work: f64,
     /// The largest compression of a spring, m.
     pub elastic_depth: f64,
-    /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
-    pub stiffness: f64,
+    /// The stiffness of each node: h cycles at once are explicitly stable for h times the largest < 2.
+    pub stiffness: Vec<f64>,
+    /// How many springs touch at the largest depth, or nearly do.
+    pub touching: usize,
     /// The smallest stick radius, m.
     pub stick_radius: f64,
 }

@@ -315,7 +315,7 @@ fn varies(model: &Model) -> bool {
 }
 
 /// Extrapolates the load at the spring `k`, N/m, linearly in x² from its neighbours: from the two outside, of which the
-/// edge of the contact may be the second; if none touches, from the one inside, down to the edge.
+/// edge of the contact may be the second; zero if none touches, since what no node carries wears nothing.
 fn led_to(squares: &[f64], load: &[f64], k: usize, contact: &NormalContact) -> f64 {
     let edge = contact.radius * contact.radius;
     let (from, slope, to) = if k + 2 < contact.nodes {
@@ -325,11 +325,7 @@ fn led_to(squares: &[f64], load: &[f64], k: usize, contact: &NormalContact) -> f
         let falls = load[k + 1] / (edge - squares[k + 1]);
         (load[k + 1], falls, squares[k + 1])
     } else {
-        let Some(inside) = k.checked_sub(1) else {
-            return load[k];
-        };
-        let falls = (load[inside] - load[k]) / (squares[k] - squares[inside]);
-        (0.0, falls, edge)
+        return 0.0;
     };
     (from + slope * (to - squares[k])).max(0.0)
 }

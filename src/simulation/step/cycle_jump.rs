@@ -4,9 +4,10 @@
 //!
 //! Wear changes the profile little in a cycle, so the worn depth δ is a smooth function of the
 //! number n of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on
-//! the frozen profile. That is integrated by [Runge–Kutta–Chebyshev steps](crate::math::chebyshev),
-//! whose error is controlled by the tolerance and whose number of stages follows the stiffness of
-//! the response of p to wear. The friction work is integrated along with it. The tolerance is in units of the largest
+//! the frozen profile. That is integrated with an error that is controlled by the tolerance: by
+//! [Runge–Kutta–Chebyshev steps](crate::math::chebyshev), whose number of stages follows the stiffness z of the response
+//! of p to wear, and beyond the z where stages cost more by [linearly implicit ones](crate::math::rosenbrock), as long as z
+//! would have it. The friction work is integrated along with it. The tolerance is in units of the largest
 //! depth of the motion or, where the force is prescribed, of the largest compression of a spring; of the work
 //! it allows the part that it is of the scar's depth, up to 1e-4.
 //!
@@ -14,12 +15,8 @@
 //! springs shake down. If it would need more cycles than it covers, cycles are stepped directly for
 //! a while.
 //!
-//! Wear only slows down as the profile adapts, so W × the cycles left bounds what is still to wear. Where that is a small
-//! part of the allowed error, the run goes to its goal at once: the bound of stiffness would make the number of jumps
-//! proportional to that of cycles in which nothing happens.
-//!
 //! - **Order**: second in the length of the jump; the wear within one cycle is that of the scheme.
-//! - **Cost**: as many evaluated cycles as stages, whatever the number of cycles covered.
+//! - **Cost**: as many evaluated cycles as stages, or two, whatever the number of cycles covered.
 //! - **Known failure**: motions that never repeat cannot be jumped; they are stepped directly.
 
 use super::super::breakdown::Cause;
@@ -28,18 +25,16 @@ use super::super::model::Model;
 use super::super::profile::scar_volume;
 use super::super::setup::Setup;
 use super::super::state::{JumpMemory, Ledger, State, SteadyCycle};
-use super::{Scratch, deepest, refuse, steady_cycle};
+use super::jump_step::{Jump, Means};
+use super::{Scratch, deepest, steady_cycle};
 use crate::math::chebyshev;
 use crate::math::scan::largest;
 
 /// Minimum saving of a jump: cycles covered per cycle of evaluation.
 const WORTH: f64 = 1.5;
 
-/// A run whose wear up to its goal is at most this part of the error that a jump may have goes there at once.
-const QUIET: f64 = 0.1;
-
-/// The most stages of a jump.
-const MOST_STAGES: usize = 40;
+/// What the linear systems of an implicit step cost, in steps within a cycle.
+const SYSTEMS: f64 = 76.0;
 
 /// The first jump wears this much at most, in depths and in units of the root of the tolerance.
 const FIRST: f64 = 0.3;
@@ -118,19 +113,16 @@ pub(in super::super) fn jump(
         spare: next,
         scratch,
     };
-    if let Some(jump) = search.quiet(&mut memory, most) {
-        *next = after_jump(model, state, memory, jump);
-        return Ok(Jumped::Shortened);
-    }
     let mut found = search.search(&mut memory, f64::INFINITY);
-    let is_short = matches!(&found, Ok(jump) if jump.covered > most);
+    let is_short = matches!(&found, Ok((jump, _)) if jump.covered > most);
     if is_short {
         go_back(&mut memory, &springs);
         found = search.search(&mut memory, most);
     }
     let refused = match found {
-        Ok(jump) => {
+        Ok((jump, length)) => {
             *next = after_jump(model, state, memory, jump);
+            next.jump.length = length;
             return Ok(match is_short {
                 true => Jumped::Shortened,
                 false => Jumped::Done,
@@ -163,51 +155,9 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// A jump over all of the `most` cycles up to the goal, where they wear next to nothing: one stable Euler step,
-    /// which takes V and k E_d alike.
-    fn quiet(&mut self, memory: &mut State, most: f64) -> Option<Jump> {
-        let (state, first, setup) = (self.state, self.first, &self.model.setup);
-        let Integrator::CycleJump { tolerance } = setup.integrator else {
-            return None;
-        };
-        let period = f64::from(setup.drive.cycles_to_settle());
-        let covered = (most / period).floor() * period;
-        let worn = covered.min(1.0 / first.stiffness);
-        let wear = state.wear.iter().zip(&first.wear);
-        let mut jump = Jump {
-            covered,
-            next: state.jump.length,
-            wear: wear.map(|(before, rate)| before + worn * rate).collect(),
-            image: vec![0.0; self.model.nodes()],
-            friction_work: worn * first.friction_work,
-            steady: first.clone(),
-        };
-        let allowed = tolerance * setup.depth_scale(first.elastic_depth);
-        let is_quiet = covered >= period && error(state, first, &jump, allowed, tolerance) <= QUIET;
-        if !is_quiet {
-            return None;
-        }
-        self.model.plan.image(&jump.wear, &mut jump.image);
-        memory.stats.transforms += 1;
-        // The contact at the goal is that of a cycle on its profile.
-        let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
-        let steady = steady_cycle::cycle(
-            self.model,
-            memory,
-            spare,
-            scratch,
-            [&jump.wear, &jump.image],
-        );
-        if steady.is_err() {
-            go_back(memory, self.springs);
-        }
-        jump.steady = steady.ok()?;
-        Some(jump)
-    }
-
     /// A jump of at most `most` cycles whose error is allowed, or one so short that direct steps are better.
     /// `memory` then holds the springs at its end.
-    fn search(&mut self, memory: &mut State, most: f64) -> Result<Jump, Refused> {
+    fn search(&mut self, memory: &mut State, most: f64) -> Result<(Jump, f64), Refused> {
         let (state, first, setup) = (self.state, self.first, &self.model.setup);
         let Integrator::CycleJump { tolerance } = setup.integrator else {
             return Err(Refused::TooShort(0.0));
@@ -221,18 +171,26 @@ impl Search<'_> {
         } else {
             FIRST * tolerance.sqrt() * depth / largest(&first.wear)
         };
+        let stiffest = largest(&first.stiffness);
+        let most_stages = most_stages(setup);
         loop {
             let covered = (length.min(most).min(LONGEST) / period).floor() * period;
-            let stages = chebyshev::stages_for(covered * first.stiffness);
-            if stages > MOST_STAGES {
+            let stages = chebyshev::stages_for(covered * stiffest);
+            let is_implicit = stages > most_stages;
+            if is_implicit && steady_cycle::is_even(setup, first) {
                 length = 0.5 * covered;
                 continue;
             }
-            let price = stages as f64 * steady_cycle::cost(setup) * period;
+            // An implicit step costs as much as an explicit one of the most stages.
+            let price = stages.min(most_stages) as f64 * steady_cycle::cost(setup) * period;
             if covered < (WORTH * price).max(period) {
                 return Err(Refused::TooShort(length));
             }
-            let tried = self.attempt(memory, covered, stages);
+            let means = self.means(memory);
+            let tried = match is_implicit {
+                true => means.implicit(covered),
+                false => means.explicit(covered, stages),
+            };
             let error = match &tried {
                 Ok(jump) => error(state, first, jump, tolerance * depth, tolerance),
                 // The state before the jump still has the springs unchanged.
@@ -251,50 +209,36 @@ impl Search<'_> {
                     } else {
                         next
                     };
-                    return Ok(Jump { next, ..jump });
+                    return Ok((jump, next));
                 }
                 _ => {
                     go_back(memory, self.springs);
                     memory.stats.rejected_jumps += 1;
-                    length = next;
+                    // What the response has not foreseen may well be within the reach of stages.
+                    length = match is_implicit {
+                        true => next.max(chebyshev::reach(most_stages) / stiffest),
+                        false => next,
+                    };
                 }
             }
         }
     }
 
-    /// One Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
-    fn attempt(&mut self, memory: &mut State, covered: f64, stages: usize) -> Result<Jump, Cause> {
-        let (model, nodes) = (self.model, self.model.nodes());
-        let with_work = |wear: &[f64], friction_work: f64| [wear, &[friction_work]].concat();
-        let start = with_work(&memory.wear, 0.0);
-        let slope = with_work(&self.first.wear, self.first.friction_work);
-        let mut image = vec![0.0; nodes];
-        let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
-        let mut look = |memory: &mut State, wear: &[f64], image: &mut [f64]| {
-            model.plan.image(wear, image);
-            memory.stats.transforms += 1;
-            steady_cycle::cycle(model, memory, spare, scratch, [wear, image])
-        };
-        let stage = |y: &[f64], out: &mut [f64]| {
-            let steady = look(memory, &y[..nodes], &mut image)?;
-            out[..nodes].copy_from_slice(&steady.wear);
-            out[nodes] = steady.friction_work;
-            Ok::<(), Cause>(())
-        };
-        let mut end = chebyshev::step(stages, covered, &start, &slope, stage)?;
-        let friction_work = end.pop().unwrap_or_default();
-        let steady = look(memory, &end, &mut image)?;
-        let depth = memory.contact.depth;
-        refuse(model, depth, &end, model.grid.nodes())?;
-        Ok(Jump {
-            covered,
-            next: covered,
-            wear: end,
-            image,
-            friction_work,
-            steady,
-        })
+    fn means<'a>(&'a mut self, memory: &'a mut State) -> Means<'a> {
+        Means {
+            model: self.model,
+            first: self.first,
+            memory,
+            spare: self.spare,
+            scratch: self.scratch,
+        }
     }
+}
+
+/// The most stages of an explicit step: an implicit one costs no more, and is more accurate by then.
+fn most_stages(setup: &Setup) -> usize {
+    let systems = SYSTEMS / (steady_cycle::cost(setup) * setup.steps_in_a_cycle());
+    (2.0 + systems) as usize
 }
 
 /// Takes the springs back to where they stood; the counts of what was done stay.
@@ -312,40 +256,23 @@ enum Refused {
     WithoutRoom,
 }
 
-/// A jump over cycles, and the profile after it.
-struct Jump {
-    /// How many cycles it covers.
-    covered: f64,
-    /// How many cycles the next one should cover.
-    next: f64,
-    wear: Vec<f64>,
-    image: Vec<f64>,
-    friction_work: f64,
-    steady: SteadyCycle,
-}
-
 /// The error of a jump in units of what is allowed: that of the worn depth, by its rms over the nodes that
 /// wear and its largest value, and that of the friction work relative to all the work so far.
 fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, tolerance: f64) -> f64 {
-    let covered = jump.covered;
     let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
-    for (j, (&y, &next)) in state.wear.iter().zip(&jump.wear).enumerate() {
-        let (f, last) = (first.wear[j], jump.steady.wear[j]);
-        if f != 0.0 || last != 0.0 {
-            let error = chebyshev::error(covered, y, next, f, last).abs();
+    for (j, error) in jump.error.iter().enumerate() {
+        if first.wear[j] != 0.0 || jump.steady.wear[j] != 0.0 {
             sum += error * error;
-            largest = largest.max(error);
+            largest = largest.max(error.abs());
             count += 1.0;
         }
     }
-    let (before, after) = (first.friction_work, jump.steady.friction_work);
-    let work = chebyshev::error(covered, 0.0, jump.friction_work, before, after).abs();
     let total = state.ledger.dissipated_energy + jump.friction_work;
     let of_depth = f64::sqrt(sum / f64::max(count, 1.0)).max(largest / PEAK) / allowed;
     // The error allowed for the work is the same fraction as for the scar's depth.
     let scar = deepest(&jump.wear).unwrap_or(f64::INFINITY);
     let of_scar = (allowed / scar).min(LEAST_CERTAIN).max(tolerance);
-    of_depth.max(work / (of_scar * total).max(f64::MIN_POSITIVE))
+    of_depth.max(jump.error_of_work.abs() / (of_scar * total).max(f64::MIN_POSITIVE))
 }
 
 /// Returns the state after a jump from `state`, with the springs of `memory`.
@@ -363,7 +290,6 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
             ..state.ledger
         },
         jump: JumpMemory {
-            length: jump.next,
             settled: Some(jump.steady),
             ..JumpMemory::default()
         },

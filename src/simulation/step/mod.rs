@@ -32,6 +32,8 @@ use crate::math::vector::{vectorized, write_each};
 mod attempt;
 mod cycle_jump;
 mod euler;
+mod jump_step;
+mod response;
 mod steady_cycle;
 mod substep;
 mod trapezoid;

@@ -18,7 +18,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::contact::{self, Contact};
-use super::super::drive::{SpringMotion, Targets};
+use super::super::drive::{Control, SpringMotion, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::setup::Setup;
@@ -27,11 +27,14 @@ use super::{Scratch, wear};
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
-use crate::math::scan::{largest, leading};
+use crate::math::scan::leading;
 use crate::math::vector::add_to;
 
 /// A motion has just turned if it has moved by less than this fraction of its amplitude since.
 const AT_TURN: f64 = 1e-9;
+
+/// A spring nearly touches whose gap is less than this, in depths of the motion.
+const NEARLY: f64 = 0.03;
 
 /// What a cycle does once the springs have shaken down on the depth `worn` (m) with its 1D image (m), on average
 /// over the period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
@@ -61,6 +64,13 @@ pub(super) fn cost(setup: &Setup) -> f64 {
     } else {
         4.0 / 3.0
     }
+}
+
+/// Whether cycles wear at a constant rate for ever: all of the contact slips under a held force, without a normal motion.
+/// Implicit jumps would wear less at its edge than friction works.
+pub(super) fn is_even(setup: &Setup, steady: &SteadyCycle) -> bool {
+    let is_held = matches!(setup.drive.normal(), Control::Force(_));
+    is_held && steady.stick_radius == 0.0 && plain_swing(setup).is_some()
 }
 
 /// Solves the contact of the targets on the profile in `scratch`, into `spare`.
@@ -100,11 +110,12 @@ fn period(
     memory.cycle = 0.0;
     let mut steady = SteadyCycle {
         wear: vec![0.0; model.nodes()],
+        stiffness: vec![0.0; model.nodes()],
         stick_radius: f64::INFINITY,
         ..SteadyCycle::default()
     };
-    let mut stiffness = vec![0.0; model.nodes()];
     let modulus = model.setup.material.normal_modulus();
+    let mut deepest = f64::NEG_INFINITY;
     for &(moment, targets) in moments.iter() {
         solve(model, memory, spare, scratch, targets)?;
         wear(model, memory, spare, scratch, moment);
@@ -113,11 +124,12 @@ fn period(
         increment.stiffness(model, model.seconds(moment - memory.cycle));
         let nodes = increment.nodes.clone();
         let summands = &increment.stiffness[nodes.clone()];
-        add_to(&mut stiffness[nodes.clone()], summands);
+        add_to(&mut steady.stiffness[nodes.clone()], summands);
         add_to(&mut steady.wear[nodes.clone()], &increment.depth[nodes]);
         if let Some(stick) = spare.contact.stick_radius {
             steady.stick_radius = steady.stick_radius.min(stick);
         }
+        deepest = deepest.max(spare.contact.depth);
         let compression = spare.contact.normal.strongest / modulus;
         steady.elastic_depth = steady.elastic_depth.max(compression);
         take_over(memory, spare, moment);
@@ -125,11 +137,11 @@ fn period(
         memory.stats.transforms += std::mem::take(&mut scratch.transforms);
     }
     memory.stats.evaluated_cycles += cycles as u64;
-    for worn in &mut steady.wear {
-        *worn /= cycles;
+    for sum in steady.wear.iter_mut().chain(&mut steady.stiffness) {
+        *sum /= cycles;
     }
     steady.friction_work /= cycles;
-    steady.stiffness = largest(&stiffness) / cycles;
+    steady.touching = nearly_touching(model, &scratch.profile.g, deepest);
     Ok(steady)
 }
 
@@ -191,13 +203,29 @@ fn plain_cycle(
     memory.stats.transforms += 2;
     increment.slip.copy_from_slice(&slip.nodal);
     increment.wear_by_load(model, contact, &memory.pressure.nodal, stuck);
+    increment.stiffness(model, 1.0);
+    let mut stiffness = vec![0.0; model.nodes()];
+    let nodes = increment.nodes.clone();
+    for (z, once) in stiffness[nodes.clone()]
+        .iter_mut()
+        .zip(&increment.stiffness[nodes])
+    {
+        *z = 2.0 * once;
+    }
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,
         elastic_depth: memory.contact.normal.strongest / material.normal_modulus(),
-        stiffness: 2.0 * increment.stiffness(model, 1.0),
+        stiffness,
+        touching: nearly_touching(model, &scratch.profile.g, memory.contact.depth),
         stick_radius,
     })
+}
+
+/// How many springs on the profile `g` (m) touch, or nearly do, at the largest `depth` (m).
+fn nearly_touching(model: &Model, g: &[f64], depth: f64) -> usize {
+    let reach = depth + NEARLY * model.setup.depth_scale(depth);
+    g.iter().rposition(|&g| g < reach).map_or(0, |j| j + 1)
 }
 
 /// Brings indenter and springs back to where a steady-state cycle turned last before its end: the springs that slip in

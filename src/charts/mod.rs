@@ -288,7 +288,7 @@ pub fn round_end(end: f64) -> f64 {
 impl Live {
     /// Marks at the contact radius a and at the permanent stick radius c.
     pub fn edge_marks(&self) -> Vec<Mark> {
-        let moment = &self.moment;
+        let moment = &self.seen.moment;
         let mark = |x, label, role| Mark { x, label, role };
         let mut marks = Vec::new();
         if moment.contact_radius > 0.0 {

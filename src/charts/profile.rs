@@ -48,7 +48,7 @@ fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
     let ghosts = ghosts::worn(run, None);
     let seen = largest(wear).max(live.expected_wear);
     let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
-    magnification(deepest, SHARE * height(unworn, live.moment.depth))
+    magnification(deepest, SHARE * height(unworn, live.seen.moment.depth))
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {

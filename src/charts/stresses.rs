@@ -68,7 +68,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
         return Ok(chart);
     };
-    let moment = &live.moment;
+    let moment = &live.seen.moment;
     let hertz = theory.unworn_pressure(moment.depth, radii);
     let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
     let cattaneo =

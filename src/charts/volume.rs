@@ -27,7 +27,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let ordinate = Axis::new("V", "m³").from_zero();
     let mut chart = over_cycles(run, ordinate.expecting(run.expected_volume()));
     if let Some(live) = &run.live {
-        let work = format_value(live.moment.dissipated_energy, "J", 4);
+        let work = format_value(live.seen.moment.dissipated_energy, "J", 4);
         chart.note = format!("E_d {work}");
     }
     Ok(chart.curves(ghosts::on(run, Axes::VOLUME)).curve(volume))

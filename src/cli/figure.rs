@@ -259,7 +259,7 @@ fn run(path: &Path, options: &Figure) -> Result<Run> {
             let rule = format!("{source} has no such state; it has those at {cycles}");
             ensure!(is_there, Refusal::new(format!("--at {}", at.0), rule));
         }
-        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
+        let is_wanted = |state: &Arc<Table>| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
     }
     Ok(run)

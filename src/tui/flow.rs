@@ -40,6 +40,9 @@ const KEPT: f64 = 0.75;
 /// time.
 const REFRESH: [f64; 2] = [3.0, 15.0];
 
+/// The part of that time after which it is tried again, where a key came before the line was empty.
+const AGAIN: f64 = 0.4;
+
 /// How long a key has precedence, seconds.
 const HURRY: f64 = 0.3;
 
@@ -134,9 +137,14 @@ impl Flow {
         oldest.sent.max(heard) + self.base + LOST + bytes / SLOW
     }
 
+    /// Returns the time between measurements of the round trip.
+    fn refresh(&self) -> f64 {
+        REFRESH[0] + REFRESH[1] * self.base
+    }
+
     /// Whether the round trip should be measured again.
     fn is_old(&self, now: f64) -> bool {
-        self.heard.is_some() && now > self.confirmed + REFRESH[0] + REFRESH[1] * self.base
+        self.heard.is_some() && now > self.confirmed + self.refresh()
     }
 
     /// Returns how long to wait before sending a chunk, unless something happens first; `None` while the writer is
@@ -184,6 +192,10 @@ impl Flow {
 
     /// Notes that the writer received a chunk of this many bytes, including its request.
     pub fn sent(&mut self, now: f64, bytes: usize) {
+        // An answer to a key was sent while the line was to become empty: keys in a row would keep it idle for long.
+        if self.is_old(now) && !self.marks.is_empty() {
+            self.confirmed = now - (1.0 - AGAIN) * self.refresh();
+        }
         self.unwritten += 1;
         self.mark(now, bytes, Request::Status);
     }

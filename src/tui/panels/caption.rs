@@ -81,7 +81,7 @@ fn phase(moment: &Moment, speed: Option<f64>) -> String {
 /// Describes what has worn since the start.
 fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
     let seen = &frame.observation;
-    let deepest = largest(&seen.wear);
+    let deepest = largest(seen.wear());
     if seen.law.is_none() {
         return "Nothing wears in this scenario: both bodies keep their shape.".into();
     }

@@ -113,7 +113,7 @@ impl<'a> Section<'a> {
     pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
         let seen = &frame.observation;
-        let ([low, high], &edge) = (of.bounds?, seen.radii.last()?);
+        let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
         }
@@ -124,7 +124,7 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
+        let deepest = largest(seen.wear()).max(frame.facts.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
@@ -153,7 +153,7 @@ impl<'a> Section<'a> {
         let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
-        let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
+        let sunk = |r: f64| interpolate(seen.radii(), &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
         // Far from the contact nothing is lifted, and nothing at all while the bodies are apart.
         let deepest = sunk(moment.contact_radius).max(sunk(r));
@@ -166,7 +166,7 @@ impl<'a> Section<'a> {
         // The half-space wears only if the scenario says so.
         let share = scenario.wear_share().unwrap_or(1.0);
         let wear = |r: f64| match r <= edge {
-            true => self.wear * interpolate(&seen.radii, &seen.wear, r),
+            true => self.wear * interpolate(seen.radii(), seen.wear(), r),
             false => 0.0,
         };
         let ground = surface - (1.0 - share) * wear(r);
@@ -298,7 +298,7 @@ mod tests {
         let simulation = Simulation::new(setup).expect("a contact");
         let seen = simulation.observe(Curves::DEPRESSION);
         let a = PowerLaw::paraboloid(radius).contact_radius(1e-6);
-        for (&r, &sunk) in seen.radii.iter().zip(&seen.depression) {
+        for (&r, &sunk) in seen.radii().iter().zip(&seen.depression) {
             let exact = if r <= a {
                 1e-6 - r * r / (2.0 * radius)
             } else {

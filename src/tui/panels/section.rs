@@ -88,13 +88,13 @@ impl Section<'_> {
     /// Draws short lines on both bodies: on the indenter they move with it, on the half-space with its surface.
     fn lines(&self, canvas: &mut Canvas) {
         let (seen, area) = (&self.of.frame.observation, self.area);
-        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.theme) {
+        if self.motion == 0.0 || seen.surface().is_empty() || !has_blocks(&self.theme) {
             return;
         }
         let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * self.width;
         let places = (-7..=7).map(|k| f64::from(k) * apart);
         for x in places.filter(|x| x.abs() < seen.moment.contact_radius) {
-            let surface = interpolate(&seen.radii, &seen.surface, x.abs());
+            let surface = interpolate(seen.radii(), seen.surface(), x.abs());
             let moved = whole(self.motion * surface, self.width);
             let Some([above, below]) = self.rows_above(x) else {
                 continue;

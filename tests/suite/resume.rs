@@ -24,8 +24,7 @@ fn scenario() -> String {
     scenario.with_changes(changes.to_vec()).to_toml()
 }
 
-const ORDER: &str =
-    "run mine.toml --cycles 240.125 --snapshot-at 10.123,2,30 --history every-step --field";
+const ORDER: &str = "run mine.toml --cycles 240.125 --snapshot-at 10.123,2,30 --history every-step";
 
 fn dir() -> TestDir {
     let dir = TestDir::new();
@@ -141,6 +140,17 @@ fn an_older_checkpoint_does_not_undo_what_its_run_has_done_since() {
     assert!(dir.inventory() == before);
     dir.line("run --resume older --cycles 20 --force --quiet")
         .ends(0, "");
+}
+
+#[test]
+fn a_resumed_run_writes_the_field_that_was_asked_for() {
+    let dir = TestDir::new();
+    let line = "run li2019-fig3 --cycles 200 --set numerics.points=20 --checkpoint-every 0.001 --field --out x";
+    let mut child = dir.start(line, &[]);
+    dir.wait_for(&mut child, "x/run.checkpoint");
+    kill(child);
+    dir.done("run --resume x/run.checkpoint --quiet");
+    assert!(names(&dir.path("x")).contains(&"field.csv".into()));
 }
 
 #[test]

@@ -5,7 +5,11 @@
 //! depth and load give this in closed form; for a sphere, u_t ∝ N^(2/3). The second border belongs to the present, worn
 //! profile and passes through the present load and u_t.
 
-use super::*;
+use super::{NO_CYCLE, NO_MOTION, Recipe, View};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Point};
+use crate::reading::{Column, Curves};
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -1,6 +1,10 @@
 //! Time per step on this machine, over complete cycles.
 
-use super::*;
+use super::{Recipe, View, finished_series, over_cycles};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart};
+use crate::reading::Column;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -1,6 +1,11 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::*;
+use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, of_states, over_r};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

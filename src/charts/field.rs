@@ -1,6 +1,10 @@
 //! The stresses inside the half-space in the plane of motion, as colours.
 
-use super::*;
+use super::{Recipe, View};
+use crate::charts::run::Run;
+use crate::plot::colormap::ColorMap;
+use crate::plot::{Axis, Chart, Map};
+use crate::reading::Column;
 
 const NO_FIELD: &str = "there is no field.csv; run --field writes it";
 

@@ -1,6 +1,11 @@
 //! The fretting log: loops of F_x over u_x from earlier cycles and the last one, each drawn at the height of its cycle.
 
-use super::*;
+use super::{F_X, NO_CYCLE, NO_MOTION, Recipe, U_X, View};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::units::format_value;
+use crate::plot::{Axis, Chart, Curve};
+use crate::traces::Loop;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -2,7 +2,11 @@
 //! dissipates. An arrow marks the present moment and its direction. On a compliant rig the loop that its sensor sees is
 //! drawn too; it has the same forces and the same area as the contact's loop.
 
-use super::*;
+use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, named};
+use crate::charts::run::{Live, Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Point};
+use crate::traces::{Axes, Loop};
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -93,8 +97,8 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         (chart.x.bounds, chart.y.bounds) = (Some(across), Some(upwards));
         // Leaves room for the loop under gross slip.
         let slip_per_depth = run.theory.as_ref().map(|theory| theory.slip_per_depth);
-        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.moment.depth;
-        chart.y.expects = live.friction * live.moment.normal_force;
+        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.seen.moment.depth;
+        chart.y.expects = live.friction * live.seen.moment.normal_force;
         chart.points.push(here(run, live));
     }
     Ok(chart)
@@ -103,7 +107,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
 /// Returns an arrow at the present moment.
 fn here(run: &Run, live: &Live) -> Point {
     Point {
-        at: [live.moment.shift, live.moment.tangential_force],
+        at: [live.seen.moment.shift, live.seen.moment.tangential_force],
         sign: match run.loops.last().is_none_or(Loop::rises) {
             true => '▶',
             false => '◀',

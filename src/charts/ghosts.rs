@@ -1,7 +1,11 @@
 //! Overlaid curves from other sources. On a screen they are dashed in the text colour, each with a different pattern;
 //! measured ones have error bars if their errors are known.
 
-use super::*;
+use crate::charts::run::Run;
+use crate::plot::Curve;
+use crate::plot::theme::Role;
+use crate::studies::ghost::Ghost;
+use crate::traces::Axes;
 
 /// What one ghost adds to a chart: abscissae, ordinates, errors (empty if unknown), and the values that a cursor reads
 /// (empty if they equal the ordinates).

@@ -1,18 +1,14 @@
 //! The charts of a run, one per file. Each declares its name, what it needs, its explanation and how it is made; the
 //! terminal, the paper figures, the cursor line and the help all read this declaration.
-//!
-//! This module imports what charts are made of; each chart begins with `use super::*`.
 
-use crate::plot::colormap::ColorMap;
 use crate::plot::step::Step;
 use crate::plot::theme::Role;
-use crate::plot::units::format_value;
-use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
+use crate::plot::{Axis, Chart, Curve, Mark, Scale};
 use crate::reading::{Column, Curves};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-use crate::traces::{Axes, Loop, Table};
+use crate::traces::{Axes, Table};
 
 pub mod condition;
 pub mod cost;
@@ -292,7 +288,7 @@ pub fn round_end(end: f64) -> f64 {
 impl Live {
     /// Marks at the contact radius a and at the permanent stick radius c.
     pub fn edge_marks(&self) -> Vec<Mark> {
-        let moment = &self.moment;
+        let moment = &self.seen.moment;
         let mark = |x, label, role| Mark { x, label, role };
         let mut marks = Vec::new();
         if moment.contact_radius > 0.0 {

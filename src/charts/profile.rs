@@ -1,8 +1,13 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact below it. Wear that would be thinner than a line
 //! is drawn magnified.
 
-use super::*;
+use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, magnification, of_states, over_r};
+use crate::charts::run::{Medium, Run};
 use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -43,7 +48,7 @@ fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
     let ghosts = ghosts::worn(run, None);
     let seen = largest(wear).max(live.expected_wear);
     let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
-    magnification(deepest, SHARE * height(unworn, live.moment.depth))
+    magnification(deepest, SHARE * height(unworn, live.seen.moment.depth))
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {

@@ -1,6 +1,11 @@
 //! The largest contact radius and the smallest stick radius of every cycle.
 
-use super::*;
+use super::{Recipe, View, cycles_shown, ghosts, over_cycles, series};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

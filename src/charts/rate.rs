@@ -1,7 +1,12 @@
 //! Worn volume per cycle, over cycles. The incomplete cycle is left out: a cycle wears mostly in a part of it, so a
 //! rate over less than a cycle means little.
 
-use super::*;
+use super::{Recipe, View, finished_series, over_cycles};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

@@ -1,7 +1,11 @@
 //! The relative difference between wear volume and friction work since the start, V/(k E_d) − 1, in thousandths. The
 //! wear law predicts zero.
 
-use super::*;
+use super::{E_D, Recipe, V, View, cycles_shown, over_cycles, series};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

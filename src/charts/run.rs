@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::contact::indenter::Indenter;
 use crate::math::geometry::Geometry;
-use crate::reading::{Column, Moment, Zone};
+use crate::reading::{Column, Observation, Zone};
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
@@ -24,9 +24,7 @@ pub enum Medium {
 #[derive(Debug, Clone)]
 pub struct Live {
     /// The present moment.
-    pub moment: Moment,
-    /// Whether the profile wears.
-    pub wears: bool,
+    pub seen: Arc<Observation>,
     /// The coefficient of friction μ.
     pub friction: f64,
     /// Where the scenario's plan ends, cycles.
@@ -46,7 +44,7 @@ pub struct Live {
 impl Live {
     /// Whether there is a tangential motion.
     pub fn moves(&self) -> bool {
-        self.moment.stick_radius.is_some()
+        self.seen.moment.stick_radius.is_some()
     }
 }
 
@@ -54,7 +52,7 @@ impl Live {
 #[derive(Debug, Clone, Default)]
 pub struct Run {
     /// The states, in the order of their cycles.
-    pub states: Vec<Table>,
+    pub states: Vec<Arc<Table>>,
     /// The history.
     pub history: Option<Table>,
     /// Loops of single cycles.
@@ -91,7 +89,7 @@ impl Run {
 
     /// Upper estimate of the worn volume at the planned end, m³: the deepest wear over the whole contact area.
     pub fn expected_volume(&self) -> f64 {
-        let radius = |live: &Live| live.moment.contact_radius;
+        let radius = |live: &Live| live.seen.moment.contact_radius;
         let area = self.geometry.area(self.live.as_ref().map_or(0.0, radius));
         area * self.expected_wear()
     }
@@ -111,7 +109,7 @@ impl Run {
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
         if table.has(&[Column::Radius, Column::Profile]) {
-            self.states.push(table);
+            self.states.push(table.into());
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
         } else if table.has(&[Column::Cycle, Column::ContactRadius, Column::WearVolume]) {
@@ -137,7 +135,9 @@ impl Run {
     /// Returns this run's data as an overlay for another run's charts.
     pub fn ghost(&self, name: &str) -> Ghost {
         let mut ghost = Ghost::new(name);
-        ghost.tables.extend(self.states.last().cloned());
+        ghost
+            .tables
+            .extend(self.states.last().map(|state| Table::clone(state)));
         ghost.tables.extend(self.history.clone());
         if let Some(one) = self.end().and_then(|end| self.loop_at(end)) {
             ghost.take_loop(one.shifts, one.forces);
@@ -169,7 +169,7 @@ impl Run {
     /// Returns an error if the scenario has no wear.
     pub(super) fn wears(&self) -> Result<(), &'static str> {
         match &self.live {
-            Some(live) if !live.wears => Err(super::NO_WEAR),
+            Some(live) if live.seen.law.is_none() => Err(super::NO_WEAR),
             _ => Ok(()),
         }
     }
@@ -179,8 +179,13 @@ impl Run {
         let Some(live) = &self.live else {
             return Vec::new();
         };
-        let contact = live.moment.contact_radius;
-        let stick = live.moment.stick_radius.unwrap_or(contact).min(contact);
+        let contact = live.seen.moment.contact_radius;
+        let stick = live
+            .seen
+            .moment
+            .stick_radius
+            .unwrap_or(contact)
+            .min(contact);
         let mut zones = vec![
             ([0.0, stick], Zone::Stick),
             ([stick, contact], Zone::Slip),
@@ -213,14 +218,18 @@ impl Run {
     /// Returns the last cycle that any of the data reach.
     pub fn end(&self) -> Option<f64> {
         let recorded = self.history.as_ref().and_then(Table::last_cycle);
-        let states = self.states.iter().map(Table::cycle);
+        let states = self.states.iter().map(|state| state.cycle());
         let loops = self.loops.iter().map(|one| one.end);
         states.chain(loops).chain(recorded).reduce(f64::max)
     }
 
     /// Returns the data for a caption.
     pub fn facts(&self) -> Vec<(String, String)> {
-        let last = self.states.last().or(self.history.as_ref());
+        let last = self
+            .states
+            .last()
+            .map(Arc::as_ref)
+            .or(self.history.as_ref());
         let Some(last) = last.or(self.field.as_ref()) else {
             return Vec::new();
         };

@@ -1,7 +1,12 @@
 //! The largest worn depth over cycles.
 
-use super::*;
+use super::{NO_STATE, Recipe, View, ghosts, over_cycles, series};
+use crate::charts::run::Run;
 use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {

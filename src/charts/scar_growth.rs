@@ -1,6 +1,11 @@
 //! The scar's radius and depth over the friction work: what a profilometer and the fretting loops of a test measure.
 
-use super::*;
+use super::{E_D, NO_CYCLE, NO_HISTORY, Recipe, View, cycles_shown, ghosts, magnification};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Scale};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -57,7 +62,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (mut work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     let mut reach = 0.0;
     if let Some(live) = &run.live {
-        reach = live.moment.contact_radius;
+        reach = live.seen.moment.contact_radius;
         let of_others = others.iter().flat_map(|ghost| &ghost.xs).copied();
         let end = of_others.fold(shown_work(run).ok_or(NO_CYCLE)?, f64::max);
         work_axis = work_axis.bounds([0.0, end]);

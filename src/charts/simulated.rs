@@ -1,7 +1,7 @@
 //! Data for charts from a session: its present state, or everything that a run of it to the end yields.
 
 use super::Run;
-use crate::export::{field, header, last_loop, state};
+use crate::export::{field, header, last_loop};
 use crate::reading::{Column, Curves};
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
@@ -22,8 +22,8 @@ impl Run {
     /// Adds the present state of `session`.
     pub fn take_state(&mut self, session: &Session) {
         let seen = session.simulation().observe(Curves::all());
-        let table = Table::of_columns(header::entries(session), state::columns(&seen));
-        self.states.push(table);
+        let table = seen.columns.under(header::entries(session));
+        self.states.push(table.into());
     }
 
     /// Runs `session` to the last of `cycles` (increasing). Records the state at each of them and the loop before it,

@@ -1,6 +1,11 @@
 //! Pressure p(r) and shear stress τ(r). On a screen τ is drawn as τ/μ, which meets ±p where the contact slips.
 
-use super::*;
+use super::{A, C, NO_STATE, Recipe, View, ghosts, over_r};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Scale};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -63,7 +68,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
         return Ok(chart);
     };
-    let moment = &live.moment;
+    let moment = &live.seen.moment;
     let hertz = theory.unworn_pressure(moment.depth, radii);
     let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
     let cattaneo =

@@ -259,7 +259,7 @@ fn run(path: &Path, options: &Figure) -> Result<Run> {
             let rule = format!("{source} has no such state; it has those at {cycles}");
             ensure!(is_there, Refusal::new(format!("--at {}", at.0), rule));
         }
-        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
+        let is_wanted = |state: &Arc<Table>| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
     }
     Ok(run)
@@ -293,8 +293,10 @@ fn from_directory(directory: &Path) -> Result<Run> {
 /// Reads a table of a run.
 fn take(run: &mut Run, path: &Path) -> Result<()> {
     let table = Table::of_file(&Columns::read(path)?);
-    ensure!(table.rows() > 0, unread(path, "has no rows of numbers"));
-    Ok(run.take(table).map_err(|why| unread(path, why))?)
+    let has_rows = table.rows() > 0;
+    run.take(table).map_err(|why| unread(path, why))?;
+    ensure!(has_rows, unread(path, "has no rows of numbers"));
+    Ok(())
 }
 
 fn unread(path: &Path, why: impl std::fmt::Display) -> Refusal {

@@ -135,7 +135,7 @@ impl Claim {
         }
     }
 
-    /// Refuses to go on where what was claimed has been moved or removed: another process may have its place by now.
+    /// Checks that what was claimed was neither moved nor removed: its place may belong to another process by now.
     ///
     /// # Errors
     ///
@@ -210,9 +210,9 @@ impl Drop for Claim {
         // The file is still locked, so no other process can have claimed it.
         if is_at(&self.file, &self.path) {
             let _ = fs::remove_file(&self.path);
-        }
-        if let Some(directory) = self.path.parent().filter(|_| self.is_new) {
-            let _ = fs::remove_dir(directory);
+            if self.is_new {
+                let _ = fs::remove_dir(directory_of(&self.path));
+            }
         }
     }
 }
@@ -272,6 +272,24 @@ mod tests {
             std::fs::write(base.path().join(LOCK), stale).expect("a file");
             drop(Claim::of_directory(base.path()).expect("a stale lock"));
         }
+    }
+
+    #[test]
+    fn a_directory_in_the_place_of_a_removed_one_is_left_alone() {
+        let base = tempfile::tempdir().expect("a directory");
+        let place = base.path().join("x");
+        fs::create_dir(&place).expect("a directory");
+        let mut claim = Claim::of_directory(&place).expect("a free directory");
+        claim.is_new = true;
+        claim.check().expect("its place");
+        fs::remove_dir_all(&place).expect("a directory");
+        fs::create_dir(&place).expect("another one");
+        let other = Claim::of_directory(&place).expect("a free directory");
+        assert!(claim.check().is_err());
+        drop(claim);
+        other.check().expect("its place");
+        drop(other);
+        assert!(place.exists());
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub fn rows(session: &Session) -> Vec<Vec<f64>> {
     let load = seen.spring_load(simulation.setup().material.poisson());
     let radius = match seen.moment.contact_radius {
         contact if contact > 0.0 => contact,
-        _ => seen.radii.last().copied().unwrap_or_default(),
+        _ => seen.radii().last().copied().unwrap_or_default(),
     };
     let cycle = StressCycle::of(simulation);
     let step = REACH * radius / f64::from(HALF_WIDTH);

@@ -47,7 +47,7 @@ impl WriteError {
     /// Whether the user could have avoided the error by choosing another place.
     pub fn is_misuse(&self) -> bool {
         match self {
-            Self::Refused(_) => true,
+            Self::Refused(refusal) => !refusal.is_failure(),
             Self::Io { cause, .. } => is_avoidable(cause),
         }
     }
@@ -176,6 +176,7 @@ pub(super) fn sweep(directory: &Path, prefix: &str, age: Duration) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::bounded_read::Unread;
 
     #[test]
     fn a_file_is_replaced_whole_and_leaves_no_trace_of_its_making() {
@@ -192,7 +193,10 @@ mod tests {
             place.display()
         );
         assert_eq!((refused.to_string(), refused.is_misuse()), (due, true));
-        assert!(!WriteError::io(&place)(io::Error::from_raw_os_error(nix::libc::EIO)).is_misuse());
+        let broken = || io::Error::from_raw_os_error(nix::libc::EIO);
+        assert!(!WriteError::io(&place)(broken()).is_misuse());
+        let unread = Refusal::unread("x", &Unread::Io(broken()));
+        assert!(!WriteError::from(unread).is_misuse());
     }
 
     #[test]

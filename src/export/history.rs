@@ -112,12 +112,13 @@ impl History {
         self.rows += &(self.row(session) + "\n");
     }
 
-    /// Appends the buffered rows to the file at `path` once there are enough of them. On an error they stay in memory
-    /// and the file is unchanged.
+    /// Whether there are enough buffered rows to [`spill`](Self::spill).
+    pub fn is_full(&self) -> bool {
+        self.rows.len() >= CHUNK
+    }
+
+    /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the file is unchanged.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
-        if self.rows.len() < CHUNK {
-            return Ok(());
-        }
         let mut file = safe_open::open_or_make(path)?;
         // A killed run may have written rows beyond this length.
         file.set_len(self.written)?;

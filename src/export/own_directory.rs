@@ -1,4 +1,4 @@
-//! The directories in which the program keeps files of its own, as the XDG base directory specification says.
+//! Finds the directories of the program's state and preferences, by the XDG base directory specification.
 
 use std::path::PathBuf;
 

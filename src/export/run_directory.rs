@@ -13,6 +13,8 @@ use super::file::{
 };
 use super::header::number;
 use super::safe_open;
+use crate::scenario::Refusal;
+use crate::scenario::bounded_read::Unread;
 use crate::scenario::checkpoint::Stamp;
 
 /// The name of the checkpoint in the directory of an unfinished run.
@@ -21,7 +23,7 @@ pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 /// The name of the file with the history's rows, until the run ends.
 pub const RUN_ROWS: &str = ".mdr-tui-history";
 
-/// The directory of one run's files. No other process claims it before the last copy of this is dropped.
+/// The directory of one run's files. No other process can claim it until the last copy of this is dropped.
 #[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
@@ -65,7 +67,7 @@ impl RunDirectory {
 
     /// Returns the names of all files except the program's internal ones.
     fn results(&self) -> Result<Vec<OsString>, WriteError> {
-        let failed = WriteError::io(&self.path);
+        let failed = |cause| Refusal::unread(self.path.display(), &Unread::Io(cause));
         let entries = fs::read_dir(&self.path).map_err(failed)?;
         let names = entries.map(|entry| entry.map(|entry| entry.file_name()));
         let names: Vec<OsString> = names.collect::<Result<_, _>>().map_err(failed)?;
@@ -186,7 +188,7 @@ impl RunDirectory {
         remove(&self.rows())
     }
 
-    /// Refuses to write where the directory may belong to another run by now.
+    /// Checks that the directory is still this run's. Another run may have begun in its place.
     ///
     /// # Errors
     ///

@@ -10,6 +10,7 @@ pub mod observation;
 mod quantity;
 mod scar_end;
 pub mod subsurface;
+mod table;
 
 pub use checks::{Check, Subject, verdict};
 pub use column::Column;
@@ -17,3 +18,4 @@ pub use cycle_figures::{CycleFigures, Regime};
 pub use log::{Log, Passed};
 pub use observation::{Curves, Moment, Observation, Zone};
 pub use quantity::Quantity;
+pub use table::Table;

@@ -7,8 +7,8 @@ use serde::Serialize;
 use strum::IntoStaticStr;
 
 use super::cycle_figures::sensed;
-use super::scar_end;
 use super::subsurface::SpringLoad;
+use super::{Column, Table, scar_end};
 use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::dome::Dome;
@@ -128,34 +128,40 @@ pub struct Observation {
     pub law: Option<&'static str>,
     /// Nodes r = x, with the border of the permanent stick zone among them.
     pub grid: RadialGrid,
-    /// Nodes r = x, m.
-    pub radii: Arc<[f64]>,
-    /// f₀, m.
-    pub unworn: Arc<[f64]>,
-    /// f, m.
-    pub profile: Vec<f64>,
-    /// f − f₀, m.
-    pub wear: Vec<f64>,
-    /// g, m.
-    pub profile_1d: Vec<f64>,
-    /// q_z, N/m.
-    pub normal_load: Vec<f64>,
-    /// q_x, N/m.
-    pub tangential_load: Vec<f64>,
+    /// The curves, in the order of `state.csv`.
+    pub columns: Arc<Table>,
     /// How each load falls to zero at the end of a scar, if it does.
     pub domes: [Option<Dome>; 2],
-    /// u_x of the springs, m.
-    pub spring: Vec<f64>,
-    /// p, Pa.
-    pub pressure: Vec<f64>,
-    /// τ, Pa.
-    pub shear: Vec<f64>,
-    /// u_x(r) of the surface, m.
-    pub surface: Vec<f64>,
     /// u_z(r) of the surface, m, downwards: d − f in contact, Eq. (2) of the springs outside.
     pub depression: Vec<f64>,
     /// Stick, slip or open.
     pub zones: Vec<Zone>,
+}
+
+/// Makes a reader of each curve; one that was not asked for is empty.
+macro_rules! curves {
+    ($($doc:literal $name:ident $column:ident;)*) => {
+        impl Observation {
+            $(#[doc = $doc]
+            pub fn $name(&self) -> &[f64] {
+                self.columns.column(Column::$column).unwrap_or_default()
+            })*
+        }
+    };
+}
+
+curves! {
+    "Nodes r = x, m." radii Radius;
+    "f₀, m." unworn Unworn;
+    "f, m." profile Profile;
+    "f − f₀, m." wear Wear;
+    "g, m." profile_1d Profile1d;
+    "q_z, N/m." normal_load NormalLoad;
+    "q_x, N/m." tangential_load TangentialLoad;
+    "u_x of the springs, m." spring SpringShift;
+    "p, Pa." pressure Pressure;
+    "τ, Pa." shear Shear;
+    "u_x(r) of the surface, m." surface Shift;
 }
 
 impl Observation {
@@ -163,16 +169,16 @@ impl Observation {
     /// [`Curves::PROFILE`].
     pub fn worn_depth_at(&self, r: f64) -> f64 {
         // Between nodes the interpolant may dip slightly below zero.
-        worn::interpolate(&self.grid, &self.wear, r).max(0.0)
+        worn::interpolate(&self.grid, self.wear(), r).max(0.0)
     }
 
     /// Returns the springs' load on a half-space of Poisson's ratio `poisson`, from which its stresses follow; needs
     /// [`Curves::SPRINGS`], otherwise the load is zero.
     pub fn spring_load(&self, poisson: f64) -> SpringLoad {
         let [of_normal, of_tangential] = self.domes;
-        let normal = (&self.normal_load[..], of_normal);
-        let tangential = (&self.tangential_load[..], of_tangential);
-        let [nodes, normal, tangential] = scar_end::divided(&self.radii, [normal, tangential]);
+        let normal = (self.normal_load(), of_normal);
+        let tangential = (self.tangential_load(), of_tangential);
+        let [nodes, normal, tangential] = scar_end::divided(self.radii(), [normal, tangential]);
         let radius = self.moment.contact_radius;
         SpringLoad::new(&nodes, &normal, &tangential, radius, poisson).of(self.geometry)
     }
@@ -182,8 +188,8 @@ impl Observation {
     /// Returns the worn depths of the indenter and of the half-space at the node `j`, m, if the indenter takes `share`
     /// of the wear. Their sum is the worn depth.
     pub fn wear_of_bodies(&self, share: f64, j: usize) -> [f64; 2] {
-        let indenter = share * self.wear[j];
-        [indenter, self.wear[j] - indenter]
+        let indenter = share * self.wear()[j];
+        [indenter, self.wear()[j] - indenter]
     }
 }
 
@@ -258,75 +264,89 @@ impl Simulation {
                 vec![0.0; nodes]
             }
         };
-        let when = |curve: Curves, make: &dyn Fn() -> Vec<f64>| {
-            if curves.intersects(curve) {
-                make()
-            } else {
-                Vec::new()
-            }
-        };
         let modulus = self.setup().material.tangential_modulus();
         let with_loads = curves.intersects(Curves::SPRINGS);
         let worn = || -> Vec<f64> {
             let unworn = model.unworn.iter();
             unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
         };
+        let moment = self.moment();
+        let mut columns = vec![
+            (Column::Radius, model.grid.nodes().to_vec()),
+            (Column::Unworn, model.unworn.to_vec()),
+        ];
+        let mut add = |asked: Curves, column: Column, make: &dyn Fn() -> Vec<f64>| {
+            if curves.intersects(asked) {
+                columns.push((column, make()));
+            }
+        };
+        add(Curves::PROFILE, Column::Profile, &worn);
+        add(Curves::PROFILE_1D, Column::Profile1d, &|| self.profile_1d());
+        // d − g in contact, 0 elsewhere.
+        add(Curves::PROFILE_1D, Column::Compression, &|| {
+            let pressed = |g: &f64| (moment.depth - g).max(0.0);
+            self.profile_1d().iter().map(pressed).collect()
+        });
+        add(Curves::SPRINGS, Column::NormalLoad, &|| {
+            contact.load.nodal.clone()
+        });
+        add(Curves::SPRINGS, Column::TangentialLoad, &|| {
+            let springs = or_zero(&contact.spring.nodal);
+            springs.iter().map(|u| modulus * u).collect()
+        });
+        add(Curves::PRESSURE, Column::Pressure, &|| self.pressure());
+        add(Curves::SHEAR, Column::Shear, &|| {
+            let mut out = vec![0.0; nodes];
+            if with_springs {
+                traction::shear_to_read(model, contact, &mut out);
+            }
+            out
+        });
+        add(Curves::SPRINGS, Column::SpringShift, &|| {
+            or_zero(&contact.spring.nodal)
+        });
+        add(Curves::SURFACE, Column::Shift, &|| {
+            let mut out = vec![0.0; nodes];
+            if with_springs {
+                contact.surface_displacement(model, &mut out);
+            }
+            out
+        });
+        add(Curves::PROFILE, Column::Wear, &|| self.state().wear.clone());
+        let depression = || {
+            let mut out = vec![0.0; nodes];
+            contact.depression(model, &mut out);
+            let (depth, inside, worn) = (contact.depth, contact.normal.nodes, worn());
+            // In a line contact the surface is measured from its centre.
+            let centre = if self.setup().geometry.is_line() {
+                worn[0]
+            } else {
+                0.0
+            };
+            for (out, f) in out.iter_mut().zip(worn).take(inside) {
+                *out = depth - (f - centre);
+            }
+            out
+        };
+        let asks = |curve| curves.contains(curve);
+        let header = vec![(Column::Cycle.name().to_owned(), moment.cycle.to_string())];
         Observation {
-            moment: self.moment(),
+            moment,
             geometry: self.setup().geometry,
             method: self.setup().method,
             law: self.setup().wear.map(|law| law.name()),
             grid: self.setup().grid.clone(),
-            radii: self.setup().grid.nodes().into(),
-            unworn: Arc::clone(&model.unworn),
-            profile: when(Curves::PROFILE, &worn),
-            wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
-            profile_1d: when(Curves::PROFILE_1D, &|| self.profile_1d()),
-            normal_load: when(Curves::SPRINGS, &|| contact.load.nodal.clone()),
-            tangential_load: when(Curves::SPRINGS, &|| {
-                let springs = or_zero(&contact.spring.nodal);
-                springs.iter().map(|u| modulus * u).collect()
-            }),
+            columns: Arc::new(Table::of_columns(header, columns)),
             domes: [
                 contact.load.dome.filter(|_| with_loads),
                 contact.spring.dome.map(|dome| dome.scaled(modulus)),
             ],
-            spring: when(Curves::SPRINGS, &|| or_zero(&contact.spring.nodal)),
-            pressure: when(Curves::PRESSURE, &|| self.pressure()),
-            shear: when(Curves::SHEAR, &|| {
-                let mut out = vec![0.0; nodes];
-                if with_springs {
-                    traction::shear_to_read(model, contact, &mut out);
-                }
-                out
-            }),
-            surface: when(Curves::SURFACE, &|| {
-                let mut out = vec![0.0; nodes];
-                if with_springs {
-                    contact.surface_displacement(model, &mut out);
-                }
-                out
-            }),
-            depression: when(Curves::DEPRESSION, &|| {
-                let mut out = vec![0.0; nodes];
-                contact.depression(model, &mut out);
-                let (depth, inside, worn) = (contact.depth, contact.normal.nodes, worn());
-                // In a line contact the surface is measured from its centre.
-                let centre = if self.setup().geometry.is_line() {
-                    worn[0]
-                } else {
-                    0.0
-                };
-                for (out, f) in out.iter_mut().zip(worn).take(inside) {
-                    *out = depth - (f - centre);
-                }
-                out
-            }),
-            zones: if curves.contains(Curves::ZONES) {
-                self.zones()
-            } else {
-                Vec::new()
-            },
+            depression: asks(Curves::DEPRESSION)
+                .then(depression)
+                .unwrap_or_default(),
+            zones: asks(Curves::ZONES)
+                .then(|| self.zones())
+                .unwrap_or_default(),
         }
     }
 

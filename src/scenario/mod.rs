@@ -309,7 +309,7 @@ impl Scenario {
 
     /// Returns `material.fatigue_limit`, Pa, if given: stresses are compared with it after the run.
     pub fn fatigue_limit(&self) -> Option<f64> {
-        schema::read(&self.table, "material.fatigue_limit")
+        self.spec.material.fatigue_limit
     }
 
     /// Returns the value at a dotted path as TOML, if the scenario gives one.

@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use super::{nearest, printable, schema};
+use super::{nearest, printable};
 use crate::math::scan::largest;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
@@ -162,7 +162,7 @@ impl<'a> Reading<'a> {
         let scenario = self.session.scenario();
         Some(Limits {
             tension: scenario.fatigue_limit()?,
-            shear: schema::read(&scenario.table, "material.shear_fatigue_limit")?,
+            shear: scenario.spec().material.shear_fatigue_limit?,
         })
     }
 

@@ -14,6 +14,9 @@ pub struct Spec {
     /// `[numerics]`.
     #[serde(default)]
     pub numerics: Numerics,
+    /// `[material]`.
+    #[serde(default)]
+    pub material: Material,
     /// `[wear]`; `None` where nothing wears.
     pub wear: Option<Wear>,
     /// `[run]`.
@@ -59,6 +62,18 @@ pub enum Passage {
     CycleJump,
 }
 
+/// `[material]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Material {
+    /// What stresses are compared with after the run, Pa.
+    pub fatigue_limit: Option<f64>,
+    /// The same in shear, Pa.
+    pub shear_fatigue_limit: Option<f64>,
+    /// The other keys.
+    #[serde(flatten)]
+    rest: Table,
+}
+
 /// `[wear]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Wear {
@@ -96,7 +111,7 @@ pub type Edits = Vec<(&'static str, String)>;
 impl Spec {
     /// Takes the typed parts out of a table that has passed all checks.
     pub(super) fn take(table: &mut Table) -> Self {
-        let parts = ["numerics", "wear", "run"];
+        let parts = ["numerics", "material", "wear", "run"];
         let parts = parts
             .into_iter()
             .filter_map(|name| table.remove_entry(name));

@@ -44,7 +44,7 @@ impl Pen {
         (symbol, Self { fg, bg, modifier })
     }
 
-    /// The codes that lead from the pen `now` to this one, if that needs no reset, each behind a semicolon.
+    /// Returns the codes that turn the pen `now` into this one without a reset, each after a semicolon.
     fn codes(self, now: Self) -> String {
         // Modifiers stand in the order of their codes, from 1 on.
         let added = (self.modifier - now.modifier).iter();
@@ -56,7 +56,7 @@ impl Pen {
             .collect()
     }
 
-    /// The sequence that makes this the pen, whatever it is: an empty code is a reset.
+    /// Returns the sequence that sets this pen, whatever the pen was: an empty code resets it.
     fn anew(self) -> String {
         format!("\x1b[{}m", self.codes(Self::default()))
     }
@@ -73,7 +73,7 @@ impl Pen {
     }
 }
 
-/// The code of a colour behind a semicolon; that of black is 30 in ink and 40 on the ground, the `base`.
+/// Returns a semicolon and the code of a colour. `base` is the code of black: 30 for ink, 40 for the ground.
 fn code(color: Color, base: usize) -> String {
     match color {
         Color::Indexed(index) => format!(";{};5;{index}", base + 8),
@@ -128,8 +128,8 @@ pub struct AnsiWriter {
 }
 
 impl AnsiWriter {
-    /// About `room` bytes that bring the terminal closer to `wanted`, and whether it then shows that. One that shows a
-    /// screen of another size is cleared first.
+    /// Returns about `room` bytes that bring the terminal closer to `wanted`, and whether it then shows `wanted`. Clears a
+    /// terminal that shows a screen of another size.
     pub fn chunk(&mut self, wanted: &Buffer, room: usize) -> (String, bool) {
         let mut text = String::new();
         if self.shown.area != wanted.area {
@@ -166,9 +166,9 @@ impl AnsiWriter {
         (text, is_whole)
     }
 
-    /// Leaves as many of the changes as take about `room` bytes; returns whether that is all. The first and the last row
-    /// tell of the run and of keys, and come whole; the rest in turn, a few cells in each chunk. (Cells, not rows: a
-    /// wide row may be larger than a chunk.)
+    /// Keeps only the changes that fit into about `room` bytes; returns whether all do. The first and the last row show the
+    /// state of the run and the keys, so they are sent whole. The other cells take turns, a few in each chunk. (Cells, not
+    /// rows: a wide row may be larger than a chunk.)
     fn cut(&mut self, changes: &mut Vec<(u16, u16, &Cell)>, room: usize) -> bool {
         let last = self.shown.area.height.saturating_sub(1);
         let is_edge = |y| y == 0 || y == last;

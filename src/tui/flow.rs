@@ -8,7 +8,7 @@
 //! line is busy; the next chunk is sent when that is at most [`DELAY`], and is as large as keeps it so.
 //!
 //! The round trip is measured by a request of another kind, on an empty line. Its answer also tells where in the queue of
-//! requests the terminal is, in case answers were lost. A terminal that does not know both counts as silent.
+//! requests the terminal is, in case answers were lost. A terminal that does not answer both counts as silent.
 
 use std::collections::VecDeque;
 
@@ -39,6 +39,9 @@ const KEPT: f64 = 0.75;
 /// The round trip is measured again after this many seconds and round trips; the line idles for a fifteenth of the
 /// time.
 const REFRESH: [f64; 2] = [3.0, 15.0];
+
+/// The part of that time after which it is tried again, where a key came before the line was empty.
+const AGAIN: f64 = 0.4;
 
 /// How long a key has precedence, seconds.
 const HURRY: f64 = 0.3;
@@ -134,9 +137,14 @@ impl Flow {
         oldest.sent.max(heard) + self.base + LOST + bytes / SLOW
     }
 
+    /// Returns the time between measurements of the round trip.
+    fn refresh(&self) -> f64 {
+        REFRESH[0] + REFRESH[1] * self.base
+    }
+
     /// Whether the round trip should be measured again.
     fn is_old(&self, now: f64) -> bool {
-        self.heard.is_some() && now > self.confirmed + REFRESH[0] + REFRESH[1] * self.base
+        self.heard.is_some() && now > self.confirmed + self.refresh()
     }
 
     /// Returns how long to wait before sending a chunk, unless something happens first; `None` while the writer is
@@ -184,6 +192,10 @@ impl Flow {
 
     /// Notes that the writer received a chunk of this many bytes, including its request.
     pub fn sent(&mut self, now: f64, bytes: usize) {
+        // An answer to a key was sent while the line was to become empty: keys in a row would keep it idle for long.
+        if self.is_old(now) && !self.marks.is_empty() {
+            self.confirmed = now - (1.0 - AGAIN) * self.refresh();
+        }
         self.unwritten += 1;
         self.mark(now, bytes, Request::Status);
     }
@@ -211,7 +223,7 @@ impl Flow {
         match (request, self.marks.iter().position(is_place)) {
             // What was asked before will have no answer.
             (Request::Place, Some(place)) => drop(self.marks.drain(..place)),
-            // An answer from before was taken for the one to this.
+            // An earlier answer was mistaken for this one.
             (Request::Place, None) => return self.forget(),
             // That is to a chunk from before answers were lost.
             (Request::Status, Some(0)) => return,

@@ -35,7 +35,7 @@ pub struct Frame {
     /// Facts about the scenario.
     pub facts: Arc<Facts>,
     /// The computed curves and scalars.
-    pub observation: Observation,
+    pub observation: Arc<Observation>,
     /// What a fretting test reports for the last cycle.
     pub figures: Option<CycleFigures>,
     /// Whether frames are taken at the ends of cycles, phase 0 of the motion; otherwise they show the motion.

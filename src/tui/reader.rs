@@ -132,7 +132,7 @@ impl Reader {
         }
     }
 
-    /// Nothing more has come for that long, if anything was waited for.
+    /// Handles a pause of that length: bytes that look like the start of a sequence are keys.
     pub fn rest(&mut self) -> Vec<Input> {
         self.typed();
         self.interrupt();

@@ -98,7 +98,7 @@ fn here(run: &Run, axes: Axes, r: f64) -> Option<(f64, f64)> {
     if axes.over_r() {
         return Some((r, over_r(run, axes, r)?));
     }
-    let moment = &run.live.as_ref()?.moment;
+    let moment = &run.live.as_ref()?.seen.moment;
     match axes {
         Axes::LOOP => return Some((moment.shift, moment.tangential_force)),
         // The screen shows the largest radius of the cycle, histories the one at that moment.

@@ -18,11 +18,11 @@ pub fn stop() -> bool {
     is_under_job_control(getpid(), parent_of, whose) && kill(NOBODY, Signal::SIGSTOP).is_ok()
 }
 
-/// Longer than the thread that hears signals takes, also on a busy machine, for the one that came before a stop ended.
+/// Time for the signal thread to see what came together with SIGCONT; generous, for busy machines.
 const HEARD: Duration = Duration::from_millis(250);
 
-/// Waits, stopped, while the terminal belongs to another job, unless the session `is_over`. Taking the terminal from
-/// there would stop the process as well, but in a system call in which no signal can end it.
+/// Stays stopped while another job has the terminal, until the session `is_over`. Setting the terminal's modes from the
+/// background would also stop the process, but inside a system call, where only SIGKILL could end it.
 pub fn wait_for_terminal(is_over: impl Fn() -> bool) {
     let is_behind = || tcgetpgrp(io::stdin()).is_ok_and(|front| front != getpgrp());
     while !is_over() && is_behind() && stop() {

@@ -21,7 +21,8 @@ const TAKE_OVER: &str = "\x1b[?1049h\x1b[?2004h";
 const GIVE_BACK: &str = "\x1b[?2026l\x1b[?2004l\x1b[m\x1b[?1049l\x1b[?25h";
 
 /// Asks for presses, releases and the wheel (mode 1000), in numbers that hold on any screen (1006).
-/// The terminal is not asked for the mouse's movements: each would be bytes on the wire. The second undoes that.
+/// The terminal is not asked for the mouse's movements: each would be bytes on the wire. The second string undoes the
+/// first.
 const MOUSE: [&str; 2] = ["\x1b[?1000h\x1b[?1006h", "\x1b[?1006l\x1b[?1000l"];
 
 /// Asks what the background is (OSC 11). The first frame does not wait for the answer, and there may be
@@ -30,7 +31,7 @@ const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
-    /// The way to it; what is sent must draw nothing.
+    /// The way to the terminal. What is sent must draw nothing.
     pub output: Output,
     writer: AnsiWriter,
     modes: Modes,

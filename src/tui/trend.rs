@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::loops::Loops;
 use crate::charts::Run;
-use crate::export::{history, state};
+use crate::export::history;
 use crate::math::scan::largest;
 use crate::reading::{Column, Moment, Observation};
 use crate::scenario::scalars::{Reading, scar_radius};
@@ -45,11 +45,10 @@ impl Recorded {
     /// Returns the data for charts: `seen` at the present moment, and the past.
     pub fn charted(&self, seen: &Observation) -> Run {
         let moment = &seen.moment;
-        let header = vec![(Column::Cycle.name().to_owned(), moment.cycle.to_string())];
         let moves = moment.stick_radius.is_some();
         let last = moves.then(|| self.trend.loops.last(moment.cycle));
         Run {
-            states: vec![Table::of_columns(header, state::columns(seen))],
+            states: vec![Arc::clone(&seen.columns)],
             history: Some(self.trend.history()),
             loops: last.into_iter().collect(),
             geometry: seen.geometry,

@@ -47,7 +47,12 @@ fn exact() -> [(&'static str, Vec<(f64, f64)>); 2] {
     let points = period.points.iter().step_by(period.points.len() / 20);
     let fretting_loop = points.map(|at| (at.shift, at.tangential_force)).collect();
     let seen = session.simulation().observe(Curves::PROFILE);
-    let scar = seen.radii.iter().copied().zip(seen.wear).collect();
+    let scar = seen
+        .radii()
+        .iter()
+        .copied()
+        .zip(seen.wear().iter().copied())
+        .collect();
     [("r_m,wear_m", scar), ("u_m,F_N", fretting_loop)]
 }
 

@@ -32,6 +32,11 @@ fn faults(floor: &str, text: &str) -> Vec<String> {
         .filter(|target| !may_import(floor, target))
         .map(|target| format!("{floor} imports {target}"))
         .collect();
+    if code.contains("use super::*") {
+        faults.push(format!(
+            "{floor} imports all that its parent has, so that no line tells what it needs"
+        ));
+    }
     if floor == "oracle" {
         faults.extend(foreign_to_the_judge(&code));
     }

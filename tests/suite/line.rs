@@ -79,12 +79,12 @@ fn hertz_and_cattaneo_are_exact() {
     );
     let gauge = run.setup().drive.gauge_length().expect("a gauge");
     is_near(moment.shift, CYLINDER.shift(FORCE, gauge), 1e-10);
-    assert!(run.force_residual(&seen.pressure).expect("a load").abs() < 1e-3);
-    for (j, &x) in seen.radii.iter().enumerate() {
-        is_at(seen.pressure[j], CYLINDER.pressure(1.0, x), 1e-13, x);
-        is_at(seen.shear[j], CYLINDER.shear(FORCE, x), 1e-13, x);
+    assert!(run.force_residual(seen.pressure()).expect("a load").abs() < 1e-3);
+    for (j, &x) in seen.radii().iter().enumerate() {
+        is_at(seen.pressure()[j], CYLINDER.pressure(1.0, x), 1e-13, x);
+        is_at(seen.shear()[j], CYLINDER.shear(FORCE, x), 1e-13, x);
         if x <= 1.0 {
-            let slip = seen.spring[0] - seen.surface[j];
+            let slip = seen.spring()[0] - seen.surface()[j];
             is_at(slip, CYLINDER.slip(FORCE, x), 1e-13, x);
         }
     }

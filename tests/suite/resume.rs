@@ -24,7 +24,8 @@ fn scenario() -> String {
     scenario.with_changes(changes.to_vec()).to_toml()
 }
 
-const ORDER: &str = "run mine.toml --cycles 240.125 --snapshot-at 10.123,2,30 --history every-step";
+const ORDER: &str =
+    "run mine.toml --cycles 240.125 --snapshot-at 10.123,2,30 --history every-step --field";
 
 fn dir() -> TestDir {
     let dir = TestDir::new();

@@ -431,13 +431,16 @@ fn a_job_in_the_background_hears_that_it_shall_end() {
     terminal.wait_until("running explorer", is_running);
     terminal.press("\x1a");
     terminal.wait_for("Stopped");
-    terminal.press("clear; bg; sleep 0.5\n");
-    terminal.wait_for("Stopped");
+    terminal.press("clear\n");
+    let is_told = |screen: &Screen| screen.contents().contains("Stopped");
+    terminal.wait_until("empty screen", |screen| !is_told(screen));
+    terminal.press("bg\n");
+    terminal.wait_until("stop", is_told);
     terminal.press(end);
     terminal.wait_for("ended 42");
     has(&terminal.text(), "resume with");
-    terminal.press("clear; echo $((6*7))\n");
-    terminal.wait_for("\n42");
+    terminal.press("clear; echo $((7*7))\n");
+    terminal.wait_for("49");
     terminal.press("exit\n");
     terminal.wait_for_end();
 }

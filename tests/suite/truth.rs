@@ -175,7 +175,7 @@ fn the_axis_of_stresses_holds_for_a_cycle_and_is_not_that_of_a_spike() {
         assert!(axes.len() <= before + 1, "{preset}: {axes:?}");
         // In the middle the pressure is seen.
         let frame = explorer.frame();
-        let pressure = frame.observation.pressure[0];
+        let pressure = frame.observation.pressure()[0];
         let highest = explorer
             .app
             .explorer

@@ -1,16 +1,25 @@
 //! How a run begins: from a scenario, or where an interrupted run ended.
 
 use std::ffi::OsStr;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
 
-use anyhow::Context;
+use anyhow::{Context, Result};
 
 use super::past::Past;
-use super::*;
-use crate::export::file::directory_of;
+use super::{Job, Safe};
+use crate::cli::args::Run;
+use crate::cli::job::RunJob;
+use crate::cli::{accuracy, given};
+use crate::export::autosave::{Autosave, Recent};
+use crate::export::file::{WriteError, directory_of};
 use crate::export::own_directory;
-use crate::export::run_directory::RUN_CHECKPOINT;
-use crate::scenario::checkpoint::Stamp;
-use crate::studies::refinement::Budget;
+use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
+use crate::panics::locked;
+use crate::scenario::checkpoint::{self, Stamp};
+use crate::scenario::session::Session;
+use crate::scenario::{Scenario, printable};
+use crate::studies::refinement::{self, Budget};
 
 impl<'a> Job<'a> {
     /// Starts the scenario called `name`.

@@ -1,11 +1,8 @@
 //! `mdr-tui run`: the simulation without a screen.
-//!
-//! This module imports what its parts need; they begin with `use super::*`.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -17,16 +14,15 @@ use anyhow::{Result, anyhow};
 use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::progress::Progress;
-use super::{FAILED, UNFINISHED, accuracy, complain, given, provenance, stop};
+use super::{FAILED, UNFINISHED, accuracy, complain, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{WriteError, shell_path};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, last_loop, state};
 use crate::panics::locked;
+use crate::scenario::checkpoint;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Scenario, checkpoint, printable};
-use crate::studies::refinement;
 
 mod begin;
 mod past;
@@ -133,7 +129,7 @@ impl Guard {
             is_over: Arc::default(),
             safe: Arc::default(),
         };
-        // Not kept alive by this thread, which never ends: the directory would stay claimed.
+        // A weak reference: this thread never ends, and would keep the directory claimed.
         let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::downgrade(&guard.safe));
         let watch = move || {
             while !stop.load(Ordering::Relaxed) {
@@ -326,7 +322,8 @@ impl Job<'_> {
     fn checkpoint_if_due(&mut self, session: &Session) {
         let mut safe = locked(&self.safe);
         safe.copy.refresh(|| (session.clone(), self.job.clone()));
-        if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
+        let is_time = |at: Instant| at.elapsed() >= ANOTHER_TRY;
+        if self.job.history.is_full() && self.unwritten.is_none_or(is_time) {
             // Rows that cannot be written stay in memory.
             let rows = self.directory.check().map(|()| self.directory.rows());
             let is_written = rows.is_ok_and(|rows| self.job.history.spill(&rows).is_ok());

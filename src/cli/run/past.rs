@@ -1,13 +1,16 @@
 //! The files that an interrupted run has written so far. They are recognised by checksum, so that files that another
 //! run has put in their place are never mistaken for them.
 
-use std::io::Read;
-use std::path::PathBuf;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
-use super::*;
-use crate::cli::job::rows_sum;
+use anyhow::Result;
+
+use super::file_of;
+use crate::cli::job::{RunJob, rows_sum};
+use crate::cli::{complain, provenance};
 use crate::export::file::write_whole_with;
-use crate::export::run_directory::RUN_ROWS;
+use crate::export::run_directory::{RUN_ROWS, RunDirectory};
 use crate::export::safe_open;
 use crate::scenario::Refusal;
 use crate::scenario::bounded_read::Unread;

@@ -1,11 +1,16 @@
 //! A run's reports: remarks at its start, and its result as text or JSON.
 
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 
-use super::*;
+use anyhow::Result;
+
+use super::Job;
+use crate::export::header::{self, number};
 use crate::reading::{Column, Quantity, verdict};
-use crate::scenario::escape;
 use crate::scenario::scalars::Value;
+use crate::scenario::session::Session;
+use crate::scenario::{escape, printable};
 
 /// Returns what a user should know about a run: why it never jumps, what its indenter is made from, warnings.
 pub(super) fn remarks(session: &Session) -> Vec<String> {

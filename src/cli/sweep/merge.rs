@@ -1,9 +1,19 @@
 //! `sweep --merge`: merges the shards of a study into one table.
 
 use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::{env, fs};
 
-use super::*;
-use crate::studies::sweep::record::Refused;
+use anyhow::{Context, Result, bail};
+
+use crate::cli::args::Sweep;
+use crate::cli::complain;
+use crate::export::target::Target;
+use crate::scenario::{Refusal, printable};
+use crate::studies::sweep::ledger::Ledger;
+use crate::studies::sweep::record::{self, Arithmetic, Record, Refused};
+use crate::studies::sweep::{Shard, Study};
 
 /// Maximum number of points named in a message.
 const NAMED: usize = 3;

@@ -1,12 +1,10 @@
 //! `mdr-tui sweep`: a study of many points, whole or in shards.
-//!
-//! This module imports what its parts need; they begin with `use super::*`.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use std::{env, fs, thread};
+use std::{env, thread};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Parser;
@@ -14,12 +12,11 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::args::{Arguments, Sweep};
 use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
-use crate::export::file::{shell_path, shell_word};
-use crate::export::target::Target;
+use crate::export::file::shell_path;
 use crate::scenario::{Refusal, bounded_read, printable};
 use crate::studies::sweep::engine;
 use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::record::{self};
 use crate::studies::sweep::{Shard, Study, Success};
 use crate::tui::map::live::Live;
 

@@ -1,9 +1,21 @@
 //! The output file: rows are appended as they finish, and sorted at the end. Memory use does not grow with its size.
 
-use super::*;
+use std::env;
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail, ensure};
+
+use crate::cli::args::Sweep;
 use crate::export::file::{WriteError, write_with};
+use crate::export::target::Target;
 use crate::export::{header, safe_open};
+use crate::scenario::Refusal;
 use crate::scenario::bounded_read::Unread;
+use crate::studies::sweep::ledger::Ledger;
+use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::{Shard, Study, Success};
 
 /// Interval for flushing rows to disk. A killed process loses none, since the system already has them; a crash of the
 /// machine loses at most this much.

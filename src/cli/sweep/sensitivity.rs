@@ -1,8 +1,12 @@
 //! `sweep --sensitivity`: how sensitive the results are to the keys, as a table.
 
+use anyhow::{Context, Result};
+
 use super::super::results;
-use super::*;
-use crate::studies::sweep::sensitivity;
+use crate::cli::args::Sweep;
+use crate::cli::{complain, stop};
+use crate::export::target::Target;
+use crate::studies::sweep::{Study, record, sensitivity};
 
 /// Runs the sensitivity study and prints or writes its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {

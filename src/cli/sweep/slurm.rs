@@ -9,7 +9,12 @@
 //! - The number of shards is written down: Slurm's own count shrinks when single tasks are queued
 //!   again.
 
-use super::*;
+use std::path::Path;
+
+use super::named_after;
+use crate::cli::UNFINISHED;
+use crate::cli::args::Sweep;
+use crate::export::file::{shell_path, shell_word};
 
 /// Maximum number of times that an interrupted task asks to be queued again.
 const MOST_REQUEUES: u32 = 100;

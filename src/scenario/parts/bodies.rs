@@ -1,7 +1,10 @@
 //! Builds the material from the keys of a scenario, for the pair or for two bodies.
 
-use super::*;
-use crate::contact::material::Body;
+use super::Parts;
+use crate::contact::material::{Body, Material};
+use crate::math::invalid::Invalid;
+use crate::scenario::error::Refusal;
+use crate::scenario::values::join;
 
 /// Sections of the two bodies.
 const INDENTER: &str = "material.indenter";

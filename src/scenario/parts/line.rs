@@ -1,7 +1,14 @@
 //! Builds a line contact from the keys of a scenario: its length,
 //! its motion, and checks of what a line does not support.
 
-use super::*;
+use super::Parts;
+use crate::contact::indenter::Indenter;
+use crate::contact::material::Material;
+use crate::math::abel::AbelMethod;
+use crate::math::geometry::Geometry;
+use crate::scenario::check::length;
+use crate::scenario::error::Refusal;
+use crate::simulation::Unworn;
 use crate::simulation::drive::{Control, Drive};
 
 /// Default length of a line contact, m: every force and volume is then per metre.

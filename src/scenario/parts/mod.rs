@@ -1,7 +1,7 @@
 //! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors check the values;
 //! these modules add where in the scenario a refused value is.
 //!
-//! Each section of a scenario has its own file. Shared imports are here, and the files begin with `use super::*`.
+//! Each section of a scenario has its own file.
 
 use std::cell::RefCell;
 use std::fmt::Display;
@@ -10,7 +10,7 @@ use std::str::FromStr;
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
-use super::check::{self, length, show};
+use super::check::{self, show};
 use super::complete;
 use super::derive;
 use super::error::{Faults, Origin, Refusal};
@@ -20,7 +20,6 @@ use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
-use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing, Unworn};

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::*;
+use super::Parts;
+use crate::scenario::error::Refusal;
+use crate::scenario::values::join;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::waveform::{Tabled, Waveform};
 

@@ -1,6 +1,9 @@
 //! Builds coefficients that run in from the keys of a scenario.
 
-use super::*;
+use super::Parts;
+use crate::contact::material::Material;
+use crate::scenario::error::Refusal;
+use crate::scenario::values::join;
 use crate::simulation::running_in::{Course, Over, RunningIn};
 
 impl Parts<'_> {

@@ -1,6 +1,10 @@
 //! Builds the initial scar from the keys of a scenario.
 
-use super::*;
+use super::{HARDLY_SAME, Parts};
+use crate::contact::indenter::Indenter;
+use crate::contact::scar::Scar;
+use crate::scenario::check::length;
+use crate::scenario::error::Refusal;
 
 /// Keys of the scar.
 const RADII: &str = "wear.initial_radii";

@@ -1,7 +1,12 @@
 //! Builds the indenter from the keys of a scenario, and checks a measured one against the domain.
 
-use super::*;
+use super::{HARDLY_SAME, Parts};
+use crate::contact::indenter::Indenter;
 use crate::contact::measured::MeasuredProfile;
+use crate::scenario::check::length;
+use crate::scenario::error::Refusal;
+use crate::scenario::schema::{self, Parameter};
+use crate::scenario::values::join;
 
 /// Allowed slopes a/R of a table at the contact's edge: beyond the steepest and the shallowest, one of its columns is
 /// in another unit.

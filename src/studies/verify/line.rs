@@ -62,11 +62,11 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     let mut simulation = Simulation::new(moved(method, points, domain, force))?;
     simulation.advance_to(0.25)?;
     let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE | Curves::SPRINGS);
-    let nodes = seen.radii.iter().copied();
-    let shear = nodes.clone().zip(&seen.shear);
+    let nodes = seen.radii().iter().copied();
+    let shear = nodes.clone().zip(seen.shear());
     let shear = shear.map(|(x, &tau)| (x, tau, exact.shear(force, x)));
-    let slip = nodes.zip(&seen.surface).take_while(|(x, _)| *x <= 1.0);
-    let slip = slip.map(|(x, surface)| (x, seen.spring[0] - surface, exact.slip(force, x)));
+    let slip = nodes.zip(seen.surface()).take_while(|(x, _)| *x <= 1.0);
+    let slip = slip.map(|(x, surface)| (x, seen.spring()[0] - surface, exact.slip(force, x)));
     Ok(vec![
         Errors::new(Some(exact.shear(force, inner)), shear),
         Errors::new(Some(exact.slip(force, 1.0)), slip),

@@ -10,7 +10,7 @@ use crate::math::grid::RadialGrid;
 use crate::oracle::flat_punch::FlatPunch;
 use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated::TruncatedParaboloid;
-use crate::reading::Curves;
+
 use crate::simulation::{Breakdown, Simulation};
 use crate::studies::theory::over;
 
@@ -107,7 +107,7 @@ fn simulated(
     depth: f64,
 ) -> Result<Vec<f64>, Breakdown> {
     let setup = pressed(method, grid.clone(), indenter, depth);
-    Ok(Simulation::new(setup)?.observe(Curves::PRESSURE).pressure)
+    Ok(Simulation::new(setup)?.pressure())
 }
 
 /// The paraboloid of the paper's Fig. 2.

@@ -43,10 +43,10 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(0.25)?;
     let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE);
-    let nodes = seen.radii.iter().copied();
-    let shear = nodes.clone().zip(&seen.shear);
+    let nodes = seen.radii().iter().copied();
+    let shear = nodes.clone().zip(seen.shear());
     let shear = shear.map(|(r, &tau)| (r, tau, exact.shear_stress(r)));
-    let slip = nodes.zip(&seen.surface).take_while(|(r, _)| *r <= 1.0);
+    let slip = nodes.zip(seen.surface()).take_while(|(r, _)| *r <= 1.0);
     let slip = slip.map(|(r, surface)| (r, seen.moment.shift - surface, exact.slip(r)));
     // τ rises up to c and falls beyond; the slip rises up to a.
     let peak = exact.shear_stress(exact.stick_radius());
@@ -83,7 +83,7 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown
     let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(CYCLES)?;
     let seen = simulation.observe(Curves::PROFILE);
-    let worn = seen.radii.iter().zip(&seen.profile);
+    let worn = seen.radii().iter().zip(seen.profile());
     let worn = worn.map(|(&r, &f)| (r, f, exact.profile(r)));
     let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
     let mut profile = Errors::new(Some(1.0), worn);

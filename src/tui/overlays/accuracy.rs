@@ -1,9 +1,15 @@
 //! The checks of the run, what each means, and the run's errors as estimated from fewer cells and steps.
 
-use super::*;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+use crate::plot::theme::Role;
 use crate::reading::Quantity;
 use crate::studies::refinement::Level;
 use crate::tui::beside::NOTHING_YET;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::Command;
+use crate::tui::frame::Frame;
 
 /// The commands that close the panel, and those that run while it stays open, so that the run can be watched.
 pub(super) const CLOSING: &[Command] = &[Command::Back, Command::Accuracy, Command::Accept];

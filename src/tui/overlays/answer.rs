@@ -1,6 +1,12 @@
 //! An overlay's answer to a key, and what overlays share: selection in a list, and a line being typed.
 
-use super::*;
+use ratatui::style::{Modifier, Style};
+use ratatui::text::{Line, Span};
+
+use super::Overlay;
+use crate::tui::command::{self, Command};
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::LineEdit;
 
 /// What follows a key that an overlay has handled.
 #[derive(Debug)]

@@ -1,8 +1,14 @@
 //! Explains the focused panel: a few sentences, its symbols, and what to look for in this scenario.
 
-use super::*;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Rect};
+use ratatui::text::{Line, Span};
+
 use crate::charts::About;
-use crate::tui::canvas::rows;
+use crate::plot::theme::Role;
+use crate::tui::canvas::{Canvas, rows};
+use crate::tui::command::Command;
+use crate::tui::explorer::Explorer;
 use crate::tui::stage::Stage;
 use crate::tui::{panels, tour};
 

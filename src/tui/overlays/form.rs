@@ -2,8 +2,21 @@
 
 use std::sync::Arc;
 
-use super::*;
-use crate::plot::theme::Theme;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Layout;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+use super::Overlay;
+use crate::plot::theme::{Role, Theme};
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command};
+use crate::tui::explorer::Explorer;
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::LineEdit;
+use crate::tui::overlays::answer::{Answer, select, typing};
+use crate::tui::overlays::palette::Palette;
+use crate::tui::settings::Setting;
 use crate::tui::stage::LIST;
 
 /// The list, and the selected parameter's value while it is being typed.

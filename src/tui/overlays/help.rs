@@ -2,9 +2,18 @@
 
 use std::cell::Cell;
 
-use super::*;
-use crate::tui::command::Row;
+use ratatui::layout::Constraint::Fill;
+use ratatui::layout::Layout;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Paragraph;
+
+use crate::plot::theme::Role;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command, Row};
+use crate::tui::keys::{Key, Named};
 use crate::tui::manual::groups;
+use crate::tui::overlays::answer::{Answer, PAGE, watch};
 
 /// The commands that close it.
 const CLOSING: &[Command] = &[Command::Back, Command::Help, Command::Accept];

@@ -2,10 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use super::*;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Layout;
+use ratatui::text::Line;
+
+use crate::plot::theme::Role;
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
-use crate::tui::line::one_line;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command};
+use crate::tui::explorer::Explorer;
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::{LineEdit, one_line};
+use crate::tui::overlays::answer::{Answer, select};
 use crate::tui::snapshot;
 
 /// Maximum number of directory entries listed.

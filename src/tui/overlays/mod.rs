@@ -1,20 +1,12 @@
-//! Overlays, one per file. Each has its state, handles keys and draws itself. This module imports what they share; each
-//! of them begins with `use super::*`.
-
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
+//! Overlays, one per file. Each has its state, handles keys and draws itself.
 
 use super::canvas::Canvas;
-use super::command::{self, Command};
+use super::command::Command;
 use super::explorer::Explorer;
-use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
-use super::settings::Setting;
-use crate::plot::theme::Role;
-use answer::{PAGE, select, typing, watch};
+use answer::watch;
 
 mod accuracy;
 mod answer;

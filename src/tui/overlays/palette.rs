@@ -1,9 +1,20 @@
 //! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
-use super::*;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Layout;
+use ratatui::text::{Line, Span};
+
+use crate::plot::theme::Role;
 use crate::scenario::nearest::nearest;
-use crate::tui::command::{Act, COMMANDS, Row};
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{Act, COMMANDS, Command, Row};
 use crate::tui::completion::{self, Completion};
+use crate::tui::explorer::Explorer;
+use crate::tui::frame::Frame;
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::LineEdit;
+use crate::tui::overlays::answer::{Answer, select, typing};
+use crate::tui::settings::Setting;
 
 /// The line being typed, and the index of the selected completion.
 #[derive(Debug, Default)]

@@ -1,8 +1,14 @@
 //! A study on the whole screen: its map, and the point that is opened from it.
 
-use super::*;
-use crate::tui::explorer::Next;
+use super::Overlay;
+use crate::plot::theme::Role;
+use crate::tui::canvas::Canvas;
+use crate::tui::command;
+use crate::tui::explorer::{Explorer, Next};
+use crate::tui::keys::{Key, Named};
 use crate::tui::map::draw;
+use crate::tui::map::live::Live;
+use crate::tui::overlays::answer::Answer;
 
 /// The message until a point is open.
 pub const OPENING: &str = "opening the point ...";

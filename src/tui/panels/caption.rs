@@ -2,9 +2,19 @@
 //! of the colours. A small picture has only the load and the scale of the stress.
 
 use ratatui::buffer::Cell;
+use ratatui::layout::Constraint::{Length, Min};
+use ratatui::layout::{Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use super::cut::Section;
-use super::*;
+use crate::math::scan::largest;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Depth, Look, Role, Theme};
+use crate::plot::units::format_value;
+use crate::reading::Moment;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The minimum size of a picture with captions below it, and their rows.
 const ROOMY: [u16; 2] = [60, 16];
@@ -71,7 +81,7 @@ fn phase(moment: &Moment, speed: Option<f64>) -> String {
 /// Describes what has worn since the start.
 fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
     let seen = &frame.observation;
-    let deepest = largest(&seen.wear);
+    let deepest = largest(seen.wear());
     if seen.law.is_none() {
         return "Nothing wears in this scenario: both bodies keep their shape.".into();
     }

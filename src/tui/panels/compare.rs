@@ -1,12 +1,20 @@
 //! Two runs in lockstep from one state: both profiles, both pressures, and the difference below. Ghosts are drawn over
 //! each plot; in the difference, by how much they differ from this run.
 
-use super::*;
-use crate::charts::{A, C, Live, ghosts};
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Rect};
+
+use super::spread_top;
+use crate::charts::{A, C, Live, Recipe, ghosts};
 use crate::math::scan::rms;
-use crate::plot::{Axis, nice_bounds};
+use crate::plot::theme::Role;
+use crate::plot::units::{format_number, format_value};
+use crate::plot::{Axis, Chart, Curve, Scale, nice_bounds};
+use crate::reading::Moment;
 use crate::traces::Axes;
 use crate::tui::beside::{Comparison, name_of};
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// Minimum width of a column of numbers, in cells.
 const COLUMN: usize = 11;
@@ -37,7 +45,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     let run = &frame.run;
     // The worn depth of the second run and of ghosts, minus the worn depth of this run.
     let mut differences = ghosts::worn(run, None);
-    differences.push(Curve::new("", &*other.radii, &*other.wear, Role::Slip));
+    differences.push(Curve::new("", other.radii(), other.wear(), Role::Slip));
     for curve in &mut differences {
         let points = curve.xs.iter().zip(&mut curve.ys);
         points.for_each(|(&r, worn)| *worn = (*worn - seen.worn_depth_at(r)).abs());
@@ -60,16 +68,16 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     let mut render = |chart: &Chart, place| canvas.at(place).plot(chart, Role::Title, cursor);
     let pair = |there: &[f64], here: &[f64], role| {
         [
-            Curve::new(&*names[0], &seen.radii[..], here, role),
-            Curve::new(&*names[1], &other.radii[..], there, Role::Slip).dashed(),
+            Curve::new(&*names[0], seen.radii(), here, role),
+            Curve::new(&*names[1], other.radii(), there, Role::Slip).dashed(),
         ]
     };
     let mut profiles = Chart::new("3D profile", Axis::new("r", "m"), Axis::new("f", "m"))
         .curves(ghosts::worn(run, Some(1.0)))
-        .curves(pair(&other.profile, &seen.profile, Role::Profile));
+        .curves(pair(other.profile(), seen.profile(), Role::Profile));
     profiles.marks = run.live.as_ref().map(Live::edge_marks).unwrap_or_default();
     render(&profiles, left);
-    let pair_of_pressures = pair(&other.pressure, &seen.pressure, Role::Pressure);
+    let pair_of_pressures = pair(other.pressure(), seen.pressure(), Role::Pressure);
     let highest = pair_of_pressures.iter().map(spread_top).fold(0.0, f64::max);
     let mut ordinate = Axis::new("p", "Pa");
     ordinate.bounds = (highest > 0.0).then(|| nice_bounds(0.0, highest));
@@ -79,7 +87,7 @@ pub fn draw(frame: &Frame, comparison: &Comparison, cursor: Option<f64>, mut can
     render(&pressures, right);
     let highest = differences.iter().map(Curve::highest).fold(0.0, f64::max);
     // Interpolation exactly at the nodes leaves rounding errors.
-    let deepest = seen.wear.iter().copied().fold(0.0, f64::max);
+    let deepest = seen.wear().iter().copied().fold(0.0, f64::max);
     if highest <= 1e-12 * deepest {
         let mut canvas = canvas.at(below);
         let mut inside = canvas.titled(DIFFERENCE, Role::Title);

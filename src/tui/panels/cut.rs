@@ -1,11 +1,18 @@
 //! Places the bodies of the cross-section: the heights of indenter and half-space along the motion, what is magnified,
 //! and where it is on the screen.
 
+use ratatui::layout::Rect;
+
+use super::Shown;
 use super::stress_map::Shares;
-use super::*;
 use crate::charts::magnification;
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::theme::Theme;
+use crate::plot::units::format_number;
 use crate::reading::Zone;
 use crate::simulation::drive::Control;
+use crate::tui::frame::Frame;
 
 /// The picture is this many times as wide as the domain, so that the sides of the bodies are visible.
 const WIDER: f64 = 1.35;
@@ -106,7 +113,7 @@ impl<'a> Section<'a> {
     pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
         let seen = &frame.observation;
-        let ([low, high], &edge) = (of.bounds?, seen.radii.last()?);
+        let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
         }
@@ -117,7 +124,7 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
+        let deepest = largest(seen.wear()).max(frame.facts.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
@@ -146,7 +153,7 @@ impl<'a> Section<'a> {
         let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
-        let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
+        let sunk = |r: f64| interpolate(seen.radii(), &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
         // Far from the contact nothing is lifted, and nothing at all while the bodies are apart.
         let deepest = sunk(moment.contact_radius).max(sunk(r));
@@ -159,7 +166,7 @@ impl<'a> Section<'a> {
         // The half-space wears only if the scenario says so.
         let share = scenario.wear_share().unwrap_or(1.0);
         let wear = |r: f64| match r <= edge {
-            true => self.wear * interpolate(&seen.radii, &seen.wear, r),
+            true => self.wear * interpolate(seen.radii(), seen.wear(), r),
             false => 0.0,
         };
         let ground = surface - (1.0 - share) * wear(r);
@@ -243,6 +250,7 @@ fn amplitude(frame: &Frame) -> f64 {
 mod tests {
     use super::*;
     use crate::oracle::power_law::PowerLaw;
+    use crate::reading::Curves;
     use crate::scenario::Scenario;
     use crate::simulation::Simulation;
 
@@ -290,7 +298,7 @@ mod tests {
         let simulation = Simulation::new(setup).expect("a contact");
         let seen = simulation.observe(Curves::DEPRESSION);
         let a = PowerLaw::paraboloid(radius).contact_radius(1e-6);
-        for (&r, &sunk) in seen.radii.iter().zip(&seen.depression) {
+        for (&r, &sunk) in seen.radii().iter().zip(&seen.depression) {
             let exact = if r <= a {
                 1e-6 - r * r / (2.0 * radius)
             } else {

@@ -1,20 +1,14 @@
-//! Panels: the charts on the screen, and pictures made of characters, one per file. This module imports what they
-//! share; each of them begins with `use super::*`.
+//! Panels: the charts on the screen, and pictures made of characters, one per file.
 
-use ratatui::layout::Constraint::{Fill, Length, Min};
+use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
 
 use super::canvas::Canvas;
 use super::frame::Frame;
 use crate::charts::{self, About, Recipe};
-use crate::math::grid::interpolate;
-use crate::math::scan::{self, largest};
-use crate::plot::colormap::ColorMap;
-use crate::plot::shades::{self, has_blocks};
-use crate::plot::theme::{Depth, Look, Role, Theme};
-use crate::plot::units::{format_number, format_value};
+use crate::math::scan::{self};
+use crate::plot::theme::{Role, Theme};
 use crate::plot::{Chart, Curve, Plot, Scale};
-use crate::reading::{Curves, Moment};
 
 mod caption;
 pub mod compare;

@@ -1,8 +1,16 @@
 //! The numbers of the moment, most important first: a small panel shows fewer.
 
-use super::*;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use super::{Picture, Shown};
+use crate::charts::Recipe;
+use crate::plot::theme::Role;
+use crate::plot::units::{format_number, format_value};
 use crate::reading::CycleFigures;
 use crate::scenario::units::shown_in;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The panel.
 pub static RECIPE: Recipe<Picture> = Recipe {

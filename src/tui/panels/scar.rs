@@ -9,11 +9,23 @@
 //!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
 //! ```
 
-use super::*;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+use ratatui::text::Line;
+
+use super::{Picture, Shown};
+use crate::charts::Recipe;
 use crate::math::geometry::Geometry;
-use crate::plot::shades::paint_halves;
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades::{self, has_blocks, paint_halves};
 use crate::plot::step::Step;
-use crate::plot::theme::look_of;
+use crate::plot::theme::{Role, Theme, look_of};
+use crate::plot::units::format_value;
+use crate::reading::Curves;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The panel.
 pub static RECIPE: Recipe<Picture> = Recipe {
@@ -48,7 +60,7 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
         let (role, sign) = look_of(seen.moment.zone_at(r));
         return (theme.style(role).fg, sign);
     }
-    let depth = interpolate(&seen.radii, &seen.wear, r);
+    let depth = interpolate(seen.radii(), seen.wear(), r);
     let share = shades::share(depth, [0.0, deepest]);
     let color = shades::color(theme, ColorMap::Sequential, share);
     (color, shades::sign(shades::SIGNS, share))
@@ -56,7 +68,7 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
 
 /// Returns the range of depths that the colours cover, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
-    let deepest = largest(&frame.observation.wear);
+    let deepest = largest(frame.observation.wear());
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
@@ -64,7 +76,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     let frame = of.frame;
     let mut canvas = canvas.titled(RECIPE.title, of.role);
     let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
-    let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
+    let Some(&edge) = seen.radii().last().filter(|_| !seen.wear().is_empty()) else {
         return;
     };
     if area.height < 4 || area.width < 12 {
@@ -103,7 +115,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
 fn slip_direction(frame: &Frame) -> Option<f64> {
     let seen = &frame.observation;
     let (a, stick) = (seen.moment.contact_radius, seen.moment.stick_radius?);
-    let mut outermost_first = seen.radii.iter().zip(&seen.tangential_load).rev();
+    let mut outermost_first = seen.radii().iter().zip(seen.tangential_load()).rev();
     let (_, load) = outermost_first.find(|(r, load)| **r < a && **load != 0.0)?;
     (stick < a).then(|| load.signum())
 }

@@ -15,11 +15,16 @@
 //! stay aligned where the contact sticks, and separate where it slips. The flanks of the indenter move with it; between
 //! them the contact stays closed.
 
+use ratatui::style::{Color, Modifier, Style};
+
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
-use super::*;
-use crate::charts::U_X;
-use crate::plot::theme::look_of;
-use crate::reading::Zone;
+use super::{Picture, Shown, caption};
+use crate::charts::{Recipe, U_X};
+use crate::math::grid::interpolate;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Role, look_of};
+use crate::reading::{Curves, Zone};
+use crate::tui::canvas::Canvas;
 
 /// The panel.
 pub static RECIPE: Recipe<Picture> = Recipe {
@@ -83,13 +88,13 @@ impl Section<'_> {
     /// Draws short lines on both bodies: on the indenter they move with it, on the half-space with its surface.
     fn lines(&self, canvas: &mut Canvas) {
         let (seen, area) = (&self.of.frame.observation, self.area);
-        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.theme) {
+        if self.motion == 0.0 || seen.surface().is_empty() || !has_blocks(&self.theme) {
             return;
         }
         let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * self.width;
         let places = (-7..=7).map(|k| f64::from(k) * apart);
         for x in places.filter(|x| x.abs() < seen.moment.contact_radius) {
-            let surface = interpolate(&seen.radii, &seen.surface, x.abs());
+            let surface = interpolate(seen.radii(), seen.surface(), x.abs());
             let moved = whole(self.motion * surface, self.width);
             let Some([above, below]) = self.rows_above(x) else {
                 continue;

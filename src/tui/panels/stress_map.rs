@@ -5,9 +5,13 @@ use std::iter::zip;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::*;
+use crate::math::scan::{self};
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades;
+use crate::plot::units::format_value;
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
+use crate::tui::frame::Frame;
 use crate::tui::held::Held;
 
 /// The number of points across and down that set the range of the colours, and their extent in contact radii.

@@ -1,13 +1,19 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
-use super::*;
+use super::Worker;
 use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
+use crate::panics::locked;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
+use crate::tui::beside::Twin;
+use crate::tui::event::Event;
+use crate::tui::frame::{Activity, Facts};
+use crate::tui::ghosts::Source;
+use crate::tui::trend::Recorded;
 
 /// Factor by which each key press refines or coarsens cells and steps.
 const STRIDE: f64 = 1.5;

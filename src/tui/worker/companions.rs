@@ -1,9 +1,12 @@
 //! Companions of the run: a comparison, ghosts over the plots, and the twin that estimates its error.
 
-use super::*;
+use std::time::Duration;
+
+use super::Worker;
 use crate::studies::refinement::Difference;
-use crate::tui::beside::{Beside, From, name_of};
-use crate::tui::ghosts::MOST;
+use crate::tui::beside::{Beside, ComparisonRun, From, name_of};
+use crate::tui::frame::Activity;
+use crate::tui::ghosts::{MOST, Source};
 
 /// How long each of them catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);

@@ -1,7 +1,10 @@
 //! What the user asks for beside the run: files and studies.
 
-use super::*;
+use std::path::Path;
+
+use super::Worker;
 use crate::scenario::Scenario;
+use crate::tui::event::Event;
 use crate::tui::explorer::Copied;
 use crate::tui::map::live::Live;
 use crate::tui::map::range::Range;

@@ -3,10 +3,9 @@
 //! It steps no further ahead than the pace allows, and publishes a frame only after the previous one has been taken, so
 //! that a slow terminal does not slow the simulation down.
 //!
-//! The orders are grouped by subject, one file each; the files begin with `use super::*`.
+//! The orders are grouped by subject, one file each.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};

@@ -1,15 +1,20 @@
 //! What the worker sends to the screen: frames of the present state, and notices.
 
 use std::fmt::Display;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use std::time::{Duration, Instant};
 
-use super::*;
+use super::Worker;
 use crate::charts::{Live, Medium, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
-use crate::reading::{CycleFigures, Observation};
-use crate::tui::beside::COMPARED;
-use crate::tui::frame::Slot;
+use crate::reading::{Curves, CycleFigures, Observation};
+use crate::tui::beside::{COMPARED, ComparisonRun};
+use crate::tui::event::Event;
+use crate::tui::frame::{Activity, Facts, Frame, Slot};
 use crate::tui::line::one_line;
 
 /// Sends frames through a slot, at most one per interval, and everything else as events.
@@ -101,7 +106,7 @@ impl Worker {
             Some(_) => self.curves | COMPARED,
             None => self.curves,
         };
-        let observation = simulation.observe(curves);
+        let observation = Arc::new(simulation.observe(curves));
         let load = self.curves.contains(Curves::SPRINGS).then(|| {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
@@ -135,9 +140,14 @@ impl Worker {
     }
 
     /// Returns the data for charts: `seen` at the present moment, the past, and `curves` of the ghosts.
-    fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>, curves: Curves) -> Run {
+    fn charted(
+        &self,
+        seen: &Arc<Observation>,
+        figures: Option<&CycleFigures>,
+        curves: Curves,
+    ) -> Run {
         let (facts, trend) = (&self.facts, &self.run.trend);
-        let (moment, load) = (seen.moment, &seen.normal_load);
+        let load = seen.normal_load();
         let setup = self.run.simulation().setup();
         let material = &setup.material;
         let ghosts = self.ghosts.iter().chain(&self.before);
@@ -147,8 +157,7 @@ impl Worker {
             indenter: Some(setup.indenter.clone()),
             medium: Medium::Screen,
             live: Some(Live {
-                moment,
-                wears: seen.law.is_some(),
+                seen: Arc::clone(seen),
                 friction: material.friction(),
                 planned_cycles: facts.scenario.run().cycles,
                 expected_wear: facts.expected_wear,

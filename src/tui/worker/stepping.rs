@@ -1,7 +1,12 @@
 //! Stepping: as far as the pace allows while running, or by hand.
 
+use std::time::{Duration, Instant};
+
 use super::travel::ends_cycle;
-use super::*;
+use super::{BROKEN_DOWN, Worker};
+use crate::panics::locked;
+use crate::reading::Curves;
+use crate::tui::frame::Activity;
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);

@@ -1,11 +1,16 @@
 //! The worker's thread: starting it, ending it, and what it has saved.
 
-use std::sync::TryLockError;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, TryLockError};
 use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result};
 
-use super::*;
+use super::{Order, Orders, Worker};
+use crate::tui::autosave::ScreenAutosave;
+use crate::tui::event::Event;
 
 /// Maximum time for the worker to finish its step on exit.
 const LAST_STEP: Duration = Duration::from_millis(500);

@@ -1,8 +1,13 @@
 //! Time travel: back to earlier states, and on from there.
 
-use super::*;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::{BROKEN_DOWN, Worker};
+use crate::panics::locked;
 use crate::scenario::Change;
-use crate::tui::undo::Kept;
+use crate::tui::frame::{Activity, Facts};
+use crate::tui::undo::{Kept, Past};
 
 impl Worker {
     /// Stores the present state.

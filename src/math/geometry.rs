@@ -18,13 +18,14 @@ use super::abel::worn;
 use super::grid::RadialGrid;
 use super::quadrature::{line_weights, volume_of_revolution, weighted};
 
-/// Words of round contacts and those of lines, replaced in this order.
-const LINE_WORDS: [(&str, &str); 16] = [
+/// Replaces words of round contacts by words of lines, in this order.
+const LINE_WORDS: [(&str, &str); 17] = [
     (
         "outer radius of the wear scar",
         "half-width of the wear scar",
     ),
     ("outermost radius", "largest distance from the centre line"),
+    ("along the radius", "from the centre line outwards"),
     ("the radius", "the distance from the centre line"),
     ("radii", "half-widths"),
     ("radius", "half-width"),

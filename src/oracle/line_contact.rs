@@ -165,7 +165,7 @@ mod tests {
                 let carried = 2.0 * integrate(shear, 0.0, a) / force;
                 assert!((carried - 0.4).abs() < 1e-6, "{branch:?} {carried}");
             }
-            // Each stroke slips by twice that of half the force; 4μp s a cycle.
+            // Each stroke slips by twice what half the force does: 4μp s per cycle.
             let work = |x: f64| {
                 let s = CYLINDER.slip(force, x);
                 4.0 * CYLINDER.friction * CYLINDER.pressure(a, x) * s

@@ -60,7 +60,7 @@ fn is_near(found: f64, due: f64, error: f64) {
     assert!((found / due - 1.0).abs() < error, "{found:e} {due:e}");
 }
 
-/// Within an error of its own unit, at some place.
+/// Checks a value at some place within an absolute error.
 fn is_at(found: f64, due: f64, error: f64, place: f64) {
     assert!((found - due).abs() < error, "{place}: {found:e} {due:e}");
 }

@@ -31,7 +31,7 @@ impl<'a> Forecast<'a> {
     }
 
     /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
-    /// and Jäger; that of a line against its gauge.
+    /// and Jäger. A line slips from an amplitude against its gauge.
     fn threshold(&self) -> f64 {
         let unworn = Unworn::of(self.setup);
         match self.setup.geometry {
@@ -47,7 +47,7 @@ impl<'a> Forecast<'a> {
         let depth = unworn.deepest();
         let mean = unworn.mean_pressure(depth);
         let is_line = self.setup.geometry.is_line();
-        // Hertz: p0 = 3/2 of the mean of a ball, 4/π of that of a cylinder.
+        // Hertz: p0 is 3/2 of the mean under a ball, 4/π of it under a cylinder.
         let (what, pressure, place) = match self.is_ball() {
             true if is_line => ("Hertz pressure", 2.0 * FRAC_2_PI * mean, " at its centre"),
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),

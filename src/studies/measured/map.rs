@@ -12,7 +12,7 @@ const RINGS: usize = 100;
 /// The axis is found to this part of the map's width.
 const FINEST: f64 = 1e-4;
 
-/// A map is of a line contact if its values scatter less than this much of what they do around any axis, squared.
+/// A map shows a line contact if averaging along it leaves less than this share of the mean square around any axis.
 const MUCH_LESS: f64 = 0.3;
 
 /// The sums over a ring or a strip: points, places, values and their squares.

@@ -60,7 +60,7 @@ impl Operators {
     }
 }
 
-/// Every so many nodes one is worn: what the others do to the pressure there has died down.
+/// Every so many nodes one is worn at the same time: where the next one is, its answer has died down.
 const PROBES: usize = 24;
 
 impl Operators {

@@ -7,9 +7,9 @@
 //! ```
 //!
 //! ∂W/∂p is k μ Σ|s| under Archard's law, s the slip of a [steady-state cycle](super::steady_cycle), which is taken as it
-//! is. M is that of the springs that touch or nearly do: where the contact comes to during a jump, a node would otherwise
-//! wear without an answer. There ∂W/∂p is that of the node further in. Under a held force the indenter sinks in so that
-//! the springs carry as much as before.
+//! is. M covers the springs that touch or nearly do: a node that comes into contact during a jump would otherwise wear
+//! without an answer. Such a node takes ∂W/∂p from its neighbour further in. Under a held force the indenter sinks in so
+//! that the springs carry as much as before.
 //!
 //! Systems with 1 + hA are solved by [GMRES](crate::math::krylov), M's three diagonals as preconditioner, with half of the
 //! rest of a row on its own node: some ten products of two transforms for stiffnesses of 10 to 10⁶.
@@ -21,7 +21,7 @@ use super::super::state::SteadyCycle;
 use crate::math::krylov;
 use crate::math::tridiagonal::Tridiagonal;
 
-/// The residual of the systems: a hundredth part of it as well makes jumps no longer.
+/// The residual of the systems, relative to the right side; smaller ones make jumps no longer.
 const RESIDUAL: f64 = 1e-3;
 
 /// The most products for a system.

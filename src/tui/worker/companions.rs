@@ -1,6 +1,7 @@
 //! Companions of the run: a comparison, ghosts over the plots, and the twin that estimates its error.
 
 use super::*;
+use crate::scenario::columns::Naming;
 use crate::studies::refinement::Difference;
 use crate::tui::beside::{Beside, From, name_of};
 use crate::tui::ghosts::MOST;
@@ -97,7 +98,10 @@ impl Worker {
     /// Overlays the curves of a file, a directory or a scenario.
     pub fn overlay(&mut self, given: &str) {
         let reach = self.run.simulation().setup().grid.radius();
-        if let Some(ghost) = self.screen.or_notice(Source::load(given, reach)) {
+        if let Some(ghost) = self
+            .screen
+            .or_notice(Source::load(given, &Naming::default(), reach))
+        {
             self.add_ghost(ghost);
         }
     }

@@ -54,8 +54,9 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
     };
     let reach = run.simulation().setup().grid.radius();
+    let naming = options.naming.of_columns();
     let load = |given: &OsString| {
-        Source::load(given, reach).map_err(|error| Refusal::from(error.to_string()))
+        Source::load(given, &naming, reach).map_err(|error| Refusal::from(error.to_string()))
     };
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
     let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());

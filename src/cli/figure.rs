@@ -17,7 +17,7 @@ use crate::figure::{DATA_COLUMNS, Format, Sheet, paper, study as figure_of_study
 use crate::plot::Chart;
 use crate::plot::theme::Role;
 use crate::scenario::bounded_read::{self, Unread};
-use crate::scenario::columns::Columns;
+use crate::scenario::columns::{Columns, Naming};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
@@ -133,7 +133,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
     }
     let mut run = run(path, options)?;
     for given in &options.overlay {
-        let ghost = ghost(given, &run)?;
+        let ghost = ghost(given, &options.naming.of_columns(), &run)?;
         run.ghosts.push(Arc::new(ghost));
     }
     let refused = |error| Refusal::new(source, error);
@@ -215,11 +215,11 @@ fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]
 }
 
 /// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
-fn ghost(given: &OsStr, run: &Run) -> Result<Ghost> {
+fn ghost(given: &OsStr, naming: &Naming, run: &Run) -> Result<Ghost> {
     let path = Path::new(given);
     let ending = path.extension();
     if path.is_dir() || ending.is_some_and(|end| !end.eq_ignore_ascii_case("toml")) {
-        let ghost = Ghost::read(path)?;
+        let ghost = Ghost::read(path, naming)?;
         if !run.states.is_empty() {
             ghost.check_radii(run.edge())?;
         }

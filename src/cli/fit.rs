@@ -187,7 +187,8 @@ fn value(one: &Value) -> String {
         "m^3/(N*m)" => ("m^3/(N*m)", " per load and distance"),
         unit => (unit, ""),
     };
-    let error = match one.stderr {
+    // A remark tells the limit on the one side.
+    let error = match one.stderr.filter(|_| !one.is_open()) {
         Some(error) => {
             let share = 100.0 * (error / value).abs();
             format!("± {error:.2e} {unit} ({share:.2} %)")
@@ -209,7 +210,7 @@ fn report(fit: &Fit, fitted: &Fitted) -> String {
     let width = width.unwrap_or(0);
     for one in &fitted.values {
         lines.push(format!("{:width$}  {}", one.key, value(one)));
-        if let Some(numerical) = one.numerical_error {
+        if let (Some(numerical), false) = (one.numerical_error, one.is_open()) {
             let share = 100.0 * (numerical / one.value).abs();
             lines.push(format!(
                 "{:width$}  numerical error {numerical:.1e} {} ({share:.2} %)",

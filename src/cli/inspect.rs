@@ -42,17 +42,18 @@ struct Column {
     missing: usize,
 }
 
+/// Named as the columns of a history, where these are the same.
 #[derive(Serialize)]
 #[allow(non_snake_case)]
 struct CycleRow {
     cycle: usize,
-    energy_J: f64,
-    force_amplitude_N: f64,
-    displacement_amplitude_m: f64,
+    energy_per_cycle_J: f64,
+    F_x_amplitude_N: f64,
+    u_x_amplitude_m: f64,
     opening_m: f64,
-    A: f64,
-    B: f64,
-    D: f64,
+    energy_ratio: f64,
+    energy_ratio_B: f64,
+    sliding_ratio: f64,
     friction: Option<f64>,
     mean_displacement_m: f64,
     mean_force_N: f64,
@@ -81,7 +82,9 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         understood.notes.extend(trends(&understood.cycles));
     }
     results::print(options.json.then_some(&understood), || {
-        understood.text() + &small_multiples::draw(&[chart(&measured)], options.marker)
+        let over_cycles = of_cycles(&understood.cycles);
+        let charts: Vec<Chart> = [chart(&measured)].into_iter().chain(over_cycles).collect();
+        understood.text() + &small_multiples::draw(&charts, options.marker)
     })
 }
 
@@ -176,13 +179,13 @@ fn row(number: usize, figures: &Figures, load: Option<f64>) -> CycleRow {
     let [a, d, b] = figures.ratios();
     CycleRow {
         cycle: number,
-        energy_J: figures.energy,
-        force_amplitude_N: figures.force,
-        displacement_amplitude_m: figures.amplitude,
+        energy_per_cycle_J: figures.energy,
+        F_x_amplitude_N: figures.force,
+        u_x_amplitude_m: figures.amplitude,
         opening_m: figures.opening,
-        A: a,
-        B: b,
-        D: d,
+        energy_ratio: a,
+        energy_ratio_B: b,
+        sliding_ratio: d,
         friction: load.map(|load| figures.friction(load)),
         mean_displacement_m: figures.means[0],
         mean_force_N: figures.means[1],
@@ -197,7 +200,7 @@ fn trends(cycles: &[CycleRow]) -> Vec<String> {
     let mean = |of: fn(&CycleRow) -> f64| cycles.iter().map(of).sum::<f64>() / cycles.len() as f64;
     let mut notes = vec![format!(
         "stroke ±{:.3e} m, mean displacement {:.2e} m, mean force {:.2e} N",
-        mean(|row| row.displacement_amplitude_m),
+        mean(|row| row.u_x_amplitude_m),
         mean(|row| row.mean_displacement_m),
         mean(|row| row.mean_force_N)
     )];
@@ -207,7 +210,7 @@ fn trends(cycles: &[CycleRow]) -> Vec<String> {
             first.cycle, last.cycle,
             last.mean_displacement_m - first.mean_displacement_m,
             last.mean_force_N - first.mean_force_N,
-            100.0 * (last.energy_J / first.energy_J - 1.0)
+            100.0 * (last.energy_per_cycle_J / first.energy_per_cycle_J - 1.0)
         ));
     }
     notes
@@ -257,13 +260,13 @@ impl Understood {
                 lines.push(format!(
                     "{:5}  {:9.3e}  {:9.3e}  {:9.3e}  {:9.3e}  {:5.3}  {:5.3}  {:5.3} {friction}",
                     row.cycle,
-                    row.energy_J,
-                    row.force_amplitude_N,
-                    row.displacement_amplitude_m,
+                    row.energy_per_cycle_J,
+                    row.F_x_amplitude_N,
+                    row.u_x_amplitude_m,
                     row.opening_m,
-                    row.A,
-                    row.B,
-                    row.D
+                    row.energy_ratio,
+                    row.energy_ratio_B,
+                    row.sliding_ratio
                 ));
             }
         }
@@ -280,4 +283,16 @@ fn chart(measured: &Measured) -> Chart {
         Axis::new(axes.y.symbol(), axes.y.unit()),
     )
     .curve(curve)
+}
+
+/// E_d over the cycles of a record of several.
+fn of_cycles(cycles: &[CycleRow]) -> Option<Chart> {
+    let column = |of: fn(&CycleRow) -> f64| cycles.iter().map(of).collect::<Vec<f64>>();
+    let (at, energies) = (
+        column(|row| row.cycle as f64),
+        column(|row| row.energy_per_cycle_J),
+    );
+    let curve = Curve::new("", at, energies, Role::Profile);
+    (cycles.len() > 1)
+        .then(|| Chart::new("", Axis::new("cycle", ""), Axis::new("E_d", "J")).curve(curve))
 }

@@ -17,6 +17,11 @@ const STEPS_FOR_POWERS: u32 = 50;
 /// Longer strokes, relative to the half-width of a line contact, are not small.
 const LONG_STROKE: f64 = 0.1;
 
+/// The usual a/R is greater than this, and the usual stroke of a fretting contact, in units of its radius, lies between
+/// these: beyond them, a length is most often in another unit.
+const SHALLOW: f64 = 5e-4;
+const STROKES: [f64; 2] = [3e-5, 1.5];
+
 /// By how much of the depth g may fall and still counts as level: noise of a scar.
 const LEVEL: f64 = 0.02;
 
@@ -119,6 +124,13 @@ fn warnings(setup: &Setup) -> Vec<String> {
             1.5 * pressure
         ));
     }
+    if slope > 0.0 && slope < SHALLOW {
+        lines.push(format!(
+            "outside the theory, or a length in another unit than m: the slope at the contact's edge is {slope:.1e}, where \
+             contacts have {SHALLOW:.0e} or more"
+        ));
+    }
+    lines.extend(unusual_stroke(setup, radius));
     lines.extend(slip_instability(setup, 1.5 * pressure));
     lines.extend(gross_slip_under_force(setup, unworn));
     lines.extend(long_stroke(setup, unworn, radius));
@@ -147,6 +159,19 @@ fn slope(setup: &Setup, radius: f64) -> f64 {
     let inside = radius * (1.0 - 1e-6);
     let rise = setup.indenter.profile(radius) - setup.indenter.profile(inside);
     rise / (radius - inside)
+}
+
+/// An amplitude that no fretting contact of this `radius`, m, has.
+fn unusual_stroke(setup: &Setup, radius: f64) -> Option<String> {
+    let amplitude = setup.drive.tangential()?.displacement()?.amplitude();
+    let share = amplitude / radius;
+    let [least, most] = STROKES;
+    (amplitude > 0.0 && radius > 0.0 && !(least..=most).contains(&share)).then(|| {
+        format!(
+            "outside the theory, or a length in another unit than m: the amplitude is {share:.1e} of the contact's radius, \
+             where fretting has {least:.0e} to {most}"
+        )
+    })
 }
 
 /// Wear that lets springs slip on by more than they slipped, at a `pressure` in units of E*. Beyond that, a quasi-static

@@ -69,6 +69,8 @@ pub struct Scenario {
     table: Table,
     setup: Setup,
     changes: Vec<Change>,
+    /// What was left out of the files that it names, a line each.
+    notes: Vec<String>,
 }
 
 /// Two scenarios are equal if they run alike; their origin does not matter.
@@ -175,7 +177,14 @@ impl Scenario {
             let written = assign::written(key, value);
             assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
         }
-        Self::build(table, origin, &self.origin, &self.directory)
+        let mut changed = Self::build(table, origin, &self.origin, &self.directory)?;
+        changed.notes.splice(..0, self.notes.iter().cloned());
+        Ok(changed)
+    }
+
+    /// What was left out of the files that it names, a line each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// The same scenario with other parts.
@@ -339,7 +348,7 @@ impl Scenario {
         directory: &Path,
     ) -> Result<Self, Refusal> {
         blocks::expand(&mut table, &from)?;
-        embed::files(&mut table, directory, &mut from)?;
+        let notes = embed::files(&mut table, directory, &mut from)?;
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
@@ -368,6 +377,7 @@ impl Scenario {
             table: complete,
             setup,
             changes: Vec::new(),
+            notes,
         };
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);

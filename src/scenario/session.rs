@@ -112,9 +112,11 @@ impl Session {
         self.simulation.checks(&self.log)
     }
 
-    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees.
+    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees, and for what was left out of its
+    /// files.
     pub fn warnings(&self) -> Vec<String> {
-        self.simulation.warnings(&self.log)
+        let notes = self.loaded.notes().iter().cloned();
+        notes.chain(self.simulation.warnings(&self.log)).collect()
     }
 
     /// Returns the changes made so far, in order.

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::measured::{Kind, Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
 use crate::reading::Column;
-use crate::scenario::columns::Columns;
+use crate::scenario::columns::{Columns, Naming};
 use crate::scenario::{Refusal, printable};
 use crate::traces::{Axes, Loop, Table};
 
@@ -70,15 +70,16 @@ impl Ghost {
         }
     }
 
-    /// Reads measured data or a table of a run from a CSV file, or all tables of a run's directory.
+    /// Reads measured data, whose columns `naming` may name, or a table of a run from a CSV file, or all tables of a run's
+    /// directory.
     ///
     /// # Errors
     /// One line: what cannot be read, holds nothing that could be drawn, or is refused as measured data.
-    pub fn read(path: &Path) -> Result<Self, Refusal> {
+    pub fn read(path: &Path, naming: &Naming) -> Result<Self, Refusal> {
         let name = path.file_name().unwrap_or(path.as_os_str());
         let name = printable(&name.to_string_lossy());
         if !path.is_dir() {
-            return Self::of_columns(&name, &Columns::read(path)?);
+            return Self::of_columns(&name, &Columns::read_as(path, naming)?);
         }
         let mut ghost = Self::new(&name);
         // The loop of a snapshot is in its own file.

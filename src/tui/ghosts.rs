@@ -8,6 +8,7 @@ use super::beside::Beside;
 use super::trend::Recorded;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
+use crate::scenario::columns::Naming;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
@@ -26,11 +27,15 @@ pub struct Source {
 
 impl Source {
     /// What `given` names, which is to be shown over a contact that reaches as far as `reach`, m: a
-    /// directory or a CSV file, or else a scenario.
+    /// directory or a CSV file, whose columns `naming` may name, or else a scenario.
     ///
     /// # Errors
     /// What cannot be read, is refused as measured data, or cannot be run.
-    pub fn load(given: impl AsRef<OsStr>, reach: f64) -> Result<Self, SessionError> {
+    pub fn load(
+        given: impl AsRef<OsStr>,
+        naming: &Naming,
+        reach: f64,
+    ) -> Result<Self, SessionError> {
         let path = Path::new(&given);
         let ending = path.extension();
         if ending.is_none_or(|end| end.eq_ignore_ascii_case("toml")) && !path.is_dir() {
@@ -41,7 +46,7 @@ impl Source {
                 beside: Some(Box::new(Beside::new(start, true))),
             });
         }
-        let ghost = Ghost::read(path)?;
+        let ghost = Ghost::read(path, naming)?;
         ghost.check_radii(reach)?;
         Ok(Self::still(ghost))
     }

@@ -27,6 +27,7 @@ mod circles;
 mod cli;
 mod conformance;
 mod convergence;
+mod coverage;
 mod cycle_figures;
 mod cycle_jump;
 mod fatigue;

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
-use super::Changes;
 use super::values::{CycleAsGiven, cycles, named, within};
+use super::{Changes, Naming};
 use crate::charts::{Recipe, field};
 use crate::cli::complete;
 use crate::figure::look::Style;
@@ -46,6 +46,9 @@ pub struct Figure {
         add = ArgValueCompleter::new(complete::overlays)
     )]
     pub overlay: Vec<OsString>,
+    /// How the columns of measured overlays are to be read.
+    #[command(flatten)]
+    pub naming: Naming,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,

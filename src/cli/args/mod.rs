@@ -21,7 +21,7 @@ mod sweep;
 mod values;
 
 pub use figure::{Figure, PaperFigure, on_paper};
-pub use studies::{Beside, Fit, Guard, Inspect, Output, Stability, Stroke, Trade, Verify};
+pub use studies::{Beside, Fit, Guard, Inspect, Naming, Output, Stability, Stroke, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::cycles;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
@@ -112,6 +112,9 @@ pub struct Explore {
     /// beside.
     #[arg(long, value_name = "FILE", add = ArgValueCompleter::new(complete::overlays))]
     pub overlay: Vec<OsString>,
+    /// How the columns of measured overlays are to be read.
+    #[command(flatten)]
+    pub naming: Naming,
     /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
     #[arg(long)]
     pub present: bool,

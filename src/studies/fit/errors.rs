@@ -26,10 +26,8 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use crate::math::scan::largest;
-
-/// Smaller influence, relative to the most influential key's, is rounding.
-const NO_INFLUENCE: f64 = 1e-9;
+/// A key that moves the deviations by less than this per e-fold moves them by rounding alone.
+const NO_INFLUENCE: f64 = 1e-6;
 
 /// Error analysis at a minimum.
 #[derive(Debug)]
@@ -56,9 +54,8 @@ impl Errors {
         let norms = derivatives.iter();
         let norms = norms.map(|column| column.as_ref().map_or(0.0, norm));
         let norms: Vec<f64> = norms.collect();
-        let least = NO_INFLUENCE * largest(&norms);
-        let seen: Vec<usize> = (0..keys).filter(|&i| norms[i] > least).collect();
-        // Scale columns to length 1, since keys may differ by many powers of ten.
+        let seen: Vec<usize> = (0..keys).filter(|&i| norms[i] > NO_INFLUENCE).collect();
+        // Columns of length 1: keys may differ by many powers of ten.
         let jacobian = DMatrix::from_fn(z.len(), seen.len(), |row, i| {
             let column = derivatives[seen[i]].as_deref().unwrap_or_default();
             column.get(row).copied().unwrap_or(0.0) / norms[seen[i]]
@@ -96,6 +93,11 @@ impl Errors {
             }
         }
         errors
+    }
+
+    /// The standard error of a key; 0 where the data do not determine it.
+    pub fn of(&self, key: usize) -> f64 {
+        self.covariance[(key, key)].sqrt()
     }
 
     /// How far the minimum moves where z changes by `dz`.

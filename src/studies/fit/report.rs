@@ -39,6 +39,13 @@ pub struct Value {
     pub correlations: BTreeMap<String, f64>,
 }
 
+impl Value {
+    /// Whether the data set it a limit on one side at most.
+    pub fn is_open(&self) -> bool {
+        self.interval.is_some_and(|ends| ends.contains(&None))
+    }
+}
+
 /// A zero, a centre or a tilt that was fitted beside the keys.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Nuisance {
@@ -83,11 +90,15 @@ pub struct Fitted {
     pub remarks: Vec<String>,
     /// The scenario with the fitted values.
     pub scenario: Scenario,
-    pub(super) errors: Errors,
 }
 
 impl Fitted {
-    pub(super) fn new(search: &Search, found: &Found, errors: Errors, scenario: Scenario) -> Self {
+    pub(super) fn new(
+        search: &Search,
+        found: &Found,
+        (errors, numerical): &(Errors, Option<Vec<f64>>),
+        scenario: Scenario,
+    ) -> Self {
         let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
         let covariance = &errors.covariance;
         let correlation = |i: usize, j: usize| {
@@ -99,9 +110,18 @@ impl Fitted {
         };
         let keys = &search.fit.free;
         for (i, (free, &theta)) in keys.iter().zip(&found.theta).enumerate() {
-            let error = covariance[(i, i)].sqrt();
+            let error = errors.of(i);
             let at_bound = free.is_at_bound(theta);
             let is_known = error.is_finite() && error > 0.0 && !at_bound;
+            let numerical = numerical.as_ref().map(|numerical| numerical[i]);
+            // Whoever has chosen cells and steps has chosen their error.
+            if is_known && search.fit.scenario.accuracy().is_some() && numerical > Some(error) {
+                remarks.push(format!(
+                    "{}: the numerical error exceeds the statistical one; a smaller numerics.accuracy lowers it",
+                    free.key
+                ));
+            }
+            let numerical_error = numerical.map(|numerical| free.error(theta, numerical));
             let key = free.key.clone();
             if at_bound {
                 remarks.push(format!(
@@ -109,7 +129,7 @@ impl Fitted {
                 ));
             } else if !is_known {
                 remarks.push(format!("the data do not determine {key}"));
-            } else if error > VAGUE * free.vague_at(theta) {
+            } else if error > VAGUE * free.size(theta) {
                 remarks.push(format!(
                     "the data hardly determine {key}: its standard error is as large as itself"
                 ));
@@ -127,14 +147,14 @@ impl Fitted {
                 unit: free.unit,
                 value: free.value(theta),
                 stderr: is_known.then(|| free.error(theta, error)),
-                numerical_error: None,
+                numerical_error: numerical_error.filter(|_| is_known),
                 interval: None,
                 correlations: others.collect(),
                 key,
             });
         }
         remarks.extend(alike);
-        let sets = sets(search, found, &errors);
+        let sets = sets(search, found, errors);
         remarks.extend(
             sets.iter()
                 .filter_map(|set| set.structure.remark(&set.file)),
@@ -144,7 +164,6 @@ impl Fitted {
             sets,
             remarks,
             scenario,
-            errors,
         }
     }
 }
@@ -168,7 +187,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
                     _ => format!("{values}/{abscissae}"),
                 },
                 value: found.nuisances[i][k],
-                stderr: errors.covariance[(next, next)].sqrt(),
+                stderr: errors.of(next),
             });
             next += 1;
         }

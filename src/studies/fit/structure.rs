@@ -87,29 +87,31 @@ impl Structure {
         }
     }
 
-    /// Explains why the residuals are not noise; `None` if they may be.
+    /// Whether the residuals may be noise.
+    pub fn is_noise(&self) -> bool {
+        let is_usual = self.chi_squared <= MOST_CHI_SQUARED
+            || self.chi_squared_probability >= LEAST_PROBABILITY;
+        is_usual && self.probability >= LEAST_PROBABILITY
+    }
+
+    /// Says what speaks against noise; `None` if nothing does.
     pub fn remark(&self, name: &str) -> Option<String> {
-        let Self {
-            chi_squared,
-            chi_squared_probability,
-            runs,
-            expected_runs,
-            probability,
-        } = self;
+        let (probability, by_chance) = (self.probability, self.chi_squared_probability);
         let mut why = Vec::new();
-        if *probability < LEAST_PROBABILITY {
-            why.push(format!("{runs} runs of one sign where chance has {expected_runs:.0} (p = {probability:.0e})"));
+        if probability < LEAST_PROBABILITY {
+            let (runs, expected) = (self.runs, self.expected_runs);
+            why.push(format!(
+                "{runs} runs of one sign where chance has {expected:.0} (p = {probability:.0e})"
+            ));
         }
-        if *chi_squared > MOST_CHI_SQUARED && *chi_squared_probability < LEAST_PROBABILITY {
-            why.push(format!("χ² per degree of freedom {chi_squared:.1}"));
+        if self.chi_squared > MOST_CHI_SQUARED {
+            why.push(format!("χ² per degree of freedom {:.1}", self.chi_squared));
         }
-        let rule = "the model misses something, and the errors above do not count it; see --plot";
-        (!why.is_empty()).then(|| {
-            format!(
-                "{name}: the residuals are no noise: {}: {rule}",
-                why.join(", ")
-            )
-        })
+        let what = match self.is_noise() {
+            true => format!("may be no noise (p = {by_chance:.0e})"),
+            false => "are no noise: the model misses something, and the errors above do not count it; see --plot".to_owned(),
+        };
+        (!why.is_empty()).then(|| format!("{name}: {}: the residuals {what}", why.join(", ")))
     }
 }
 

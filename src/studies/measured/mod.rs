@@ -270,11 +270,6 @@ fn read(columns: &Columns, axes: Axes, [at, values]: [Column; 2]) -> Result<Meas
         let line = columns.line(rows[row]);
         return Err(columns.refuse(format!("line {line}: an error must be greater than 0")));
     }
-    let skipped = columns.len() - rows.len();
-    let note = format!(
-        "{skipped} of {} rows have missing values and are left out",
-        columns.len()
-    );
     Ok(Measured {
         name: columns.path.clone(),
         axes,
@@ -284,7 +279,7 @@ fn read(columns: &Columns, axes: Axes, [at, values]: [Column; 2]) -> Result<Meas
         cycle: cycle.and_then(|(_, cycle)| cycle.parse().ok()),
         rising: Vec::new(),
         is_averaged: false,
-        notes: if skipped > 0 { vec![note] } else { Vec::new() },
+        notes: columns.left_out(&rows).into_iter().collect(),
     })
 }
 

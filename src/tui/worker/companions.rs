@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::Worker;
+use crate::scenario::columns::Naming;
 use crate::studies::refinement::Difference;
 use crate::tui::beside::{Beside, ComparisonRun, From, name_of};
 use crate::tui::frame::Activity;
@@ -100,7 +101,10 @@ impl Worker {
     /// Overlays the curves of a file, a directory or a scenario.
     pub fn overlay(&mut self, given: &str) {
         let reach = self.run.simulation().setup().grid.radius();
-        if let Some(ghost) = self.screen.or_notice(Source::load(given, reach)) {
+        if let Some(ghost) = self
+            .screen
+            .or_notice(Source::load(given, &Naming::default(), reach))
+        {
             self.add_ghost(ghost);
         }
     }

@@ -55,12 +55,15 @@ pub(crate) fn shear_to_read(model: &Model, contact: &Contact, out: &mut [f64]) {
     smooth_end(&contact.spring, out);
 }
 
-/// Takes down the stress at the last node of a scar over which the edge has just passed: until it has worn, it bears more
+/// A stress that rises by more from one of the last nodes to the next does so for a reason.
+const RISES: f64 = 1.1;
+
+/// Takes down the stress at the last node of a scar over which a jump has passed: until it has worn, it bears more
 /// than its share. Where the stress rises towards the edge, as under a load that oscillates, it is left as it is.
 fn smooth_end(field: &Field, stress: &mut [f64]) {
     let Some(dome) = field.dome else { return };
     if let [before, next, end] = &mut stress[dome.last.saturating_sub(2)..=dome.last]
-        && next.abs() <= before.abs()
+        && next.abs() <= RISES * before.abs()
     {
         *end = end.clamp(-next.abs(), next.abs());
     }

@@ -25,7 +25,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
-use super::super::profile::scar_volume;
+use super::super::profile::{even_end, scar_volume};
 use super::super::setup::Setup;
 use super::super::state::{JumpMemory, Ledger, State, SteadyCycle};
 use super::{Scratch, deepest, refuse, steady_cycle};
@@ -352,7 +352,8 @@ fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, toleranc
 fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
     // Rounding must not take work back where none is done any more.
     let friction_work = jump.friction_work.max(0.0);
-    let worn = scar_volume(model, &jump.wear) - scar_volume(model, &state.wear);
+    let even = even_end(model, &state.contact.load);
+    let worn = scar_volume(model, &jump.wear, even) - scar_volume(model, &state.wear, even);
     let mut end = State {
         cycle: state.cycle + jump.covered,
         steps: state.steps + 1,

@@ -6,7 +6,7 @@
 //! checkpoint.
 
 use std::io::{self, Read, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -104,13 +104,13 @@ impl History {
         self.rows += &(self.row(session) + "\n");
     }
 
-    /// Appends the buffered rows to the file at `path`, once there are enough of them. On an error they stay in memory
-    /// and the file is unchanged.
-    pub fn spill(&mut self, path: &Path) -> io::Result<()> {
+    /// Appends the buffered rows to the file at a path, which is asked for once there are enough of them. On an error they
+    /// stay in memory and the file is unchanged.
+    pub fn spill(&mut self, path: impl FnOnce() -> PathBuf) -> io::Result<()> {
         if self.rows.len() < CHUNK {
             return Ok(());
         }
-        let mut file = safe_open::open_or_make(path)?;
+        let mut file = safe_open::open_or_make(&path())?;
         // Anything beyond was written by a killed run.
         file.set_len(self.written)?;
         file.seek(SeekFrom::Start(self.written))?;

@@ -323,7 +323,7 @@ impl Job<'_> {
         safe.copy.refresh(|| (session.clone(), self.job.clone()));
         if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
             // Rows that cannot be written stay in memory.
-            let written = self.job.history.spill(&self.directory.rows());
+            let written = self.job.history.spill(|| self.directory.rows());
             self.unwritten = written.is_err().then(Instant::now);
         }
         if safe.checkpoints.is_due() {

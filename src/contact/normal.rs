@@ -76,7 +76,7 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
         let mut edge = product::edge_square(&xs[k - 1..=k], &ends, 0, cusp);
         let (left, right) = (squares[k - 1], squares[k]);
         if let Some(scar) = scar.filter(|&scar| ends_at(scar, squares, k) && is_open(ends[1])) {
-            edge = edge_of_scar(&q[..k], squares, edge.max(scar));
+            edge = edge_of_scar(&q[..k], squares, [edge, scar]);
             *dome = Dome::fit(&q[..k], squares, edge).map(|dome| row.measured(dome));
         }
         let share = (edge - left) / (right - left);
@@ -105,20 +105,21 @@ fn ends_at(scar: f64, squares: &[f64], k: usize) -> bool {
 }
 
 /// Where the contact of springs under the loads `q` ends, t = x² in m²: with the scar, or where the dome of the loads
-/// further in falls through the last one, if that has just touched and not worn yet; in any case where the last two loads
-/// fall to zero on a line in t, at the latest.
-fn edge_of_scar(q: &[f64], squares: &[f64], scar: f64) -> f64 {
+/// further in falls through the last one, if that has just touched and not worn yet; in any case beyond the `line` of
+/// d − g, and where the last two loads fall to zero on a line in t, at the latest.
+fn edge_of_scar(q: &[f64], squares: &[f64], [line, scar]: [f64; 2]) -> f64 {
     let last = q.len() - 1;
     let (from, load) = (squares[last], q[last]);
     let of_dome = |dome: Dome| from + (load / dome.height).powi(2);
-    let touched = Dome::fit(&q[..last], squares, from).map_or(scar, of_dome);
+    let touched = || Dome::fit(&q[..last], squares, from).map_or(line, of_dome);
     let falls = (q[last - 1] - load) / (from - squares[last - 1]);
     let led_to = if falls > 0.0 {
         from + load / falls
     } else {
         f64::INFINITY
     };
-    scar.max(touched).min(led_to).min(squares[last + 1])
+    let end = if scar > from { scar } else { touched() };
+    end.max(line).min(led_to).min(squares[last + 1])
 }
 
 /// Finds the depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth, starting nearby and

@@ -23,6 +23,11 @@ const TOUCH: f64 = 1e-10;
 /// The same as a fraction of the largest limit, for springs that carry almost nothing.
 const TOUCH_OF_LARGEST: f64 = 1e-12;
 
+/// A spring sticks, as far as the stick radius is concerned, if it slips by less than this part of what the outermost one
+/// does in the same step. The wear of a step is known after its contact, so a spring that has shaken down finds its limit
+/// a little lower in the next cycle, and slips by that.
+const SLIGHT: f64 = 0.05;
+
 /// A border closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
 
@@ -151,13 +156,18 @@ pub fn take_along_late(
     }
 }
 
-/// Finds the borders of stick and slip between springs: writes the kinks of u_x (m) that they and
-/// the contact's edge make, and returns the radius within which every spring sticks, m.
+/// Finds the borders of stick and slip between springs, which slipped by `slip` (m): writes the kinks of u_x (m) that they
+/// and the contact's edge make, and returns the radius within which every spring sticks, m.
 ///
 /// At a border the line of the springs that stick meets the line of the limits, μ q_z/G*. A spring
 /// that stuck in the step before and slips now tells the slope of the first line by where it stood;
 /// else the last cell that sticks does.
-pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState]) -> f64 {
+pub fn borders(
+    input: SlipInput<'_>,
+    spring: &mut Field,
+    slip: &[f64],
+    states: &[SpringState],
+) -> f64 {
     let contact_radius = input.contact.radius;
     let Field {
         nodal: spring,
@@ -173,12 +183,12 @@ pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState])
         .zip(sign)
         .map(|(dome, sign)| dome.scaled(sign * input.reach));
     let squares = input.foundation.squares();
-    let mut stick_radius = None;
+    let mut stick_radius = end_of_slight_slip(&slip[..input.contact.nodes], squares, states);
     if states
         .first()
         .is_some_and(|&first| first != SpringState::Stick)
     {
-        stick_radius = Some(0.0);
+        stick_radius = stick_radius.or(Some(0.0));
     }
     for k in changes(states, |&state| state).map(|behind| behind - 1) {
         let cell = Cell {
@@ -214,6 +224,27 @@ pub fn borders(input: SlipInput<'_>, spring: &mut Field, states: &[SpringState])
         }
     }
     stick_radius.unwrap_or(contact_radius).min(contact_radius)
+}
+
+/// The radius within which nothing slips but [slightly](SLIGHT), m, if something does so there, and by less than what
+/// rises from a border on a line in t = x², whose values are `squares`, up to the first of the other springs. `slip` (m) is
+/// that of the springs in contact.
+fn end_of_slight_slip(slip: &[f64], squares: &[f64], states: &[SpringState]) -> Option<f64> {
+    let slight = SLIGHT * slip.last()?.abs();
+    let stuck = leading(&states[..slip.len()], |&state| state == SpringState::Stick);
+    let first = stuck + leading(&slip[stuck..], |slip| slip.abs() <= slight);
+    if first == stuck || first == slip.len() {
+        return None;
+    }
+    let [start, last, next] = [stuck, first - 1, first].map(|j| squares[j]);
+    let rising = slip[first].abs() * (last - start) / (next - start);
+    if slip[first - 1].abs() >= 0.5 * rising {
+        return None;
+    }
+    let outer = (first + 1).min(slip.len() - 1);
+    let rises = (slip[outer] - slip[first]) / (squares[outer] - next);
+    // Not a number where only the last spring slips more than slightly.
+    Some((next - slip[first] / rises).max(last).min(next).sqrt())
 }
 
 /// A cell whose two springs do different things.
@@ -320,7 +351,7 @@ mod tests {
                 &mut self.slip,
                 &mut self.states,
             );
-            borders(input, &mut self.spring, &self.states)
+            borders(input, &mut self.spring, &self.slip, &self.states)
         }
     }
 
@@ -373,6 +404,25 @@ mod tests {
         // Slip reverses only where 2μ(1 − x²) < 0.03. Further in, up to √½, springs just touch their limits.
         let stick = bench.slide(0.03 * (1.0 + 1e-12), 0.1);
         assert!((stick - 0.85f64.sqrt()).abs() < 0.005, "{stick}");
+    }
+
+    #[test]
+    fn a_limit_that_wear_has_lowered_a_little_moves_no_border() {
+        let mut bench = Bench::new();
+        for increment in [0.05, -0.05, 0.049] {
+            bench.slide(increment, 0.1);
+        }
+        // Springs between 0.5 and √½ have slipped once and now find their limits lower by 1e-6.
+        let squares = bench.row.squares().to_vec();
+        let shaken_down = |t: &f64| (0.25..0.5).contains(t);
+        for (j, _) in squares.iter().enumerate().filter(|(_, t)| shaken_down(t)) {
+            bench.spring.nodal[j] = 0.1 * bench.load[j] - 0.001 + 1e-7;
+        }
+        // Where 2μ(1 − x²) < 0.05 they slip there and back; further in, limits are touched.
+        let stick = bench.slide(0.001, 0.1);
+        let slipping = squares.partition_point(|t| *t < 0.3);
+        assert_eq!(bench.states[slipping], SpringState::Forward);
+        assert!((stick - 0.75f64.sqrt()).abs() < 0.005, "{stick}");
     }
 
     #[test]

@@ -243,7 +243,7 @@ impl<'a> Problem<'a> {
             let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
             tangential::take_along_late(input, increment, depths, &profile.g, springs);
         }
-        after.stick_radius = Some(tangential::borders(input, spring, states));
+        after.stick_radius = Some(tangential::borders(input, spring, slip, states));
     }
 
     /// Moves the springs of a line contact: by the force on them, which the spring at the centre tells, or by the

@@ -18,7 +18,7 @@
 
 use super::contact::{Contact, Problem};
 use super::moments::{Touch, rounding};
-use super::profile::Profile;
+use super::profile::{Profile, even_end};
 use super::{Cause, Simulation};
 
 /// Pairs of steps per cycle of the faster motion, before halving.
@@ -150,7 +150,8 @@ impl<'a> Passage<'a> {
             return None;
         }
         let worn = [&state.wear[..], &state.image];
-        let profile = Profile::of_worn(simulation.model(), worn);
+        let even = even_end(simulation.model(), &state.contact.load);
+        let profile = Profile::of_worn(simulation.model(), worn, even);
         let contact = state.contact.clone();
         let mut passage = Self {
             simulation,

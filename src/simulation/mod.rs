@@ -77,7 +77,7 @@ pub use breakdown::{Breakdown, Cause};
 pub use choices::{Integrator, Scheme, Spacing, Stability};
 pub use fine_period::{FinePeriod, PeriodPoint};
 pub(crate) use model::Model;
-use profile::{Profile, scar_volume};
+use profile::{Profile, even_end, scar_volume};
 pub use reconfigure::Domain;
 pub use saved::{Saved, Unfit};
 pub use setup::Setup;
@@ -124,7 +124,7 @@ impl Simulation {
             state.wear = model.setup.initial_wear(&model.grid);
             model.plan.image(&state.wear, &mut state.image);
             // Nobody knows by which work it was worn.
-            state.ledger.initial_volume = scar_volume(&model, &state.wear);
+            state.ledger.initial_volume = scar_volume(&model, &state.wear, None);
             state.ledger.unexplained_volume = state.ledger.initial_volume;
         }
         Self::continued(model, state)
@@ -346,7 +346,8 @@ impl Simulation {
         let cycle = before.cycle + share * (self.state.cycle - before.cycle);
         let mut contact = contact::Contact::new(model.nodes(), springs);
         let mut slip = vec![0.0; springs];
-        let profile = Profile::of_worn(model, [&before.wear, &before.image]);
+        let even = even_end(model, &before.contact.load);
+        let profile = Profile::of_worn(model, [&before.wear, &before.image], even);
         let problem = contact::Problem::on(model, &profile, &before.contact);
         let targets = model.setup.drive.targets(cycle);
         problem.solve(targets, &mut contact, &mut slip).ok()?;
@@ -355,7 +356,8 @@ impl Simulation {
 
     /// Returns g at the nodes, m, of the present profile.
     pub(crate) fn profile_1d(&self) -> Vec<f64> {
-        Profile::of_worn(&self.model, [&self.state.wear, &self.state.image]).g
+        let state = &self.state;
+        Profile::of_worn(&self.model, [&state.wear, &state.image], self.even_end()).g
     }
 
     /// Returns p(r), Pa, at the present moment, by one transform.
@@ -378,7 +380,7 @@ impl Simulation {
     /// Returns the worn volume, m³: 2π∫(f − f₀) r dr, or 2L∫(f − f₀) dr in a line contact.
     pub fn wear_volume(&self) -> f64 {
         match self.setup().scar {
-            None => scar_volume(&self.model, &self.state.wear),
+            None => scar_volume(&self.model, &self.state.wear, self.even_end()),
             // What the cells make of the scar that it began with is no wear.
             Some(_) => self.state.ledger.initial_volume + self.volume_since_start(),
         }
@@ -386,7 +388,12 @@ impl Simulation {
 
     /// Returns 2π∫ r dr of the growth of f since the run began, m³.
     fn volume_since_start(&self) -> f64 {
-        scar_volume(&self.model, &self.worn_since_start())
+        scar_volume(&self.model, &self.worn_since_start(), self.even_end())
+    }
+
+    /// The height over E* of the dome as which the load ends, if it does.
+    fn even_end(&self) -> Option<f64> {
+        even_end(&self.model, &self.state.contact.load)
     }
 
     /// Returns the growth of f since the run began, m, at the nodes.

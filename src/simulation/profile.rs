@@ -2,14 +2,21 @@
 //!
 //! Where the contact slips as a whole, the scar ends with a slope, at a place t_s that lies between two nodes. The worn
 //! depth falls to zero there on the line in t = r² through the last two worn nodes, and not at the next node. The tail down
-//! to that node is no wear, neither in the profile nor in the worn volume.
+//! to that node is no wear, neither in the profile nor in the worn volume. Under a pressure that is even up to the edge
+//! the scar is [curved](EdgeCurve) besides.
 
 use std::f64::consts::PI;
 
 use super::model::Model;
 use crate::math::abel::AbelMethod;
+use crate::math::abel::dome::Dome;
+use crate::math::abel::edge_curve::EdgeCurve;
+use crate::math::abel::field::Field;
 use crate::math::abel::{kink, line};
 use crate::math::geometry::Geometry;
+
+/// The end of a curved scar is found in as many rounds, to 1e-4 of it.
+const ROUNDS: usize = 2;
 
 /// g, and where the scar in it ends.
 #[derive(Debug, Clone)]
@@ -29,17 +36,17 @@ impl Profile {
         }
     }
 
-    /// That of a worn depth (m), whose 1D image (m) is given with it.
-    pub fn of_worn(model: &Model, worn: [&[f64]; 2]) -> Self {
+    /// That of a worn depth (m), whose 1D image (m) is given with it, under a load that ends [evenly](even_end).
+    pub fn of_worn(model: &Model, worn: [&[f64]; 2], even: Option<f64>) -> Self {
         let mut profile = Self::new(model);
-        profile.find(model, worn);
+        profile.find(model, worn, even);
         profile
     }
 
-    /// Becomes that of a worn depth (m), whose 1D image (m) is given with it.
-    pub fn find(&mut self, model: &Model, [wear, image]: [&[f64]; 2]) {
+    /// Becomes that of a worn depth (m), whose 1D image (m) is given with it, under a load that ends [evenly](even_end).
+    pub fn find(&mut self, model: &Model, [wear, image]: [&[f64]; 2], even: Option<f64>) {
         model.profile(image, 0.0, &[], &mut self.g);
-        self.end_scar(model, |j| wear[j]);
+        self.end_scar(model, |j| wear[j], even);
     }
 
     /// Sets the profile of a worn depth (m) and its 1D image (m),
@@ -48,20 +55,23 @@ impl Profile {
         &mut self,
         model: &Model,
         [wear, image]: [&[f64]; 2],
-        ahead: f64,
-        [worn, growth]: [&[f64]; 2],
+        (ahead, [worn, growth]): (f64, [&[f64]; 2]),
+        even: Option<f64>,
     ) {
         model.profile(image, ahead, growth, &mut self.g);
-        self.end_scar(model, |j| wear[j] + ahead * worn[j]);
+        self.end_scar(model, |j| wear[j] + ahead * worn[j], even);
     }
 
     /// Ends the scar of a worn depth inside its last cell.
-    fn end_scar(&mut self, model: &Model, wear: impl Fn(usize) -> f64) {
-        let end = end_of_scar(model, &wear);
+    fn end_scar(&mut self, model: &Model, wear: impl Fn(usize) -> f64, even: Option<f64>) {
+        let end = end_of_scar(model, &wear, even);
         self.scar = end.map(|(_, end)| end);
         let Some((last, end)) = end else { return };
         let t = model.grid.squares();
         let Some(&next) = t.get(last + 1) else { return };
+        if let Some(even) = even {
+            EdgeCurve::new(even, end).add_to_profile(t, last, &mut self.g);
+        }
         // Eq. (1) of what the line in t to the next node has too much.
         let kinks = kink::hat([t[last], next], wear(last), end);
         for (g, &t) in self.g.iter_mut().zip(t).skip(last + 1) {
@@ -80,10 +90,24 @@ impl Profile {
     }
 }
 
+/// The height over E* of the dome as which a load ends, if it does: what the springs but the outermost tell, whose own load
+/// depends on the scar within its cell.
+pub(super) fn even_end(model: &Model, load: &Field) -> Option<f64> {
+    let Dome { last, edge, .. } = load.dome?;
+    let is_inside = load.nodal.get(last + 1) == Some(&0.0);
+    let inner = load.nodal.get(..last).filter(|_| is_inside)?;
+    let dome = Dome::fit(inner, model.grid.squares(), edge)?;
+    Some(dome.height / model.setup.material.normal_modulus())
+}
+
 /// The last worn node, and the t = r² (m²) in the cell behind it where the scar ends: that node itself at a rim. `None`
 /// elsewhere if the wear does not reach the tip: where something sticks for ever the load falls to zero outside of what
 /// is worn.
-fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
+fn end_of_scar(
+    model: &Model,
+    wear: impl Fn(usize) -> f64,
+    even: Option<f64>,
+) -> Option<(usize, f64)> {
     let t = model.grid.squares();
     if model.setup.method != AbelMethod::Product {
         return None;
@@ -95,20 +119,27 @@ fn end_of_scar(model: &Model, wear: impl Fn(usize) -> f64) -> Option<(usize, f64
     if wear(0) <= 0.0 {
         return None;
     }
-    let falls = (wear(last - 1) - wear(last)) / (t[last] - t[last - 1]);
-    let is_falling = falls > 0.0;
-    let end = if is_falling {
-        t[last] + wear(last) / falls
-    } else {
-        next
+    // Where the line through two depths ends.
+    let line = |[inner, outer]: [f64; 2]| {
+        let falls = (inner - outer) / (t[last] - t[last - 1]);
+        match falls > 0.0 {
+            true => (t[last] + outer / falls).min(next),
+            false => next,
+        }
     };
-    Some((last, end.min(next)))
+    let depths = [last - 1, last].map(&wear);
+    let mut end = line(depths);
+    for _ in 0..even.map_or(0, |_| ROUNDS) {
+        let curve = EdgeCurve::new(even.unwrap_or_default(), end);
+        end = line([0, 1].map(|k| depths[k] + curve.at(t[last - 1 + k])));
+    }
+    Some((last, end))
 }
 
-/// The volume of the worn depth (m) of a scar, m³.
-pub(super) fn scar_volume(model: &Model, wear: &[f64]) -> f64 {
+/// The volume of the worn depth (m) of a scar, m³, under a load that ends [evenly](even_end).
+pub(super) fn scar_volume(model: &Model, wear: &[f64], even: Option<f64>) -> f64 {
     let t = model.grid.squares();
-    let tail = end_of_scar(model, |j| wear[j]).map_or(0.0, |(last, end)| {
+    let tail = end_of_scar(model, |j| wear[j], even).map_or(0.0, |(last, end)| {
         let next = t.get(last + 1).copied().unwrap_or(end);
         match model.setup.geometry {
             Geometry::Round => 0.5 * PI * wear[last] * (next - end),

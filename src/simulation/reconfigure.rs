@@ -108,7 +108,10 @@ impl Simulation {
         let scar = self.setup().initial_wear(&model.grid);
         let since = state.wear.iter().zip(&scar);
         let since: Vec<f64> = since.map(|(depth, scar)| depth - scar).collect();
-        let (worn, blurred) = (self.volume_since_start(), scar_volume(&model, &since));
+        let (worn, blurred) = (
+            self.volume_since_start(),
+            scar_volume(&model, &since, self.even_end()),
+        );
         if blurred > 0.0 {
             let kept = worn / blurred;
             for (depth, (scar, since)) in state.wear.iter_mut().zip(scar.iter().zip(since)) {

@@ -55,12 +55,15 @@ pub(crate) fn shear_to_read(model: &Model, contact: &Contact, out: &mut [f64]) {
     smooth_end(&contact.spring, out);
 }
 
+/// A stress that rises by more than this factor between the last nodes really rises.
+const RISES: f64 = 1.1;
+
 /// Limits the stress at the last node of a scar over which the edge has just passed: until it has worn, it carries more
 /// than its share. Leaves stress that rises towards the edge, as under an oscillating load.
 fn smooth_end(field: &Field, stress: &mut [f64]) {
     let Some(dome) = field.dome else { return };
     if let [before, next, end] = &mut stress[dome.last.saturating_sub(2)..=dome.last]
-        && next.abs() <= before.abs()
+        && next.abs() <= RISES * before.abs()
     {
         *end = end.clamp(-next.abs(), next.abs());
     }

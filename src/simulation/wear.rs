@@ -23,6 +23,7 @@ use super::traction::{self, Pressure};
 use super::within_step::Within;
 use crate::contact::foundation::NormalContact;
 use crate::contact::tangential::SpringState;
+use crate::math::abel::dome::Dome;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
 use crate::math::scan::{largest, leading, trailing};
@@ -94,6 +95,35 @@ impl Increment {
             #[inline(always)]
             || law.wear(tau, slip, seconds, depth),
         );
+    }
+
+    /// Corrects wear that goes with the n-th power of the slip rate, n being `exponent`, for what is no even slip over the
+    /// whole step: by the factor `uneven` everywhere, and by φ^(1−n) where a spring slips for a share φ of the step alone,
+    /// φ = Δs/(ΔU ∓ (μ/G*) Δq). Without that, steps are of first order.
+    pub fn slip_in_less_time(
+        &mut self,
+        model: &Model,
+        [before, after]: [&Contact; 2],
+        exponent: f64,
+        uneven: f64,
+    ) {
+        let reach = model.setup.material.reach();
+        let change =
+            |of: fn(&Contact) -> &Field, j: usize| of(after).nodal[j] - of(before).nodal[j];
+        for j in self.nodes.clone() {
+            let slip = self.slip[j];
+            let moved = slip + change(|contact| &contact.spring, j);
+            let whole = moved - slip.signum() * reach * change(|contact| &contact.load, j);
+            let share = slip / whole;
+            let in_contact = before.load.nodal[j].min(after.load.nodal[j]) > 0.0;
+            let is_late = in_contact && share > 0.0 && share < 1.0;
+            let late = if is_late {
+                share.powf(1.0 - exponent)
+            } else {
+                1.0
+            };
+            self.depth[j] *= uneven * late;
+        }
     }
 
     /// The stiffness z = ρ μ E* ∂Δf/∂τ / h of every node that wears, into `stiffness`; returns the largest.
@@ -238,13 +268,32 @@ impl Increment {
         self.nodes = stuck.min(nodes)..nodes;
     }
 
-    /// Sets the stress in the outermost slip zone to its mean over the step: the mean of μp at its ends.
+    /// Sets the stress in the outermost slip zone to its mean over the step: the mean of μp at its ends. Returns the number
+    /// of transforms.
+    ///
+    /// Springs up to a rim that slip for different parts of the step do not carry μp at each node meanwhile: Eq. (3) of
+    /// what they carry is the stress, so that V is k E_d.
     pub fn mean_of_load(
         &mut self,
         model: &Model,
         [was, is]: [&Pressure; 2],
         (first, sign): (usize, f64),
-    ) {
+    ) -> u64 {
+        let reaches_rim = self.rubbing.nodal.last().is_some_and(|&load| load > 0.0);
+        if varies(model) && self.within.is_ragged && reaches_rim {
+            let Self {
+                rubbing,
+                shear,
+                rest,
+                ..
+            } = self;
+            rubbing.dome = Dome::at_rim(&rubbing.nodal, model.grid.squares());
+            let (touching, out) = (shear.len(), (&mut shear[..], rest));
+            rubbing.stress_from(first, &model.plan, &model.grid, touching, out);
+            rubbing.dome = None;
+            shear[first..].iter_mut().for_each(|shear| *shear *= sign);
+            return 1;
+        }
         let half = 0.5 * sign * model.setup.material.friction();
         write_each(
             &mut self.shear[first..],
@@ -260,6 +309,7 @@ impl Increment {
                 .zip(shares)
                 .for_each(|(shear, share)| *shear *= share);
         }
+        0
     }
 
     /// Returns the state of each spring in the step that [rubbed](Self::rub) last and ended with the contact `after`.

@@ -365,7 +365,8 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
         ("mild-million", 0.15),
         ("flat-punch", 3e-2),
         ("gross-slip", 1.6e-2),
-        // The scar ends where its last two nodes lead to: what the edge of a period wears goes up and down with them.
+        // The scar ends where its last two nodes lead to: what the edge of a period wears goes up and down with them, by
+        // 7.2e-3 at most.
         ("separation", 1e-2),
         ("two-frequencies", 6e-3),
         ("cone", 3e-3),
@@ -430,7 +431,7 @@ fn gross_slip_converges_with_the_cells() {
         [run.wear_volume, run.dissipated_energy]
     };
     let fine = figures(800);
-    for (cells, bound) in [(25, 2.5e-3), (50, 1.5e-3), (100, 9e-4), (200, 4e-4)] {
+    for (cells, bound) in [(25, 2.5e-3), (50, 1.2e-3), (100, 7e-4), (200, 4e-4)] {
         let found = figures(cells);
         for (name, (found, fine)) in ["V", "E_d"].iter().zip(found.iter().zip(fine)) {
             let what = format!("{name} of gross-slip at N = {cells}");

@@ -24,8 +24,7 @@ fn ball(force: f64, amplitude: f64, more: &[&str]) -> Scenario {
 }
 
 /// Gross slip under a held force: the volume is k times the work, the same on other cells and at other tolerances,
-/// and the contact radius that of Argatov's a⁴ = a₀⁴ + 4VR/π. The last node wears by its own pressure, so V has what the
-/// cells at the edge lack: 0.08 to 0.14 % of k E_d on 100 cells, 0.04 to 0.06 % on 200, 0.01 to 0.03 % on 400.
+/// and the contact radius that of Argatov's a⁴ = a₀⁴ + 4VR/π.
 #[test]
 fn a_ball_wears_by_its_work_through_jumps() {
     for (force, amplitude, cycles) in [(200.0, 5e-5, 1e5), (20.0, 3e-5, 1e5), (8.0, 4.5e-5, 1e4)] {
@@ -34,16 +33,41 @@ fn a_ball_wears_by_its_work_through_jumps() {
         let fine = ball(&["numerics.points=200", "numerics.tolerance=1e-3"]);
         let at = format!("{force} N, {amplitude} m");
         let [volume, due] = [&coarse, &fine].map(|run| run.simulation().wear_volume());
-        holds(format!("{at}: volume"), (volume / due - 1.0).abs(), 1e-3);
+        holds(format!("{at}: volume"), (volume / due - 1.0).abs(), 3e-4);
         let moment = fine.simulation().moment();
         let by_work = 3e-14 * moment.dissipated_energy;
-        holds(format!("{at}: k E_d"), (due / by_work - 1.0).abs(), 1e-3);
+        holds(format!("{at}: k E_d"), (due / by_work - 1.0).abs(), 1e-4);
         let modulus = 2.1e11 / (2.0 * (1.0 - 0.09));
         let start = (0.75 * force * 0.0127 / modulus).cbrt();
         let radius = (start.powi(4) + 4.0 * due * 0.0127 / PI).powf(0.25);
         let off = (moment.contact_radius / radius - 1.0).abs();
         holds(format!("{at}: radius"), off, 0.012);
         assert!(fine.simulation().setup().grid.radius() > 1.5 * start);
+    }
+}
+
+/// Wherever between two nodes the scar ends, just after a node has touched too, p is even almost up to its edge. With
+/// chords between the last worn depths p is off by up to 17 % there on 60 cells.
+#[test]
+fn the_pressure_on_a_scar_is_even_wherever_it_ends() {
+    for cycles in (0..8).map(|i| 2000.0 + 100.0 * f64::from(i)) {
+        let [coarse, fine] = ["60", "240"].map(|cells| {
+            ran(
+                ball(20.0, 1e-5, &[&format!("numerics.points={cells}")]),
+                cycles,
+            )
+        });
+        let [coarse, fine] = [&coarse, &fine].map(|run| run.simulation());
+        let (grid, due) = (&fine.setup().grid, fine.pressure());
+        let end = 0.95 * fine.moment().contact_radius;
+        let nodes = coarse.setup().grid.nodes().iter().zip(coarse.pressure());
+        let inside = nodes.filter(|(r, _)| **r < end);
+        let worst = inside.map(|(&r, p)| (p / grid.interpolate(&due, r) - 1.0).abs());
+        holds(
+            format!("p after {cycles} cycles"),
+            worst.fold(0.0, f64::max),
+            0.03,
+        );
     }
 }
 

@@ -438,8 +438,7 @@ fn a_screen_can_be_printed_as_a_picture() {
 
 #[test]
 fn the_accuracy_panel_waits_for_the_twin_and_shows_what_it_tells() {
-    // Before, the stick radius of the last period may still be that of the first loading, depending on the steps.
-    let text = shot("li2019-fig3", ",,,,a", (80, 24));
+    let text = shot("li2019-fig3", ",,a", (80, 24));
     for (meaning, largest) in [
         ("V of the profile against k E_d since the start", 5e-3),
         ("error of the worn depth", 1e-2),

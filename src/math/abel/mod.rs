@@ -67,6 +67,7 @@ pub mod a;
 pub mod b;
 pub mod benad;
 pub mod dome;
+pub mod edge_curve;
 pub mod fast;
 pub mod field;
 mod kernel;

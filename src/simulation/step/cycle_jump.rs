@@ -22,7 +22,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Integrator;
 use super::super::model::Model;
-use super::super::profile::scar_volume;
+use super::super::profile::{even_end, scar_volume};
 use super::super::setup::Setup;
 use super::super::state::{JumpMemory, Ledger, State, SteadyCycle};
 use super::jump_step::{Jump, Means};
@@ -279,7 +279,8 @@ fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, toleranc
 fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State {
     // Rounding must not undo work when no more is done.
     let friction_work = jump.friction_work.max(0.0);
-    let worn = scar_volume(model, &jump.wear) - scar_volume(model, &state.wear);
+    let even = even_end(model, &state.contact.load);
+    let worn = scar_volume(model, &jump.wear, even) - scar_volume(model, &state.wear, even);
     let mut end = State {
         cycle: state.cycle + jump.covered,
         steps: state.steps + 1,

@@ -20,7 +20,7 @@ use super::choices::Scheme;
 use super::drive::Control;
 use super::model::Model;
 use super::moments::Period;
-use super::profile::{Profile, scar_volume};
+use super::profile::{Profile, even_end, scar_volume};
 use super::setup::Setup;
 use super::state::State;
 use super::traction::Pressure;
@@ -81,7 +81,8 @@ const RUNAWAY: f64 = 10.0;
 /// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
 pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) -> Result<(), Cause> {
     model.plan.image(&state.wear, &mut state.image);
-    scratch.profile.find(model, [&state.wear, &state.image]);
+    let even = even_end(model, &state.contact.load);
+    (scratch.profile).find(model, [&state.wear, &state.image], even);
     let mut solved = state.contact.clone();
     attempt::solve(model, &state.contact, &mut solved, scratch, state.cycle)?;
     state.contact = solved;
@@ -124,8 +125,9 @@ fn accept(
         if law.follows_energy() {
             next.ledger.expected_volume += law.coefficient() * increment.friction_work;
         } else {
+            let even = even_end(model, &state.contact.load);
             next.ledger.unexplained_volume +=
-                scar_volume(model, &next.wear) - scar_volume(model, &state.wear);
+                scar_volume(model, &next.wear, even) - scar_volume(model, &state.wear, even);
         }
         // Eq. (1) is linear, so only the growth is transformed.
         model.plan.image(&increment.depth, &mut next.last.growth);

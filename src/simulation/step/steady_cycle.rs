@@ -21,6 +21,7 @@ use super::super::contact::{self, Contact};
 use super::super::drive::{Control, SpringMotion, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
+use super::super::profile::even_end;
 use super::super::setup::Setup;
 use super::super::state::{State, SteadyCycle};
 use super::{Scratch, wear};
@@ -46,7 +47,8 @@ pub(super) fn cycle(
     scratch: &mut Scratch,
     worn: [&[f64]; 2],
 ) -> Result<SteadyCycle, Cause> {
-    scratch.profile.find(model, worn);
+    let even = even_end(model, &memory.contact.load);
+    scratch.profile.find(model, worn, even);
     let now = memory.cycle;
     let outcome = match plain_swing(&model.setup) {
         Some(swing) => plain_cycle(model, memory, spare, scratch, swing),

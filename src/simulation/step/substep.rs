@@ -20,6 +20,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::{Scheme, Stability};
 use super::super::model::Model;
+use super::super::profile::even_end;
 use super::super::state::State;
 use super::attempt::attempt;
 use super::{Bounds, Scratch, accept, euler, trapezoid};
@@ -87,7 +88,8 @@ pub(in super::super) fn step(
             [&from.wear[..], &from.image],
             [&from.last.wear[..], &from.last.growth],
         );
-        scratch.profile.extrapolate(model, worn, ahead, grown);
+        let even = even_end(model, &from.contact.load);
+        (scratch.profile).extrapolate(model, worn, (ahead, grown), even);
         let stiffness = attempt(model, from, next, scratch, reach)?;
         match kind {
             // No sub-step is short enough: taking this one shows what is wrong.

@@ -79,15 +79,13 @@ pub(super) fn wear(
             scratch.transforms += 1;
             before = &scratch.pressure;
         }
-        increment.mean_of_load(model, [before, &next.pressure], zone);
+        scratch.transforms += increment.mean_of_load(model, [before, &next.pressure], zone);
         scratch.transforms += 2 + increment.mean_of_shear(model, contacts, zone.0);
         increment.wear(model, model.seconds(cycle - state.cycle));
         let exponent = law.slip_rate_exponent();
         if exponent != 1.0 {
             let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);
-            let nodes = scratch.increment.nodes.clone();
-            let worn = &mut scratch.increment.depth[nodes];
-            worn.iter_mut().for_each(|worn| *worn *= uneven);
+            increment.slip_in_less_time(model, contacts, exponent, uneven);
         }
     }
 }

@@ -241,8 +241,9 @@ impl Ladder<'_> {
                     let next = Top { rung, sources };
                     // If nothing wears, work and forces keep converging; stop once they are near enough.
                     let is_enough = next.promised() <= MARGIN * self.accuracy;
-                    let is_nearer =
-                        next.promised() < 0.9 * top.promised() && !(next.is_unworn() && is_enough);
+                    let is_nearer = next.promised() < 0.9 * top.promised()
+                        && !(next.is_unworn() && is_enough)
+                        && !self.is_out_of_reach([&top, &next]);
                     stalls = if is_nearer { 0 } else { stalls + 1 };
                     stalls += u32::from(next.is_unworn());
                     planned = self.plan(&next);
@@ -262,6 +263,20 @@ impl Ladder<'_> {
             verdict,
             seconds: (self.spent)(),
         })
+    }
+
+    /// Whether no level is fine enough at the pace from one rung to the next. If time is limited, any progress is
+    /// worth it.
+    fn is_out_of_reach(&self, [before, after]: [&Top; 2]) -> bool {
+        let level = &after.rung.level;
+        let [cells, steps, _] = level.ratio(&before.rung.level);
+        let left = [
+            MOST_POINTS as f64 / level.points as f64,
+            f64::from(MOST_STEPS) / f64::from(level.steps),
+        ];
+        let pace = (after.promised() / before.promised()).ln() / cells.max(steps).ln();
+        let finest = after.promised() * left[0].min(left[1]).powf(pace);
+        !self.budget.is_limited() && finest > self.accuracy
     }
 
     /// Runs the first rung, refining it until it does not break down.

@@ -43,13 +43,13 @@ pub fn stages_for(stiffness: f64) -> usize {
     MOST
 }
 
-/// How stiff a step of so many stages may be.
+/// How stiff a step of so many stages may be, a hair below where it needs one more.
 pub fn reach(stages: usize) -> f64 {
     let (mut one, mut two) = ([W0, 1.0, 0.0], [1.0, 0.0, 0.0]);
     for _ in FEWEST_STAGES..=stages {
         (one, two) = (next(one, two), one);
     }
-    (W0 + 1.0) * one[2] / one[1]
+    (1.0 - 1e-9) * (W0 + 1.0) * one[2] / one[1]
 }
 
 /// T, T′ and T″ of a degree at w₀ from those of the two before it.
@@ -173,6 +173,15 @@ mod tests {
             let error = |steps| (run(stages, steps, 1.0, |y| -y * y) - 0.5).abs();
             let order = (error(20) / error(40)).log2();
             assert!((order - 2.0).abs() < 0.1, "{stages} stages: {order}");
+        }
+    }
+
+    #[test]
+    fn stages_are_enough_as_far_as_they_reach() {
+        for stages in [2, 4, 40, 77] {
+            let stiffness = reach(stages);
+            assert_eq!(stages_for(stiffness), stages);
+            assert_eq!(stages_for(1.001 * stiffness), stages + 1);
         }
     }
 

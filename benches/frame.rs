@@ -77,7 +77,7 @@ impl Stage {
         let area = self.app.explorer.stage.area;
         let mut wanted = Buffer::empty(area);
         screen::draw(&self.app, area, &mut wanted);
-        self.line.frame(wanted);
+        self.line.chunk(&wanted, usize::MAX);
     }
 }
 

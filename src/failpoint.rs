@@ -1,6 +1,6 @@
-//! Panics on demand, in debug builds only: tests hold that the terminal survives them.
+//! Panics on demand, in debug builds only, so that tests can check that the terminal survives.
 
-/// Takes longer than anybody waits if the environment variable `MDR_TUI_FAULT` names this place.
+/// Sleeps for an hour if the environment variable `MDR_TUI_FAULT` names this place.
 pub(crate) fn stall(place: &str) {
     if is_asked_for(place) {
         std::thread::sleep(std::time::Duration::from_secs(3600));

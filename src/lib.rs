@@ -4,21 +4,21 @@
 //! *Numerical implementation of fretting wear in the framework of the MDR*, Facta Universitatis,
 //! Mech. Eng. 17(1), 87–93, doi 10.22190/FUME190103012L, called *the paper* throughout.
 //!
-//! # The house
+//! # Module map
 //!
 //! Layers import downwards only:
 //!
 //! | layer | holds | knows |
 //! |---|---|---|
-//! | [`math`] | grids, root solve, the three Abel transforms and the ways to compute them | no physics |
+//! | [`math`] | grids, root finding, the three Abel transforms and the ways to compute them | no physics |
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping | no scenario, no file, no screen |
 //! | [`reading`] | observations, the log of a run, checks, warnings, stresses below the surface, fatigue | only reads a simulation |
 //! | [`scenario`] | TOML in and out, presets, a session with its changes and checkpoints | no screen |
-//! | [`traces`] | what is known of a run as named columns | no screen |
+//! | [`traces`] | the data of a run as named columns | no screen |
 //! | [`studies`] | errors against theory, speed against accuracy, stability, as tables | no file, no screen |
-//! | [`export`] | CSV files, whole or not at all | runs nothing |
+//! | [`export`] | CSV files, written whole or not at all | runs nothing |
 //! | [`plot`] | a chart, and how a terminal draws it: ticks, axes, legends, raster | no physics, no screen |
 //! | [`charts`] | the charts of a run, each declared once: names, needs, help, curves | no screen, no paper |
 //! | [`figure`] | charts on sheets: SVG, PNG and PDF, with their data | no screen |
@@ -26,12 +26,11 @@
 //!
 //! [`guide`] holds the long documentation, topic by topic.
 //!
-//! [`oracle`] stands apart: closed forms, written with `std` alone, that the rest is tested
-//! against.
+//! [`oracle`] stands apart: closed forms, written with `std` alone, against which the rest is tested.
 //!
-//! A user's TOML becomes a [`scenario::Scenario`], a [`scenario::session::Session`] runs it, and
-//! screens and files see owned [`reading::Observation`]s. The explorer and the headless commands
-//! drive the same session, so the same scenario and the same changes give the same bits.
+//! A user's TOML becomes a [`scenario::Scenario`], a [`scenario::session::Session`] runs it, and screens and files
+//! receive owned [`reading::Observation`]s. The explorer and the headless commands drive the same session, so the same
+//! scenario and the same changes give bit-for-bit the same results.
 //!
 //! # Symbols (SI)
 //!

@@ -1,4 +1,4 @@
-//! The program: everything is in the library, so that tests and benchmarks reach it.
+//! The program. Everything is in the library, so that tests and benchmarks can reach it.
 
 use std::process::ExitCode;
 

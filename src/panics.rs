@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The message of the first panic in any thread. Printed at once, the explorer would draw over it.
+/// The message of the first panic in any thread. If it were printed at once, the explorer would draw over it.
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 /// Stores the messages of panics here instead of printing them.
@@ -21,15 +21,15 @@ pub fn take_message() -> Option<String> {
     locked(&PANIC).take()
 }
 
-/// The value, which is never half written, even after a panic: it is replaced, never changed in place.
+/// Locks the mutex, even after a panic: the value is always replaced as a whole, so it is never half written.
 pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Carries out `action`; a panic in it is reported by the caller, when the terminal is itself again.
+/// Runs `action`. If it panics, returns the default; the caller reports the panic after restoring the terminal.
 ///
 /// # Errors
-/// Those of the action.
+/// The errors of the action.
 pub fn catch<T: Default>(action: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Result<T> {
     catch_unwind(AssertUnwindSafe(action)).unwrap_or_else(|_| Ok(T::default()))
 }

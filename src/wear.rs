@@ -1,29 +1,30 @@
-//! Wear laws: how much the surface recedes where a stress slips.
+//! Wear laws: how fast the surface recedes under a stress and a slip rate.
 
 use std::hint::select_unpredictable as select;
 
 use crate::math::invalid::{Invalid, non_negative, positive};
 
-/// A local law of wear, written as a rate so that the result does not depend on the step's size.
+/// A local wear law, written as a rate so that the result does not depend on the step size.
 ///
-/// Eq. (15) of the paper, Archard's law: Δf = k τ Δs, wear in proportion to frictional work; or by [`Powers`].
+/// Archard's law, Eq. (15) of the paper: Δf = k τ Δs, wear proportional to frictional work. Or a power law, see
+/// [`Powers`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WearLaw {
     /// k, 1/Pa.
     coefficient: f64,
-    /// None: Archard's law.
+    /// `None` for Archard's law.
     powers: Option<Powers>,
 }
 
 /// Δf = k τ_ref (τ/τ_ref)^m v_ref (|ṡ|/v_ref)^n Δt.
 ///
-/// A power of the slip *rate*: a power n ≠ 1 of the slip increment itself would change the wear
-/// by 2^(n−1) when the step is halved. m = n = 1 is Archard's law.
+/// The power applies to the slip *rate*: a power n ≠ 1 of the slip increment itself would change the wear by 2^(n−1)
+/// when the step is halved. m = n = 1 is Archard's law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Powers {
-    /// m.
+    /// The exponent m of the stress.
     pub stress_exponent: f64,
-    /// n.
+    /// The exponent n of the slip rate.
     pub slip_rate_exponent: f64,
     /// τ_ref, Pa.
     pub reference_stress: f64,
@@ -57,7 +58,7 @@ impl WearLaw {
         })
     }
 
-    /// The law's name, as a scenario spells it.
+    /// Returns the name used in scenarios.
     pub fn name(&self) -> &'static str {
         match self.powers {
             None => "archard",
@@ -70,7 +71,7 @@ impl WearLaw {
         self.coefficient
     }
 
-    /// The same law with another k, 1/Pa, 0 or greater.
+    /// Returns the same law with another k, 1/Pa, 0 or greater.
     #[must_use]
     pub fn with_coefficient(self, coefficient: f64) -> Self {
         Self {
@@ -79,28 +80,28 @@ impl WearLaw {
         }
     }
 
-    /// The powers that wear goes by; none under Archard's law.
+    /// Returns the exponents and references; `None` for Archard's law.
     pub fn powers(&self) -> Option<Powers> {
         self.powers
     }
 
-    /// Whether wear is k times the frictional work, so that V = k E_d can be watched.
+    /// Whether wear is k times the frictional work, so that V = k E_d can be checked.
     pub fn follows_energy(&self) -> bool {
         self.powers.is_none()
     }
 
-    /// By which power of the stress a surface wears: m.
+    /// Returns m, the exponent of the stress.
     pub fn stress_exponent(&self) -> f64 {
         self.powers.map_or(1.0, |powers| powers.stress_exponent)
     }
 
-    /// By which power of the slip rate a surface wears: n.
+    /// Returns n, the exponent of the slip rate.
     pub fn slip_rate_exponent(&self) -> f64 {
         self.powers.map_or(1.0, |powers| powers.slip_rate_exponent)
     }
 
-    /// ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node answers to its
-    /// stress `tau` (Pa) at a slip `slip` (m) over `duration` (s); 0 where nothing works.
+    /// Writes ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node depends on its stress `tau`
+    /// (Pa), at the slip `slip` (m) over `duration` (s); 0 where no work is done.
     #[inline(always)]
     pub fn sensitivity(&self, tau: &[f64], slip: &[f64], duration: f64, answers: &mut [f64]) {
         let points = answers.iter_mut().zip(tau.iter().zip(slip));
@@ -127,11 +128,11 @@ impl WearLaw {
         }
     }
 
-    /// Writes the wear (m) of one step into `wear`: stress `tau` (Pa) and slip `slip` (m) at the nodes,
-    /// over a time of `duration` (s).
+    /// Writes the wear (m) of one step into `wear`, from the stress `tau` (Pa) and the slip `slip` (m) at the nodes
+    /// over `duration` (s).
     ///
-    /// Friction resists slip, so τ·s is never negative; where rounding or a transform's own error
-    /// makes it so, nothing wears.
+    /// Friction resists slip, so τ·s is never negative; where rounding
+    /// or the error of a transform makes it so, nothing wears.
     #[inline(always)]
     pub fn wear(&self, tau: &[f64], slip: &[f64], duration: f64, wear: &mut [f64]) {
         let points = wear.iter_mut().zip(tau.iter().zip(slip));
@@ -158,7 +159,7 @@ impl WearLaw {
     }
 }
 
-/// max(v, 0), but NaN stays NaN: a broken state must be seen, not hidden.
+/// max(v, 0), but NaN stays NaN, so that a broken state shows.
 #[inline(always)]
 fn positive_part(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }

@@ -1,11 +1,15 @@
-//! The running-condition map: normal load over displacement amplitude, with the border between partial and
-//! gross slip, the present point and its path as the contact wears.
+//! The running-condition map: normal load over displacement amplitude, with the border between partial and gross slip,
+//! the present point and the path that it took as the contact wore.
 //!
-//! Gross slip begins at the amplitude u_t = max(d − g)/κ for any profile (κ = G*/(μE*)). While unworn,
-//! depth and load of a power-law tip give it in closed form, u_t ∝ N^(2/3) for a sphere. The second border
-//! is that of the present, worn profile through the present point of load and u_t.
+//! Gross slip begins at the amplitude u_t = max(d − g)/κ for any profile (κ = G*/(μE*)). For an unworn power-law tip,
+//! depth and load give this in closed form; for a sphere, u_t ∝ N^(2/3). The second border belongs to the present, worn
+//! profile and passes through the present load and u_t.
 
-use super::*;
+use super::{NO_CYCLE, NO_MOTION, Recipe, View};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Point};
+use crate::reading::{Column, Curves};
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -18,17 +22,17 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// Points of a border.
+/// Number of points per border.
 const POINTS: usize = 64;
 
-/// Loads up to this many times the largest are shown.
+/// The load axis reaches this many times the largest load.
 const BEYOND: f64 = 1.5;
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let live = run.live.as_ref().filter(|live| live.moves());
     let live = live.ok_or(NO_MOTION)?;
     // The path so far, oldest first: m, N.
-    let path = run.over_cycles(["u_x_amplitude_m", "mean_F_z_N"]);
+    let path = run.over_cycles([Column::ShiftAmplitude, Column::MeanNormalForce]);
     let [amplitudes, loads] = path.unwrap_or_default();
     let path = amplitudes.into_iter().zip(loads);
     let known = path.filter(|(amplitude, load)| *amplitude > 0.0 && *load > 0.0);
@@ -41,7 +45,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let unworn = steps.filter_map(|load| Some((theory?.gross_slip_amplitude(load)?, load)));
     let (unworn_u, unworn_load): (Vec<f64>, Vec<f64>) = unworn.unzip();
     let worn = live.slip_border.filter(|&border| border > 0.0);
-    // Once wear has fixed a, the border goes with the load.
+    // Once wear has fixed a, the border is proportional to the load.
     let worn_u = worn.map(|border| [0.0, border * top / load]);
     let right = unworn_u.iter().chain(&amplitudes).copied();
     let right = right.chain(worn_u.map(|u| u[1])).fold(0.0, f64::max);

@@ -1,6 +1,10 @@
-//! Time per step on this machine, over finished cycles.
+//! Time per step on this machine, over complete cycles.
 
-use super::*;
+use super::{Recipe, View, finished_series, over_cycles};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart};
+use crate::reading::Column;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -14,7 +18,7 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    let cost = finished_series(run, "step_cost_s", Role::Shear)?;
+    let cost = finished_series(run, Column::StepCost, Role::Shear)?;
     if !cost.ys.iter().any(|value| value.is_finite()) {
         return Err("measured while it runs");
     }

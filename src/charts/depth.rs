@@ -1,6 +1,11 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::*;
+use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, of_states, over_r};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -17,11 +22,11 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
-    let mut worn = of_states(run, "wear_m", run.pick("worn", ""), Role::Profile);
+    let mut worn = of_states(run, Column::Wear, run.pick("worn", ""), Role::Profile);
     let mut chart = over_r(run, "r", (run.pick("f - f0", "worn depth"), "m"));
     chart.band = run.zones();
     chart.y.expects = run.expected_wear();
-    if run.live.is_some() {
+    if run.medium == Medium::Screen {
         chart.y.holds = Some(0.0);
         let shade = |curve: &mut Curve| curve.fill = vec![0.0; curve.xs.len()];
         worn.iter_mut().for_each(shade);

@@ -1,6 +1,10 @@
 //! The stresses inside the half-space in the plane of motion, as colours.
 
-use super::*;
+use super::{Recipe, View};
+use crate::charts::run::Run;
+use crate::plot::colormap::ColorMap;
+use crate::plot::{Axis, Chart, Map};
+use crate::reading::Column;
 
 const NO_FIELD: &str = "there is no field.csv; run --field writes it";
 
@@ -9,7 +13,7 @@ pub static VON_MISES: Recipe = Recipe {
     name: "von-mises",
     title: "von Mises stress",
     needs_field: true,
-    ..Recipe::new(|run, _: &View| map(run, ("σ", "von_mises_Pa"), ColorMap::Sequential))
+    ..Recipe::new(|run, _: &View| map(run, Column::VonMises, ColorMap::Sequential))
 };
 
 /// The largest principal stress.
@@ -17,7 +21,7 @@ pub static PRINCIPAL: Recipe = Recipe {
     name: "principal",
     title: "largest principal stress",
     needs_field: true,
-    ..Recipe::new(|run, _: &View| map(run, ("σ max", "max_principal_Pa"), ColorMap::Diverging))
+    ..Recipe::new(|run, _: &View| map(run, Column::MaxPrincipal, ColorMap::Diverging))
 };
 
 /// The Smith–Watson–Topper parameter over a cycle.
@@ -25,17 +29,15 @@ pub static SWT: Recipe = Recipe {
     name: "swt",
     title: "Smith-Watson-Topper stress of a cycle",
     needs_field: true,
-    ..Recipe::new(|run, _: &View| map(run, ("SWT", "swt_Pa"), ColorMap::Sequential))
+    ..Recipe::new(|run, _: &View| map(run, Column::Swt, ColorMap::Sequential))
 };
 
-fn map(
-    run: &Run,
-    (label, column): (&'static str, &str),
-    colors: ColorMap,
-) -> Result<Chart, &'static str> {
+fn map(run: &Run, column: Column, colors: ColorMap) -> Result<Chart, &'static str> {
     let table = run.field.as_ref();
-    let columns = |name| table?.column(name);
-    let made = columns("x_m").zip(columns("z_m")).zip(columns(column));
+    let columns = |wanted| table?.column(wanted);
+    let made = columns(Column::X)
+        .zip(columns(Column::Z))
+        .zip(columns(column));
     let ((all_x, all_z), values) = made.ok_or(NO_FIELD)?;
     let count = all_z.iter().take_while(|&&z| z == all_z[0]).count();
     let xs = all_x[..count].to_vec();
@@ -47,7 +49,7 @@ fn map(
     depth.downwards = true;
     let mut chart = Chart::new("", Axis::new("x", "m"), depth);
     chart.map = Some(Map {
-        quantity: Axis::new(label, "Pa"),
+        quantity: Axis::new(column.symbol(), column.unit()),
         places: [xs, zs],
         values: values.to_vec(),
         colors,

@@ -1,6 +1,11 @@
-//! The fretting log: the loops F_x over u_x of earlier cycles and of the last one, each at the height of its cycle.
+//! The fretting log: loops of F_x over u_x from earlier cycles and the last one, each drawn at the height of its cycle.
 
-use super::*;
+use super::{F_X, NO_CYCLE, NO_MOTION, Recipe, U_X, View};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::units::format_value;
+use crate::plot::{Axis, Chart, Curve};
+use crate::traces::Loop;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -13,10 +18,10 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// The most loops that are drawn.
+/// Maximum number of loops drawn.
 const MOST: usize = 12;
 
-/// How much of the distance to the next loop each takes, to both sides together.
+/// Height of a loop, relative to the distance between neighbouring loops.
 const HEIGHT: f64 = 1.6;
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
@@ -35,7 +40,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let cycles = Axis::new("cycle", "").bounds(bounds);
     let mut chart = Chart::new("", Axis::new("u_x", "m"), cycles);
     chart.note = format!("F_x up to {}", format_value(most, "N", 3));
-    // The newest is drawn last, over the others.
+    // Draws the newest loop last, on top of the others.
     Ok(chart.curves(loops.iter().enumerate().map(|(k, one)| {
         let heights = one.forces.iter().map(|force| one.end + scale * force);
         let role = match k + 1 == loops.len() {

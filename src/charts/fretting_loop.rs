@@ -1,8 +1,12 @@
-//! The fretting loop: tangential force over displacement in the last cycle. Its area is the energy
-//! that the cycle dissipates. An arrow stands at the present moment and points the way it goes. On a rig that
-//! yields the loop of its sensor is drawn beside that of the contact: both have the same forces and the same area.
+//! The fretting loop: tangential force over displacement in the last cycle. Its area is the energy that the cycle
+//! dissipates. An arrow marks the present moment and its direction. On a compliant rig the loop that its sensor sees is
+//! drawn too; it has the same forces and the same area as the contact's loop.
 
-use super::*;
+use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, named};
+use crate::charts::run::{Live, Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Point};
+use crate::traces::{Axes, Loop};
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -17,14 +21,14 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// How much of its width is left free beside a loop, on paper.
+/// Free space beside a loop on paper, relative to its width.
 const MARGIN: f64 = 0.05;
 
-/// The range of values; as far on both sides of zero where they are on both.
+/// Returns the range of the values, made symmetric about zero if they lie on both sides of it.
 fn symmetric<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> [f64; 2] {
     let finite = || values.clone().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
-    // A motion to one side has no other.
+    // A one-sided motion stays one-sided.
     if low < -0.1 * high && high > -0.1 * low {
         let most = high.max(-low);
         [-most, most]
@@ -33,8 +37,8 @@ fn symmetric<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> [f64; 2] {
     }
 }
 
-/// The loops before the states of a run, or the last one: that of the sensor, where the rig yields, and that of
-/// the contact.
+/// Returns the loop before each state of a run, or the last loop if there are no states. On a compliant rig, the
+/// sensor's loop comes before the contact's.
 fn loops(run: &Run) -> Vec<Curve> {
     let ends: Vec<f64> = match &run.states[..] {
         [] => run.end().into_iter().collect(),
@@ -60,9 +64,9 @@ fn loops(run: &Run) -> Vec<Curve> {
         };
         if is_sensed {
             let curve = Curve::new(sensor, sensed, forces, of_sensor);
-            curves.push(curve.dashed_if(run.live.is_none()));
+            curves.push(curve.dashed_if(run.medium == Medium::Paper));
         }
-        // The contact's comes last: another figure takes that as its ghost.
+        // The contact's loop comes last: another figure takes the last curve as its ghost.
         curves.push(Curve::new(name, one.shifts, one.forces, role));
     }
     curves
@@ -74,7 +78,7 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     }
     let loops = loops(run);
     let moves = |curve: &Curve| curve.xs.iter().any(|&x| x != curve.xs[0]);
-    if run.live.is_none() && !loops.iter().any(moves) {
+    if run.medium == Medium::Paper && !loops.iter().any(moves) {
         return Err(match loops.is_empty() {
             true => {
                 "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \
@@ -91,19 +95,19 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         let across = symmetric(chart.curves.iter().flat_map(|curve| &curve.xs));
         let upwards = symmetric(chart.curves.iter().flat_map(|curve| &curve.ys));
         (chart.x.bounds, chart.y.bounds) = (Some(across), Some(upwards));
-        // Where it will be once it slips.
+        // Leaves room for the loop under gross slip.
         let slip_per_depth = run.theory.as_ref().map(|theory| theory.slip_per_depth);
-        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.moment.depth;
-        chart.y.expects = live.friction * live.moment.normal_force;
+        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.seen.moment.depth;
+        chart.y.expects = live.friction * live.seen.moment.normal_force;
         chart.points.push(here(run, live));
     }
     Ok(chart)
 }
 
-/// An arrow at the present moment.
+/// Returns an arrow at the present moment.
 fn here(run: &Run, live: &Live) -> Point {
     Point {
-        at: [live.moment.shift, live.moment.tangential_force],
+        at: [live.seen.moment.shift, live.seen.moment.tangential_force],
         sign: match run.loops.last().is_none_or(Loop::rises) {
             true => '▶',
             false => '◀',

@@ -1,13 +1,17 @@
-//! Curves of other sources in a chart: on a screen dashes in the colour of text, each its own pattern; error bars
-//! where there are any.
+//! Overlaid curves from other sources. On a screen they are dashed in the text colour, each with a different pattern;
+//! measured ones have error bars if their errors are known.
 
-use super::*;
+use crate::charts::run::Run;
+use crate::plot::Curve;
+use crate::plot::theme::Role;
+use crate::studies::ghost::Ghost;
+use crate::traces::Axes;
 
-/// What one ghost gives for a chart: abscissae, ordinates, and errors if there are any; the values that a cursor reads,
-/// where these are not the ordinates.
+/// What one ghost adds to a chart: abscissae, ordinates, errors (empty if unknown), and the values that a cursor reads
+/// (empty if they equal the ordinates).
 type Points = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 
-/// The curves of all ghosts that `of` finds points in.
+/// Returns a curve for every ghost in which `of` finds points.
 fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
     let ghosts = run.ghosts.iter().enumerate();
     let curves = ghosts.filter_map(|(k, ghost)| {
@@ -23,7 +27,7 @@ fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
     curves.filter(is_there).collect()
 }
 
-/// The curves of the traces on `axes`.
+/// Returns the ghosts' curves on `axes`.
 pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
     curves(run, |ghost| {
         let trace = ghost.trace(axes)?;
@@ -33,7 +37,8 @@ pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
     })
 }
 
-/// The curves of the traces on both axes, the second ones changed. One entry of the legend is for both.
+/// Returns the ghosts' curves on both pairs of axes, the second ones modified by `change`. Each ghost has one legend
+/// entry.
 pub(super) fn both(run: &Run, axes: [Axes; 2], change: impl Fn(&mut Curve)) -> Vec<Curve> {
     let [mut curves, mut second] = axes.map(|axes| on(run, axes));
     for curve in &mut second {
@@ -46,7 +51,7 @@ pub(super) fn both(run: &Run, axes: [Axes; 2], change: impl Fn(&mut Curve)) -> V
     curves
 }
 
-/// The curves of the wear, magnified by `times` on top of the unworn profile; `None` draws the wear alone.
+/// Returns the ghosts' wear, magnified by `times` on top of the unworn profile, or alone if `times` is `None`.
 pub fn worn(run: &Run, times: Option<f64>) -> Vec<Curve> {
     curves(run, |ghost| {
         let worn = ghost.worn(|r| run.unworn(r))?;

@@ -1,18 +1,14 @@
-//! Charts of a run, one per file: each declares what it is called, what it needs, how it is explained, and how it
-//! is made. The terminal, the paper, the line of the cursor and the help all read that.
-//!
-//! What charts are made of is imported here; each of them begins with `use super::*`.
+//! The charts of a run, one per file. Each declares its name, what it needs, its explanation and how it is made; the
+//! terminal, the paper figures, the cursor line and the help all read this declaration.
 
-use crate::plot::colormap::ColorMap;
 use crate::plot::step::Step;
 use crate::plot::theme::Role;
-use crate::plot::units::format_value;
-use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
-use crate::reading::Curves;
+use crate::plot::{Axis, Chart, Curve, Mark, Scale};
+use crate::reading::{Column, Curves};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
-use crate::traces::{Axes, Loop, Table};
+use crate::traces::{Axes, Table};
 
 pub mod condition;
 pub mod cost;
@@ -33,9 +29,9 @@ pub mod springs;
 pub mod stresses;
 pub mod volume;
 
-pub use run::{Live, Run};
+pub use run::{Live, Medium, Run};
 
-/// Symbols with their meaning, for a reader who knows Hertz and nothing else.
+/// Symbols with their meaning, for a reader who knows only Hertz.
 pub type Symbols = &'static [(&'static str, &'static str)];
 
 /// The contact radius, explained.
@@ -49,50 +45,50 @@ const V: (&str, &str) = ("V", "wear volume");
 const E_D: (&str, &str) = ("E_d", "energy lost to friction since the start");
 const BAND: (&str, &str) = ("band", "stick, slip and open zones along the radius");
 
-/// What charts say that have nothing to show.
+/// Messages of charts that have nothing to show.
 const NO_MOTION: &str = "no tangential motion in this scenario";
 const NO_WEAR: &str = "no wear in this scenario";
 const NO_CYCLE: &str = "no cycle is complete yet";
 const NO_STATE: &str = "there is no state.csv";
 const NO_HISTORY: &str = "there is no history.csv";
 
-/// Makes a chart of a run, or says why there is nothing to show.
+/// Makes a chart of a run, or returns why there is nothing to show.
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
-/// Everything that there is to know of a chart but its data.
+/// Everything that there is to know of a chart, or of another panel, but its data.
 #[derive(Debug, Clone, Copy)]
-pub struct Recipe {
+pub struct Recipe<M: ?Sized = Make> {
     /// The name on the command line, for charts that a paper can have.
     pub name: &'static str,
     /// The title.
     pub title: &'static str,
     /// Whether a logarithmic ordinate makes sense.
     pub can_be_log: bool,
-    /// What it needs computed.
+    /// The curves that it needs.
     pub needs: Curves,
-    /// Whether it needs the stresses inside the half-space.
+    /// Whether it needs the stress field inside the half-space.
     pub needs_field: bool,
-    /// Whether the range of the abscissa is kept as that of the ordinate is: a loop is drawn on axes that hold.
+    /// Whether the range of the abscissa is kept between frames like the ordinate's, so that a loop's axes do not move.
     pub keeps_abscissa: bool,
-    /// Whether a few values may be far above all others: a stress that is singular at a border, or a slow step.
+    /// Whether a few values may lie far above the rest, such as a stress singularity at a border or a slow step.
     pub has_spikes: bool,
-    /// Whether a run may leave it as it is for two frames: numbers that nobody reads ten times a second, pictures
-    /// that are looked at rather than followed, and what grows from cycle to cycle. Marks of a and c, though, are
-    /// at the same places in all charts over r.
+    /// Whether it may be redrawn only every second frame: for numbers, which cannot be read ten times a second, for
+    /// still pictures, and for curves that grow from cycle to cycle. Charts over r are never calm, so that a and c are
+    /// at the same place in all of them.
     pub is_calm: bool,
-    /// What it shows of other sources; the line of the cursor compares the first.
+    /// The data of other sources that it shows; the cursor line compares the first.
     pub overlays: &'static [Axes],
     /// The explanation: a few sentences.
     pub text: &'static str,
-    /// The symbols in the chart with their meaning.
+    /// The symbols in the chart, with their meaning.
     pub symbols: Symbols,
     /// How it is made.
-    pub make: Make,
+    pub make: M,
 }
 
-impl Recipe {
+impl<M> Recipe<M> {
     /// A recipe that is nothing but made.
-    pub const fn new(make: Make) -> Self {
+    pub const fn new(make: M) -> Self {
         Self {
             name: "",
             title: "",
@@ -108,11 +104,16 @@ impl Recipe {
             make,
         }
     }
+}
 
+/// What is said of a chart or of another panel, however it is made.
+pub type About = Recipe<dyn Sync>;
+
+impl Recipe {
     /// The chart of a run.
     ///
     /// # Errors
-    /// If there is nothing to show: why.
+    /// Says why there is nothing to show.
     pub fn chart(&self, run: &Run, view: &View) -> Result<Chart, &'static str> {
         let mut chart = (self.make)(run, view)?;
         chart.y.scale = view.scale;
@@ -131,25 +132,20 @@ impl Recipe {
         }
         chart.curves.sort_by_key(|curve| match curve.role {
             // On paper, curves of other sources lie over those of the run.
-            Role::Ghost(k) if run.live.is_none() => k + 1,
+            Role::Ghost(k) if run.medium == Medium::Paper => k + 1,
             // On a screen, closed forms lie below what they explain.
-            _ => usize::from(run.live.is_some() && !curve.is_theory),
+            _ => usize::from(run.medium == Medium::Screen && !curve.is_theory),
         });
         Ok(chart)
     }
 
-    /// The chart on paper.
+    /// Makes the chart for paper.
     ///
     /// # Errors
     /// If the run has no data for it.
     pub fn on_paper(&self, run: &Run) -> Result<Chart, Refusal> {
         let chart = self.chart(run, &View::default());
         chart.map_err(|why| Refusal::new(format_args!("no chart {}", self.name), why))
-    }
-
-    /// Whether its abscissa is the radius, which has the cursor.
-    pub fn is_over_r(&self) -> bool {
-        self.overlays.first().is_some_and(|axes| axes.over_r())
     }
 
     /// Whether the chart has a place for what `ghost` holds.
@@ -159,7 +155,7 @@ impl Recipe {
     }
 }
 
-/// The charts of a run that nobody chose others for, as far as there are data for them.
+/// Default charts; those without data are skipped.
 pub static USUAL: [&Recipe; 4] = [
     &profile::RECIPE,
     &springs::RECIPE,
@@ -167,7 +163,7 @@ pub static USUAL: [&Recipe; 4] = [
     &fretting_loop::RECIPE,
 ];
 
-/// How a chart is looked at; as it is by default on paper.
+/// How a chart is viewed; the default is for paper.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct View {
     /// The scale of the ordinate.
@@ -177,14 +173,13 @@ pub struct View {
 }
 
 impl View {
-    /// The closed forms, if they are shown.
+    /// Returns the closed forms if they are shown.
     fn theory(self, run: &Run) -> Option<&Theory> {
         run.theory.as_deref().filter(|_| self.with_theory)
     }
 }
 
-/// A chart of nodal values over the radius; on a screen with marks at the radii of contact and stick. The ordinate
-/// is a label and a unit.
+/// Returns an empty chart over the radius, with marks at a and c on a screen. The ordinate is given as label and unit.
 fn over_r(run: &Run, abscissa: &'static str, (label, unit): (&'static str, &'static str)) -> Chart {
     Chart {
         marks: run.live.as_ref().map(Live::edge_marks).unwrap_or_default(),
@@ -193,31 +188,31 @@ fn over_r(run: &Run, abscissa: &'static str, (label, unit): (&'static str, &'sta
 }
 
 /// A column over the radius at every state, by the states' cycles where there are several; else under this name.
-fn of_states(run: &Run, column: &str, alone: &str, role: Role) -> Vec<Curve> {
+fn of_states(run: &Run, column: Column, alone: &str, role: Role) -> Vec<Curve> {
     let count = run.states.len();
     let states = run.states.iter().enumerate();
     let curves = states.filter_map(|(k, state)| {
-        let (radii, values) = (state.column("r_m")?, state.column(column)?);
+        let (radii, values) = (state.column(Column::Radius)?, state.column(column)?);
         let (name, role) = named(k, count, state.cycle(), (alone, role));
         Some(Curve::new(name, radii, values, role))
     });
     curves.collect()
 }
 
-/// Name and role of the `k`th of `count` states, which ends at `cycle`; those of one that is `alone`.
+/// Returns the name and the role of the `k`th of `count` states, which ends at `cycle`; a single state takes `alone`.
 fn named(k: usize, count: usize, cycle: f64, alone: (&str, Role)) -> (String, Role) {
     match count {
         1 => (alone.0.to_owned(), alone.1),
-        // The last state has the same, the darkest ink, however many there are.
+        // The last state always has the same, darkest ink, whatever the number of states.
         _ => (format!("{cycle} cycles"), Role::Series(count - 1 - k)),
     }
 }
 
-/// The shape that ends all wear at this depth: its worn depth, or that magnified by `times` on top of the unworn
-/// profile.
+/// Returns the limiting profile at this depth, at which wear ends: its worn depth, or the worn depth magnified by
+/// `times` on top of the unworn profile.
 fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve> {
     let state = run.states.last()?;
-    let (radii, unworn) = (state.column("r_m")?, state.column("f0_m")?);
+    let (radii, unworn) = (state.column(Column::Radius)?, state.column(Column::Unworn)?);
     let limit = theory?.limiting_profile(radii)?;
     let worn = limit.iter().zip(unworn);
     let worn = worn.map(|(f, f0)| match times {
@@ -229,7 +224,7 @@ fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve
     Some(curve.theory().magnified(times.unwrap_or(1.0), limit))
 }
 
-/// A chart over cycles: on a screen over 10, 20, 50, 100, … of them, and at last over all that are planned.
+/// Returns an empty chart over cycles. On a screen its axis grows through 10, 20, 50, 100, … to the planned end.
 fn over_cycles(run: &Run, y: Axis) -> Chart {
     let mut cycles = Axis::new("cycles", "");
     cycles.bounds = cycles_shown(run);
@@ -237,13 +232,13 @@ fn over_cycles(run: &Run, y: Axis) -> Chart {
 }
 
 /// A column of the history over its cycles.
-fn series(run: &Run, column: &str, name: &str, role: Role) -> Result<Curve, &'static str> {
-    let [cycles, values] = run.over_cycles(["cycle", column]).ok_or(NO_HISTORY)?;
+fn series(run: &Run, column: Column, name: &str, role: Role) -> Result<Curve, &'static str> {
+    let [cycles, values] = run.over_cycles([Column::Cycle, column]).ok_or(NO_HISTORY)?;
     Ok(Curve::new(name, cycles, values, role))
 }
 
 /// A column of the history over its finished cycles: the unfinished one only if there is no other.
-fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'static str> {
+fn finished_series(run: &Run, column: Column, role: Role) -> Result<Curve, &'static str> {
     let mut curve = series(run, column, "", role)?;
     let is_open = run.live.as_ref().is_some_and(|live| live.is_within_a_cycle);
     if is_open && curve.xs.len() > 1 {
@@ -253,7 +248,7 @@ fn finished_series(run: &Run, column: &str, role: Role) -> Result<Curve, &'stati
     Ok(curve)
 }
 
-/// The cycles that charts of a live run show: those so far fill a good part of it, and it grows seldom.
+/// Returns the range of cycles on a live chart: well filled by the cycles so far, and seldom changed.
 fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     let live = run.live.as_ref()?;
     let seen = run.history.as_ref().and_then(Table::last_cycle);
@@ -267,8 +262,8 @@ fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
     ])
 }
 
-/// How many times what is at most `deepest` is drawn magnified, so that it takes no more than `height`: 1, 2, 5,
-/// 10, … up to a million.
+/// Returns the magnification 1, 2, 5, 10, … (at most a million) at which a depth of at most `deepest` takes no more
+/// than `height`.
 pub fn magnification(deepest: f64, height: f64) -> f64 {
     if deepest <= 0.0 || deepest.is_nan() {
         return 1.0;
@@ -276,15 +271,15 @@ pub fn magnification(deepest: f64, height: f64) -> f64 {
     Step::at_most((height / deepest).clamp(1.0, 1e6)).value()
 }
 
-/// The round number of cycles, at least one, that `end` does not exceed: an axis that ended at the
-/// present would squeeze the whole past with every frame.
+/// Returns the next round number of cycles from `end` up, at least one. An axis that ended at the present moment would
+/// compress the whole past in every frame.
 pub fn round_end(end: f64) -> f64 {
     const ROUND: [f64; 11] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
     let decade = 10f64.powf(end.max(1.0).log10().floor());
     ROUND
         .into_iter()
         .map(|round| round * decade)
-        // A part of a cycle is no round number.
+        // Fractions of a cycle are not round.
         .filter(|round| round.fract() == 0.0)
         .find(|round| end <= round * (1.0 + 1e-9))
         .unwrap_or(10.0 * decade)
@@ -293,7 +288,7 @@ pub fn round_end(end: f64) -> f64 {
 impl Live {
     /// Marks at the contact radius a and at the permanent stick radius c.
     pub fn edge_marks(&self) -> Vec<Mark> {
-        let moment = &self.moment;
+        let moment = &self.seen.moment;
         let mark = |x, label, role| Mark { x, label, role };
         let mut marks = Vec::new();
         if moment.contact_radius > 0.0 {

@@ -1,8 +1,13 @@
-//! The 3D profile f(r), worn and unworn, with the zones of the contact under it. The wear is drawn
-//! magnified where it would be thinner than a line.
+//! The 3D profile f(r), worn and unworn, with the zones of the contact below it. Wear that would be thinner than a line
+//! is drawn magnified.
 
-use super::*;
+use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, magnification, of_states, over_r};
+use crate::charts::run::{Medium, Run};
 use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -19,22 +24,23 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// How much of the height of the unworn profile the magnified wear may take.
+/// Maximum height of the magnified wear, relative to the height of the unworn profile.
 const SHARE: f64 = 0.9;
 
-/// Wear below this share of the height of the unworn profile has an inset of its own on paper.
+/// Wear below this share of the unworn profile's height is shown in a separate inset on paper.
 const HIDDEN: f64 = 0.25;
 
-/// The height of the `unworn` profile over the domain, m: what lies beyond the rim of a punch is left out.
+/// Returns the height of the `unworn` profile over the domain, m, ignoring the infinite values beyond the rim of a
+/// punch.
 fn height(unworn: &[f64], depth: f64) -> f64 {
     let finite = unworn.iter().copied().filter(|f| f.is_finite());
     let height = finite.fold(0.0, f64::max);
-    // A flat punch has no height: its wear is drawn over the depth.
+    // A flat punch has no height, so its wear is scaled to the depth.
     if height > 0.0 { height } else { depth.abs() }
 }
 
-/// How many times the `wear` is drawn on a screen: the same from the first cycle to the planned end, so that wear
-/// that grows is seen to grow. Only where there is more than was expected, the factor falls.
+/// Returns the magnification of the wear on a screen. It stays the same from the first cycle to the planned end, so
+/// that growing wear is seen to grow; it drops only if there is more wear than expected.
 fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
     let Some(live) = &run.live else {
         return 1.0;
@@ -42,36 +48,43 @@ fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
     let ghosts = ghosts::worn(run, None);
     let seen = largest(wear).max(live.expected_wear);
     let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
-    magnification(deepest, SHARE * height(unworn, live.moment.depth))
+    magnification(deepest, SHARE * height(unworn, live.seen.moment.depth))
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let state = run.states.last().ok_or(NO_STATE)?;
     let column = |name| state.column(name).unwrap_or_default();
-    let (radii, unworn, wear) = (column("r_m"), column("f0_m"), column("wear_m"));
+    let (radii, unworn, wear) = (
+        column(Column::Radius),
+        column(Column::Unworn),
+        column(Column::Wear),
+    );
     let mut chart = over_r(run, "r", ("f", "m"));
     let times = run.pick(times(run, unworn, wear), 1.0);
-    let worn = match run.live {
-        Some(_) => {
+    let worn = match run.medium {
+        Medium::Screen => {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
-            vec![worn.magnified(times, column("f_m")).filled(unworn)]
+            vec![
+                worn.magnified(times, column(Column::Profile))
+                    .filled(unworn),
+            ]
         }
-        None => {
+        Medium::Paper => {
             // What a page hides in the profile: wear that is seen there would lie under its inset.
             let (r, depth) = (Axis::new("r", "m"), Axis::new("worn depth", "m"));
-            let inset = of_states(run, "wear_m", "", Role::Profile);
+            let inset = of_states(run, Column::Wear, "", Role::Profile);
             let deepest = inset.iter().map(Curve::highest).fold(0.0, f64::max);
             let is_hidden = deepest > 0.0 && deepest < HIDDEN * height(unworn, 0.0);
             let inset = Chart::new("", r, depth).curves(inset);
             chart.inset = is_hidden.then(|| Box::new(inset));
-            of_states(run, "f_m", "worn", Role::Profile)
+            of_states(run, Column::Profile, "worn", Role::Profile)
         }
     };
     chart.band = run.zones();
     let theory = view.theory(run).or(run.pick(None, run.theory.as_deref()));
-    // Unworn curves come first: the worn ones lie on them.
+    // Unworn curves come first, so that the worn ones lie on top.
     Ok(chart
         .curve(Curve::new("unworn", radii, unworn, Role::Unworn).dashed())
         .curves(limit(run, theory, Some(times)))

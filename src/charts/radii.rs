@@ -1,6 +1,11 @@
 //! The largest contact radius and the smallest stick radius of every cycle.
 
-use super::*;
+use super::{Recipe, View, cycles_shown, ghosts, over_cycles, series};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -22,16 +27,16 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         ["contact a", "stick c"],
         ["contact radius a", "stick radius c"],
     );
-    let contact = series(run, "contact_radius_m", names[0], Role::Contact)?;
-    let stick = series(run, "permanent_stick_radius_m", names[1], Role::Stick).ok();
+    let contact = series(run, Column::ContactRadius, names[0], Role::Contact)?;
+    let stick = series(run, Column::PermanentStickRadius, names[1], Role::Stick).ok();
     let stick = stick.filter(|stick| stick.ys.iter().any(|radius| radius.is_finite()));
-    let stick = stick.map(|stick| stick.dashed_if(run.live.is_some()));
+    let stick = stick.map(|stick| stick.dashed_if(run.medium == Medium::Screen));
     let theory = view.theory(run).and_then(|theory| theory.stick_radius);
     let theory = theory
         .zip(cycles_shown(run))
         .map(|(c, ends)| Curve::new("theory c", ends, [c; 2], Role::Limit).theory());
     let mut ordinate = Axis::new("radius", "m").from_zero();
-    if run.live.is_none() {
+    if run.medium == Medium::Paper {
         let largest = contact.highest();
         ordinate.bounds = (largest > 0.0).then_some([0.0, 1.1 * largest]);
     }

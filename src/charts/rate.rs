@@ -1,7 +1,12 @@
-//! Worn volume per cycle, over cycles. The unfinished cycle is left out: most of the wear of a cycle falls
-//! into a part of it, so a rate over less than a cycle means little.
+//! Worn volume per cycle, over cycles. The incomplete cycle is left out: a cycle wears mostly in a part of it, so a
+//! rate over less than a cycle means little.
 
-use super::*;
+use super::{Recipe, View, finished_series, over_cycles};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -18,7 +23,7 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let rate = finished_series(run, "wear_rate_m3", Role::Profile)?;
+    let rate = finished_series(run, Column::WearRate, Role::Profile)?;
     let cycles = run.live.as_ref().and_then(|live| live.planned_cycles);
     let expected = run.expected_volume() / cycles.unwrap_or(1.0);
     let ordinate = Axis::new("V per cycle", "m³")

@@ -1,7 +1,11 @@
-//! The difference between wear volume and friction work: V/(k E_d) − 1 since the start, in
-//! thousandths. The wear law says zero.
+//! The relative difference between wear volume and friction work since the start, V/(k E_d) − 1, in thousandths. The
+//! wear law predicts zero.
 
-use super::*;
+use super::{E_D, Recipe, V, View, cycles_shown, over_cycles, series};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -16,7 +20,7 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     // The history has 1 − V/(k E_d); it is missing under laws that do not follow energy.
-    let mut differences = series(run, "energy_residual", "", Role::Profile)?;
+    let mut differences = series(run, Column::EnergyResidual, "", Role::Profile)?;
     for value in &mut differences.ys {
         *value *= -1e3;
     }

@@ -1,33 +1,41 @@
-//! What is known of a run: tables read from its files, or taken from memory.
+//! The data of a run, from its files or from memory.
 
 use std::sync::Arc;
 
 use crate::contact::indenter::Indenter;
 use crate::math::geometry::Geometry;
-use crate::reading::{Moment, Zone};
+use crate::reading::{Column, Observation, Zone};
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::{Loop, Table};
 
-/// What a run has only while it is on a screen.
+/// What charts are drawn on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Medium {
+    /// A screen, where charts move with the run.
+    Screen,
+    /// A page.
+    #[default]
+    Paper,
+}
+
+/// What only a run has that goes on: the present moment.
 #[derive(Debug, Clone)]
 pub struct Live {
     /// The present moment.
-    pub moment: Moment,
-    /// Whether the profile wears.
-    pub wears: bool,
-    /// μ.
+    pub seen: Arc<Observation>,
+    /// The coefficient of friction μ.
     pub friction: f64,
     /// Where the scenario's plan ends, cycles.
     pub planned_cycles: Option<f64>,
-    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    /// Rough estimate of the deepest wear at the planned end, m; 0 if unknown.
     pub expected_wear: f64,
-    /// Whether the last row of the history belongs to an unfinished cycle.
+    /// Whether the last row of the history belongs to an incomplete cycle.
     pub is_within_a_cycle: bool,
     /// The running condition of the last cycle, in words.
     pub regime: Option<&'static str>,
-    /// The amplitude of u_x from which the present profile slips as a whole, m, where it is known.
+    /// The amplitude of u_x at which the whole present contact begins to slip, m, if known.
     pub slip_border: Option<f64>,
     /// Loops of earlier cycles, oldest first.
     pub log: Vec<Arc<Loop>>,
@@ -36,15 +44,15 @@ pub struct Live {
 impl Live {
     /// Whether there is a tangential motion.
     pub fn moves(&self) -> bool {
-        self.moment.stick_radius.is_some()
+        self.seen.moment.stick_radius.is_some()
     }
 }
 
-/// What is known of a run: over the radius, over cycles, over a cycle, and beside it.
+/// The data of a run: over the radius, over cycles, over one cycle, and data of other sources to compare with.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
-    /// States, by their cycles.
-    pub states: Vec<Table>,
+    /// The states, in the order of their cycles.
+    pub states: Vec<Arc<Table>>,
     /// The history.
     pub history: Option<Table>,
     /// Loops of single cycles.
@@ -53,38 +61,40 @@ pub struct Run {
     pub ghosts: Vec<Arc<Ghost>>,
     /// The stresses inside the half-space.
     pub field: Option<Table>,
-    /// What theory says of the scenario.
+    /// The closed forms for the scenario.
     pub theory: Option<Arc<Theory>>,
     /// The unworn shape.
     pub indenter: Option<Indenter>,
-    /// Round, or a line.
+    /// Whether the contact is round or a line.
     pub geometry: Geometry,
-    /// What belongs to a screen, of a run at one moment; `None` on paper.
+    /// What its charts are drawn on.
+    pub medium: Medium,
+    /// The present moment, of a run that goes on.
     pub live: Option<Live>,
 }
 
 impl Run {
-    /// A name for little room on a screen, or in full on paper.
+    /// Returns the short name on a screen, the full one on paper.
     pub(super) fn pick<T>(&self, screen: T, paper: T) -> T {
-        match self.live {
-            Some(_) => screen,
-            None => paper,
+        match self.medium {
+            Medium::Screen => screen,
+            Medium::Paper => paper,
         }
     }
 
-    /// About the deepest wear at the planned end, m; 0 where it is not known.
+    /// Rough estimate of the deepest wear at the planned end, m; 0 if unknown.
     pub fn expected_wear(&self) -> f64 {
         self.live.as_ref().map_or(0.0, |live| live.expected_wear)
     }
 
-    /// The size of the volume that is worn at the planned end, m³: as deep everywhere as where it is deepest.
+    /// Upper estimate of the worn volume at the planned end, m³: the deepest wear over the whole contact area.
     pub fn expected_volume(&self) -> f64 {
-        let radius = |live: &Live| live.moment.contact_radius;
+        let radius = |live: &Live| live.seen.moment.contact_radius;
         let area = self.geometry.area(self.live.as_ref().map_or(0.0, radius));
         area * self.expected_wear()
     }
 
-    /// The same with what the scenario tells.
+    /// Adds what follows from the scenario.
     #[must_use]
     pub fn of(self, scenario: &Scenario) -> Self {
         let setup = scenario.setup();
@@ -98,15 +108,15 @@ impl Run {
 
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
     pub fn take(&mut self, table: Table) -> Result<(), String> {
-        if table.has(&["r_m", "f_m"]) {
-            self.states.push(table);
+        if table.has(&[Column::Radius, Column::Profile]) {
+            self.states.push(table.into());
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
-        } else if table.has(&["cycle", "contact_radius_m", "wear_volume_m3"]) {
+        } else if table.has(&[Column::Cycle, Column::ContactRadius, Column::WearVolume]) {
             self.history = Some(table);
         } else if let Some(one) = Loop::of(&table, None) {
             self.loops.push(one);
-        } else if table.has(&["x_m", "z_m", "von_mises_Pa"]) {
+        } else if table.has(&[Column::X, Column::Z, Column::VonMises]) {
             self.field = Some(table);
         } else {
             return Err("does not have the columns of a state, a history or a field".into());
@@ -114,7 +124,7 @@ impl Run {
         Ok(())
     }
 
-    /// The loop of the cycle before `end`: on its own, or from a history of every step.
+    /// Returns the loop of the cycle that ends at `end`, from its table or from a history of every step.
     pub fn loop_at(&self, end: f64) -> Option<Loop> {
         let mut alone = self.loops.iter();
         let alone = alone.find(|one| (one.end - end).abs() < 1e-9).cloned();
@@ -122,10 +132,12 @@ impl Run {
         alone.or_else(recorded)
     }
 
-    /// What there is of this run, to be laid over the charts of another one.
+    /// Returns this run's data as an overlay for another run's charts.
     pub fn ghost(&self, name: &str) -> Ghost {
         let mut ghost = Ghost::new(name);
-        ghost.tables.extend(self.states.last().cloned());
+        ghost
+            .tables
+            .extend(self.states.last().map(|state| Table::clone(state)));
         ghost.tables.extend(self.history.clone());
         if let Some(one) = self.end().and_then(|end| self.loop_at(end)) {
             ghost.take_loop(one.shifts, one.forces);
@@ -135,37 +147,45 @@ impl Run {
 
     /// The radius of the outermost node, m; 0 without a state.
     pub fn edge(&self) -> f64 {
-        let radii = self.states.last().and_then(|state| state.column("r_m"));
+        let radii = self
+            .states
+            .last()
+            .and_then(|state| state.column(Column::Radius));
         radii.and_then(<[f64]>::last).copied().unwrap_or(0.0)
     }
 
-    /// f₀ at a radius, m; NaN where the shape is not known.
+    /// Returns f₀ at a radius, m; NaN if the shape is unknown.
     pub fn unworn(&self, r: f64) -> f64 {
         let indenter = self.indenter.as_ref();
         indenter.map_or(f64::NAN, |indenter| indenter.profile(r))
     }
 
-    /// μ, where there are friction and a tangential motion.
+    /// Returns μ if there is a tangential motion with friction.
     pub(super) fn friction(&self) -> Option<f64> {
         let live = self.live.as_ref().filter(|live| live.moves());
         live.map(|live| live.friction).filter(|mu| *mu > 0.0)
     }
 
-    /// Says so if the scenario has no wear.
+    /// Returns an error if the scenario has no wear.
     pub(super) fn wears(&self) -> Result<(), &'static str> {
         match &self.live {
-            Some(live) if !live.wears => Err(super::NO_WEAR),
+            Some(live) if live.seen.law.is_none() => Err(super::NO_WEAR),
             _ => Ok(()),
         }
     }
 
-    /// Stick, slip and open along the radius, on a screen.
+    /// Returns the stick, slip and open zones along the radius; empty on paper.
     pub(super) fn zones(&self) -> Vec<([f64; 2], Zone)> {
         let Some(live) = &self.live else {
             return Vec::new();
         };
-        let contact = live.moment.contact_radius;
-        let stick = live.moment.stick_radius.unwrap_or(contact).min(contact);
+        let contact = live.seen.moment.contact_radius;
+        let stick = live
+            .seen
+            .moment
+            .stick_radius
+            .unwrap_or(contact)
+            .min(contact);
         let mut zones = vec![
             ([0.0, stick], Zone::Stick),
             ([stick, contact], Zone::Slip),
@@ -177,35 +197,39 @@ impl Run {
 
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
     /// they lie at other phases of the motion.
-    pub(super) fn over_cycles<const N: usize>(&self, names: [&str; N]) -> Option<[Vec<f64>; N]> {
+    pub(super) fn over_cycles<const N: usize>(&self, wanted: [Column; N]) -> Option<[Vec<f64>; N]> {
         let history = self.history.as_ref()?;
-        let cycles = history.column("cycle")?;
+        let cycles = history.column(Column::Cycle)?;
         let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
         let rows = 0..cycles.len();
         let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
         let rows = match 2 * whole.len() > cycles.len() && whole.len() > 1 {
-            true if self.live.is_none() => whole,
+            true if self.medium == Medium::Paper => whole,
             _ => rows.collect(),
         };
         let mut columns = [(); N].map(|()| Vec::new());
-        for (values, name) in columns.iter_mut().zip(names) {
-            let column = history.column(name)?;
+        for (values, one) in columns.iter_mut().zip(wanted) {
+            let column = history.column(one)?;
             values.extend(rows.iter().map(|&row| column[row]));
         }
         Some(columns)
     }
 
-    /// The last cycle that there is anything of.
+    /// Returns the last cycle that any of the data reach.
     pub fn end(&self) -> Option<f64> {
         let recorded = self.history.as_ref().and_then(Table::last_cycle);
-        let states = self.states.iter().map(Table::cycle);
+        let states = self.states.iter().map(|state| state.cycle());
         let loops = self.loops.iter().map(|one| one.end);
         states.chain(loops).chain(recorded).reduce(f64::max)
     }
 
     /// Returns the data for a caption.
     pub fn facts(&self) -> Vec<(String, String)> {
-        let last = self.states.last().or(self.history.as_ref());
+        let last = self
+            .states
+            .last()
+            .map(Arc::as_ref)
+            .or(self.history.as_ref());
         let Some(last) = last.or(self.field.as_ref()) else {
             return Vec::new();
         };
@@ -217,9 +241,9 @@ impl Run {
             "grid",
             "scheme",
             "steps_per_cycle",
-            "estimated_error",
-            "estimated_error_volume",
-            "estimated_error_force",
+            Column::WornDepthError.name(),
+            Column::VolumeError.name(),
+            Column::ForceError.name(),
             "checks",
         ];
         let mut facts: Vec<(String, String)> = told

@@ -1,7 +1,12 @@
 //! The largest worn depth over cycles.
 
-use super::*;
+use super::{NO_STATE, Recipe, View, ghosts, over_cycles, series};
+use crate::charts::run::Run;
 use crate::math::scan::largest;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -16,12 +21,12 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// The largest worn depth of every state, for histories of runs that did not record it.
+/// Returns the largest worn depth of every state, for histories that did not record it.
 fn of_states(run: &Run) -> Option<Curve> {
     let deepest = run
         .states
         .iter()
-        .map(|state| Some((state.cycle(), largest(state.column("wear_m")?))));
+        .map(|state| Some((state.cycle(), largest(state.column(Column::Wear)?))));
     let (cycles, depths): (Vec<f64>, Vec<f64>) = deepest.flatten().unzip();
     let curve = Curve::new("simulated", cycles, depths, Role::Profile);
     Some(curve.scattered([])).filter(|curve| !curve.xs.is_empty())
@@ -29,7 +34,7 @@ fn of_states(run: &Run) -> Option<Curve> {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let depth = series(run, "scar_depth_m", "", Role::Profile).ok();
+    let depth = series(run, Column::ScarDepth, "", Role::Profile).ok();
     let depth = depth.or_else(|| of_states(run)).ok_or(NO_STATE)?;
     let ordinate = Axis::new(run.pick("depth", "worn depth"), "m")
         .from_zero()

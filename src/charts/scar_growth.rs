@@ -1,6 +1,11 @@
-//! The scar's radius and depth over the work of friction: what a profilometer and a loop give of a test.
+//! The scar's radius and depth over the friction work: what a profilometer and the fretting loops of a test measure.
 
-use super::*;
+use super::{E_D, NO_CYCLE, NO_HISTORY, Recipe, View, cycles_shown, ghosts, magnification};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve, Scale};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -22,12 +27,12 @@ pub static RECIPE: Recipe = Recipe {
 };
 
 /// The columns.
-const DEPTH: Axes = Axes::new("dissipated_energy_J", "scar_depth_m", "depth");
-const RADIUS: Axes = Axes::new("dissipated_energy_J", "scar_radius_m", "radius");
+const DEPTH: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarDepth);
+const RADIUS: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarRadius);
 
-/// The work at the last of the cycles that charts show, J, where each cycle takes as much as those so far.
+/// Extrapolates the friction work, J, to the last cycle that charts show, at the mean rate so far.
 fn shown_work(run: &Run) -> Option<f64> {
-    let [cycles, work] = run.over_cycles(["cycle", "dissipated_energy_J"])?;
+    let [cycles, work] = run.over_cycles([Column::Cycle, Column::DissipatedEnergy])?;
     let (cycle, done) = (*cycles.last()?, *work.last()?);
     let [_, end] = cycles_shown(run)?;
     (cycle >= 1.0).then(|| done * (end / cycle).max(1.0))
@@ -35,7 +40,11 @@ fn shown_work(run: &Run) -> Option<f64> {
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let columns = run.over_cycles(["dissipated_energy_J", "scar_radius_m", "scar_depth_m"]);
+    let columns = run.over_cycles([
+        Column::DissipatedEnergy,
+        Column::ScarRadius,
+        Column::ScarDepth,
+    ]);
     let [work, radii, depths] = columns.ok_or(NO_HISTORY)?;
     let radius = Curve::new("radius", work.clone(), radii, Role::Contact);
     let expected = run.expected_wear();
@@ -53,7 +62,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (mut work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     let mut reach = 0.0;
     if let Some(live) = &run.live {
-        reach = live.moment.contact_radius;
+        reach = live.seen.moment.contact_radius;
         let of_others = others.iter().flat_map(|ghost| &ghost.xs).copied();
         let end = of_others.fold(shown_work(run).ok_or(NO_CYCLE)?, f64::max);
         work_axis = work_axis.bounds([0.0, end]);

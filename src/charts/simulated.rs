@@ -1,33 +1,33 @@
-//! What is known of a session: its present state, and all that charts show of it where it is run for them.
+//! Data for charts from a session: its present state, or everything that a run of it to the end yields.
 
 use super::Run;
-use crate::export::{field, header, last_loop, state};
-use crate::reading::Curves;
+use crate::export::{field, header, last_loop};
+use crate::reading::{Column, Curves};
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::traces::{Loop, Table};
 
 /// What the charts over cycles show.
-const OVER_CYCLES: [&str; 7] = [
-    "cycle",
-    "contact_radius_m",
-    "permanent_stick_radius_m",
-    "wear_volume_m3",
-    "scar_depth_m",
-    "scar_radius_m",
-    "dissipated_energy_J",
+const OVER_CYCLES: [Column; 7] = [
+    Column::Cycle,
+    Column::ContactRadius,
+    Column::PermanentStickRadius,
+    Column::WearVolume,
+    Column::ScarDepth,
+    Column::ScarRadius,
+    Column::DissipatedEnergy,
 ];
 
 impl Run {
-    /// Takes the present state of `session` in.
+    /// Adds the present state of `session`.
     pub fn take_state(&mut self, session: &Session) {
         let seen = session.simulation().observe(Curves::all());
-        let table = Table::of_columns(header::entries(session), state::columns(&seen));
-        self.states.push(table);
+        let table = seen.columns.under(header::entries(session));
+        self.states.push(table.into());
     }
 
-    /// Runs `session` to the last of `cycles` (rising) and takes in the states there, the loop before each of
-    /// them, whole cycles over the run, and the field at the end if `with_field`.
+    /// Runs `session` to the last of `cycles` (increasing). Records the state at each of them and the loop before it,
+    /// the history at whole cycles, and the field at the end if `with_field`.
     ///
     /// # Errors
     /// If the run stops.
@@ -40,7 +40,7 @@ impl Run {
         let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
         let mut record = |session: &Session| {
             let reading = Reading::new(session);
-            let row = OVER_CYCLES.map(|name| reading.number(name));
+            let row = OVER_CYCLES.map(|column| reading.number(column));
             if seen.last().is_none_or(|last| last[0] < row[0]) {
                 seen.push(row);
             }

@@ -1,6 +1,11 @@
-//! The 1D profile g(x) against the depth to which it is pressed: springs touch where g is less.
+//! The 1D profile g(x) and the indentation depth d: springs are in contact where g < d.
 
-use super::*;
+use super::{A, C, NO_STATE, Recipe, View, ghosts, of_states, over_r};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -18,10 +23,10 @@ pub static RECIPE: Recipe = Recipe {
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
     let depth = run.live.as_ref().map(|live| {
-        let (ends, depth) = ([0.0, run.edge()], [live.moment.depth; 2]);
+        let (ends, depth) = ([0.0, run.edge()], [live.seen.moment.depth; 2]);
         Curve::new("depth d", ends, depth, Role::Contact).dashed()
     });
-    let springs = of_states(run, "g_m", run.pick("g", ""), Role::Profile);
+    let springs = of_states(run, Column::Profile1d, run.pick("g", ""), Role::Profile);
     Ok(over_r(run, "x", ("g", "m"))
         .curves(depth)
         .curves(ghosts::on(run, Axes::SPRINGS))

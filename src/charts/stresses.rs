@@ -1,6 +1,11 @@
-//! Pressure p(r) and shear stress τ(r). τ is drawn as τ/μ: it meets ±p where the contact slips.
+//! Pressure p(r) and shear stress τ(r). On a screen τ is drawn as τ/μ, which meets ±p where the contact slips.
 
-use super::*;
+use super::{A, C, NO_STATE, Recipe, View, ghosts, over_r};
+use crate::charts::run::{Medium, Run};
+use crate::plot::theme::Role;
+use crate::plot::{Chart, Curve, Scale};
+use crate::reading::{Column, Curves};
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -24,16 +29,18 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let state = run.states.last().ok_or(NO_STATE)?;
-    let columns = state.column("r_m").zip(state.column("p_Pa"));
+    let columns = state
+        .column(Column::Radius)
+        .zip(state.column(Column::Pressure));
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
     // What τ is divided by; on paper it is drawn as it is.
-    let (name, divisor) = match &run.live {
-        None => ("τ", Some(1.0)),
-        Some(_) if is_log => ("|τ|/μ", run.friction()),
-        Some(_) => ("τ/μ", run.friction()),
+    let (name, divisor) = match run.medium {
+        Medium::Paper => ("τ", Some(1.0)),
+        Medium::Screen if is_log => ("|τ|/μ", run.friction()),
+        Medium::Screen => ("τ/μ", run.friction()),
     };
-    // A logarithmic ordinate shows the size of τ.
+    // On a logarithmic ordinate, |τ| is drawn.
     let scaled = |shear: f64| {
         let shear = shear / divisor.unwrap_or(1.0);
         if is_log { shear.abs() } else { shear }
@@ -48,22 +55,24 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let mut chart = over_r(run, "r", ("stress", "Pa"))
         .curves(others)
         .curve(curve("p", pressure.to_vec(), Role::Pressure));
-    let shear = state.column("tau_Pa").filter(|_| divisor.is_some());
-    let is_seen = |shear: &&[f64]| run.live.is_some() || shear.iter().any(|&tau| tau != 0.0);
+    let shear = state.column(Column::Shear).filter(|_| divisor.is_some());
+    let is_seen =
+        |shear: &&[f64]| run.medium == Medium::Screen || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
         let shear = shear.iter().copied().map(scaled).collect();
         let shear = curve(name, shear, Role::Shear);
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
-        chart = chart.curve(shear.dashed_if(run.live.is_some()));
+        chart = chart.curve(shear.dashed_if(run.medium == Medium::Screen));
         chart.y.is_symmetric = true;
     }
     let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
         return Ok(chart);
     };
-    let moment = &live.moment;
+    let moment = &live.seen.moment;
     let hertz = theory.unworn_pressure(moment.depth, radii);
     let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
-    let cattaneo = theory.unworn_shear(moment.cycle, moment.shift, radii);
+    let cattaneo =
+        theory.unworn_shear(moment.cycle, [moment.shift, moment.tangential_force], radii);
     let cattaneo = cattaneo.map(|shear| shear.iter().copied().map(scaled).collect());
     let cattaneo = cattaneo.map(|shear| curve("Cattaneo", shear, Role::Unworn));
     let closed_forms = [hertz, cattaneo].into_iter().flatten();

@@ -1,7 +1,13 @@
-//! Wear volume V over cycles. What the work of friction says of it, V = k E_d, differs by less than a line
-//! is wide: the panel beside shows the difference.
+//! Wear volume V over cycles. V = k E_d from the friction work would differ by less than the width of a line; the panel
+//! beside it shows the difference.
 
-use super::*;
+use super::{E_D, Recipe, V, View, ghosts, over_cycles, series};
+use crate::charts::run::Run;
+use crate::plot::theme::Role;
+use crate::plot::units::format_value;
+use crate::plot::{Axis, Chart};
+use crate::reading::Column;
+use crate::traces::Axes;
 
 /// The chart.
 pub static RECIPE: Recipe = Recipe {
@@ -17,11 +23,11 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     run.wears()?;
-    let volume = series(run, "wear_volume_m3", "", Role::Profile)?;
+    let volume = series(run, Column::WearVolume, "", Role::Profile)?;
     let ordinate = Axis::new("V", "m³").from_zero();
     let mut chart = over_cycles(run, ordinate.expecting(run.expected_volume()));
     if let Some(live) = &run.live {
-        let work = format_value(live.moment.dissipated_energy, "J", 4);
+        let work = format_value(live.seen.moment.dissipated_energy, "J", 4);
         chart.note = format!("E_d {work}");
     }
     Ok(chart.curves(ghosts::on(run, Axes::VOLUME)).curve(volume))

@@ -5,11 +5,11 @@ use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Budget, Resolved};
 
-/// Finds the points and steps that meet the accuracy of `scenario` by `search`, with a spinner on stderr unless `quiet`,
-/// and says there if they do not meet it.
+/// Finds the points and steps that meet the accuracy of `scenario` with `search`. Shows a spinner on stderr unless
+/// `quiet`, and warns there if the accuracy is not met.
 ///
 /// # Errors
-/// Those of `search`.
+/// The errors of `search`.
 pub(super) fn resolve(
     scenario: &Scenario,
     quiet: bool,
@@ -18,7 +18,7 @@ pub(super) fn resolve(
     let message = "looking for points and steps that meet numerics.accuracy";
     let spinner = progress::spinner(message, quiet || scenario.accuracy().is_none());
     let found = search(scenario);
-    // What ticks would draw it once more.
+    // Another tick would draw it once more.
     spinner.disable_steady_tick();
     spinner.finish_and_clear();
     if let Ok(Resolved { warning, .. }) = &found {
@@ -27,11 +27,11 @@ pub(super) fn resolve(
     found
 }
 
-/// A session of `scenario` at its start, with points and steps that meet its accuracy in a run of `cycles`, if it
-/// has one.
+/// Starts a session of `scenario`. If it asks for an accuracy, chooses points and steps that meet it in a run of
+/// `cycles`.
 ///
 /// # Errors
-/// If no level runs to its end, and a contact that cannot be made.
+/// If no level runs to its end, or the contact cannot be made.
 pub(super) fn session(
     scenario: &Scenario,
     cycles: Option<f64>,
@@ -45,7 +45,7 @@ pub(super) fn session(
     Ok(session)
 }
 
-/// The estimated error of a finished run as header lines, or one line saying why there is none.
+/// Returns the estimated error of a finished run as header lines, or the reason why there is none in one line.
 pub(super) fn estimated(
     session: &Session,
     go_on: &dyn Fn() -> bool,

@@ -1,5 +1,4 @@
-//! Tells the program its version, with the commit where a release is built from a checkout or from a package
-//! of one.
+//! Passes the version to the program, with the commit if a release is built from a checkout or from a package of one.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +7,7 @@ use std::process::Command;
 fn main() {
     println!("cargo::rerun-if-changed=src/cli/build.rs");
     let version = std::env::var("CARGO_PKG_VERSION").unwrap_or_default();
-    // What is built for tests need not be built again after every commit.
+    // Test builds need not be redone after every commit.
     let is_release = std::env::var("PROFILE").is_ok_and(|profile| profile == "release");
     let commit = is_release
         .then(|| packaged().or_else(checked_out))
@@ -17,7 +16,7 @@ fn main() {
     println!("cargo::rustc-env=MDR_TUI_VERSION={version}");
 }
 
-/// The commit that cargo has packaged.
+/// Returns the commit recorded by cargo in a package.
 fn packaged() -> Option<String> {
     const INFO: &str = ".cargo_vcs_info.json";
     let info = fs::read_to_string(INFO).ok()?;
@@ -26,7 +25,7 @@ fn packaged() -> Option<String> {
     hash.get(..10).map(str::to_owned)
 }
 
-/// The commit of this checkout, not of one that the sources lie in by chance.
+/// Returns the commit of this checkout, but not of another one that the sources happen to lie in.
 fn checked_out() -> Option<String> {
     if !Path::new(".git").exists() {
         return None;

@@ -1,7 +1,6 @@
 //! Shell completion of presets, scenario files, and scenario keys with their values.
 //!
-//! The script that `mdr-tui completions` prints asks the program itself, so it knows what this
-//! version knows.
+//! The script printed by `mdr-tui completions` asks the program itself, so it always matches the installed version.
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -12,15 +11,15 @@ use crate::guide::{TOPICS, Topic};
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::schema::{find, parameters};
 
-/// The variable by which a shell asks for completions.
+/// The variable with which a shell asks for completions.
 pub const VARIABLE: &str = "MDR_TUI_COMPLETE";
 
-/// Presets, and the directories and `.toml` files that continue what was typed.
+/// Completes presets, directories and `.toml` files.
 pub fn scenarios(typed: &OsStr) -> Vec<CompletionCandidate> {
     presets_and_files(typed, &["toml"])
 }
 
-/// What can be laid over plots: as for a scenario, and tables.
+/// Completes what can be overlaid: scenarios and tables.
 pub fn overlays(typed: &OsStr) -> Vec<CompletionCandidate> {
     presets_and_files(typed, &["toml", "csv"])
 }
@@ -38,13 +37,13 @@ fn presets_and_files(typed: &OsStr, endings: &'static [&'static str]) -> Vec<Com
     found
 }
 
-/// The names of the presets.
+/// Completes the names of the presets.
 pub fn presets() -> Vec<CompletionCandidate> {
     let known = |preset: &Preset| candidate(preset.name, preset.title());
     preset::ALL.iter().map(known).collect()
 }
 
-/// The topics of the guide.
+/// Completes the topics of the guide.
 pub fn topics() -> Vec<CompletionCandidate> {
     let known = |topic: &Topic| candidate(topic.name, topic.about);
     TOPICS.iter().map(known).collect()
@@ -54,7 +53,7 @@ fn candidate(word: impl Into<OsString>, help: &str) -> CompletionCandidate {
     CompletionCandidate::new(word).help(Some(help.to_owned().into()))
 }
 
-/// `KEY=`, and behind it the words that the key takes.
+/// Completes `KEY=`, and then the words that the key accepts.
 pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
     let Some(typed) = typed.to_str() else {
         return Vec::new();

@@ -1,6 +1,5 @@
-//! `$XDG_CONFIG_HOME/mdr-tui/config.toml`: the user's preferences for every session. The command
-//! line overrides it. The file is documented by `config.toml` beside this one, which the guide
-//! shows.
+//! `$XDG_CONFIG_HOME/mdr-tui/config.toml`: the user's preferences for every session, which the command line overrides.
+//! The `config.toml` next to this file documents it and is shown in the guide.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::args::ColorChoice;
 use super::complain;
-use crate::export::safe_open;
+use crate::export::own_directory;
 use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::Refusal;
@@ -21,30 +20,30 @@ use crate::tui::command::{COMMANDS, Command};
 use crate::tui::keys::{Key, parse_script};
 use crate::tui::panels::Panel;
 
-/// The preferences, each of which may be left out.
+/// The preferences; each of them is optional.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Config {
-    /// Which colours.
+    /// The colours.
     pub theme: Option<Look>,
     /// When to use colour.
     pub color: Option<ColorChoice>,
     /// How curves are drawn.
     pub marker: Option<Marker>,
-    /// The largest number of frames per second.
+    /// Maximum frame rate per second.
     #[serde(deserialize_with = "rate")]
     pub fps: Option<u16>,
-    /// Whether the mouse belongs to the explorer.
+    /// Whether the explorer uses the mouse.
     pub mouse: Option<bool>,
     /// The panels that come first.
     #[serde(deserialize_with = "panels")]
     pub panels: Vec<Panel>,
-    /// Further keys of commands.
+    /// Additional keys of commands.
     #[serde(deserialize_with = "keys")]
     pub keys: Vec<(Key, Command)>,
 }
 
-/// The largest file that is read, in bytes.
+/// The largest file to be read, in bytes.
 const LARGEST: u64 = 1 << 20;
 
 impl Config {
@@ -52,10 +51,9 @@ impl Config {
     ///
     /// # Errors
     ///
-    /// One line with the file and what is wrong in it: invalid TOML, an unknown key, an invalid
-    /// value.
+    /// Names the file and what is wrong in it, in one line: invalid TOML, an unknown key, an invalid value.
     pub fn load() -> Result<Self, Refusal> {
-        let Some(directory) = safe_open::directory("XDG_CONFIG_HOME", ".config") else {
+        let Some(directory) = own_directory::config() else {
             return Ok(Self::default());
         };
         let path = directory.join("config.toml");
@@ -65,7 +63,7 @@ impl Config {
             Err(why @ (Unread::TooLarge(_) | Unread::NotText(_))) => {
                 Err(Refusal::new(path.display(), why))
             }
-            // Something else is at this path: no reason not to start.
+            // Something other than a file at this path is no reason not to start.
             Err(why) => {
                 complain(&format!("{}: {why}; goes on without it", path.display()));
                 Ok(Self::default())
@@ -128,7 +126,7 @@ mod tests {
         Config::read(text, Path::new("config.toml")).map_err(|error| error.to_string())
     }
 
-    /// The commented default with its comments taken off, up to the explanation behind a value.
+    /// Returns the commented default with its comment signs removed, so that all keys are set.
     fn uncommented() -> String {
         let line = |line: &str| match line.strip_prefix("# ") {
             Some(key) if key.contains(" = ") => format!("{key}\n"),

@@ -1,4 +1,4 @@
-//! Completions and man pages, made from the arguments and the table of keys themselves.
+//! Completions and man pages, generated from the arguments and the table of keys.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -15,10 +15,10 @@ use crate::scenario::Refusal;
 use crate::scenario::nearest::hint;
 use crate::tui::manual;
 
-/// Prints a script with which the shell asks this program for completions.
+/// Prints a script with which a shell asks this program for completions.
 pub fn completions(shell: clap_complete::Shell) -> Result<()> {
     if shell == clap_complete::Shell::Bash {
-        // The one of clap_complete quotes no blanks and completes nothing behind `=`.
+        // The script of clap_complete does not quote blanks and completes nothing after `=`.
         io::stdout().write_all(include_bytes!("completion.bash"))?;
         return Ok(());
     }
@@ -34,7 +34,7 @@ pub fn completions(shell: clap_complete::Shell) -> Result<()> {
 /// Prints one man page or all of them, or writes each to a file.
 pub fn man(options: &Manual) -> Result<()> {
     let mut program = Arguments::command();
-    // Gives the commands their full names, "mdr-tui run".
+    // Gives the commands their full names, as in "mdr-tui run".
     program.build();
     let given = options.command.as_deref();
     let is_wanted = |command: &&Command| given.is_none_or(|given| command.get_name() == given);
@@ -85,7 +85,7 @@ fn page(command: &Command) -> Result<Vec<u8>> {
     Ok(page)
 }
 
-/// The text after the options, line by line as it is written.
+/// Returns the text after the options, line by line as written.
 fn examples(command: &Command) -> String {
     let Some(text) = command.get_after_help().map(ToString::to_string) else {
         return String::new();

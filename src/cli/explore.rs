@@ -10,7 +10,7 @@ use serde::de::IgnoredAny;
 use super::args::{ColorChoice, Explore};
 use super::config::Config;
 use super::{accuracy, complain, given, mistyped_command, without_waiting};
-use crate::export::autosave;
+use crate::export::own_directory;
 use crate::scenario::session::Session;
 use crate::scenario::{Refusal, checkpoint, printable};
 use crate::studies::refinement;
@@ -18,7 +18,7 @@ use crate::tui::ghosts::{MOST, Source};
 use crate::tui::map::live::Live;
 use crate::tui::{self, Options, Script, Stroke, command, snapshot};
 
-/// The largest number of frames per second.
+/// Default frame rate per second.
 const DEFAULT_FPS: u16 = 10;
 
 /// Opens the explorer, on a map if there is one.
@@ -44,7 +44,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
         None => {
             let scenario = given::scenario(&options.scenario, &options.changes.set)
-                // The error itself names a preset that is as near.
+                // The error itself may already suggest an equally near preset.
                 .map_err(|error| match mistyped_command(&name) {
                     Some(refusal) if !error.to_string().contains("did you mean") => refusal,
                     _ => error,
@@ -54,8 +54,9 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         }
     };
     let reach = run.simulation().setup().grid.radius();
+    let naming = options.naming.of_columns();
     let load = |given: &OsString| {
-        Source::load(given, reach).map_err(|error| Refusal::from(error.to_string()))
+        Source::load(given, &naming, reach).map_err(|error| Refusal::from(error.to_string()))
     };
     let ghosts: Vec<Source> = options.overlay.iter().map(load).collect::<Result<_, _>>()?;
     let rule = format!("takes {MOST} or fewer; there are {}", ghosts.len());
@@ -65,7 +66,7 @@ pub fn explore(options: &Explore, map: Option<Live>) -> Result<()> {
         run,
         map,
         ghosts,
-        keep_in: autosave::state_directory(),
+        keep_in: own_directory::state(),
         keep_every: options.checkpoint_every,
         fps: screen.fps.or(config.fps).unwrap_or(DEFAULT_FPS),
         theme: tui::theme_of(marker, colored, look),

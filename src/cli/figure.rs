@@ -17,14 +17,14 @@ use crate::figure::{DATA_COLUMNS, Format, Sheet, paper, study as figure_of_study
 use crate::plot::Chart;
 use crate::plot::theme::Role;
 use crate::scenario::bounded_read::{self, Unread};
-use crate::scenario::columns::Columns;
+use crate::scenario::columns::{Columns, Naming};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
 use crate::studies::sweep::slice::Slice;
 use crate::traces::Table;
 
-/// The largest header of a table that is read, in bytes.
+/// The largest table header to be read, in bytes.
 const LARGEST_HEADER: u64 = 1 << 20;
 
 /// The scenario of the paper's Fig. 3.
@@ -33,7 +33,7 @@ const OF_THE_PAPER: &str = "li2019-fig3";
 /// Millimetres per point.
 const POINT: f64 = 25.4 / 72.0;
 
-/// Draws the figure and writes it, with its data beside it.
+/// Draws the figure and writes it together with its data.
 pub fn figure(options: &Figure) -> Result<()> {
     let mut files: Vec<(Target, Format)> = Vec::new();
     let mut data_files: Vec<Target> = Vec::new();
@@ -55,7 +55,7 @@ pub fn figure(options: &Figure) -> Result<()> {
     let sheet = sheet(options)?;
     let data = sheet.csv();
     for target in &data_files {
-        // The same figure in another format has the same data.
+        // Data that are already there are fine: another format of the same figure has the same data.
         if fs::read(target.path()).ok().as_deref() != Some(data.as_bytes()) {
             target.refuse_existing(options.force)?;
         }
@@ -75,8 +75,8 @@ pub fn figure(options: &Figure) -> Result<()> {
     Ok(())
 }
 
-/// Where the data of a figure go: to the same name with .csv, or to `map-drawn.csv` if `map.csv` is what is drawn or holds
-/// anything but the data of a figure.
+/// Returns the path for a figure's data: the figure's name with .csv, or `map-drawn.csv` if `map.csv` is one of the
+/// inputs or holds anything but a figure's data.
 fn data_file(path: &Path, options: &Figure) -> PathBuf {
     let real = |path: &Path| path.canonicalize().ok();
     let given = options.source.iter().chain(&options.overlay);
@@ -91,7 +91,7 @@ fn data_file(path: &Path, options: &Figure) -> PathBuf {
     beside
 }
 
-/// Whether a file holds what [`Sheet::csv`] writes: the columns under the header tell.
+/// Whether a file was written by [`Sheet::csv`], judging by its header and columns.
 fn is_data_of_a_figure(path: &Path) -> bool {
     let Ok(file) = bounded_read::open(path) else {
         return false;
@@ -133,7 +133,7 @@ fn sheet(options: &Figure) -> Result<Sheet> {
     }
     let mut run = run(path, options)?;
     for given in &options.overlay {
-        let ghost = ghost(given, &run)?;
+        let ghost = ghost(given, &options.naming.of_columns(), &run)?;
         run.ghosts.push(Arc::new(ghost));
     }
     let refused = |error| Refusal::new(source, error);
@@ -158,13 +158,13 @@ fn sheet(options: &Figure) -> Result<Sheet> {
     })
 }
 
-/// The table of a sweep, if it is one.
+/// Reads the table of a sweep; `None` if it is not one.
 fn record(path: &Path) -> Option<Record> {
     let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
     is_table.then(|| Record::of_file(path).ok()).flatten()
 }
 
-/// The charts of a sweep's table.
+/// Makes the charts of a sweep's table.
 fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
     let of_runs = [
         ("--figure", options.figure.is_some()),
@@ -187,7 +187,7 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
     Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Refusal::from)?)
 }
 
-/// The usual charts, and those that curves of other sources belong to.
+/// Returns the default charts, and those that show measured data.
 fn usual(ghosts: &[Arc<Ghost>]) -> Vec<&'static Recipe> {
     let of_ghosts = [&depth::RECIPE, &volume::RECIPE, &scar_depth::RECIPE];
     let is_wanted = |panel: &&Recipe| {
@@ -199,7 +199,7 @@ fn usual(ghosts: &[Arc<Ghost>]) -> Vec<&'static Recipe> {
     panels
 }
 
-/// What was asked for over the charts is on one of them, or the user hears which one lacks.
+/// Checks that every overlay is on one of the charts; the error names the chart that it belongs to.
 fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]) -> Result<()> {
     for (k, (given, ghost)) in options.overlay.iter().zip(ghosts).enumerate() {
         let mut curves = charts.iter().flat_map(|chart| &chart.curves);
@@ -215,11 +215,11 @@ fn ensure_all_is_shown(options: &Figure, ghosts: &[Arc<Ghost>], charts: &[Chart]
 }
 
 /// The curves of a file or of a directory, or of a scenario that is run as far as the figure goes.
-fn ghost(given: &OsStr, run: &Run) -> Result<Ghost> {
+fn ghost(given: &OsStr, naming: &Naming, run: &Run) -> Result<Ghost> {
     let path = Path::new(given);
     let ending = path.extension();
     if path.is_dir() || ending.is_some_and(|end| !end.eq_ignore_ascii_case("toml")) {
-        let ghost = Ghost::read(path)?;
+        let ghost = Ghost::read(path, naming)?;
         if !run.states.is_empty() {
             ghost.check_radii(run.edge())?;
         }
@@ -235,7 +235,7 @@ fn ghost(given: &OsStr, run: &Run) -> Result<Ghost> {
     Ok(Run::to(&mut session, &[end], false)?.ghost(&name))
 }
 
-/// The tables of a run on disk, or of one run now.
+/// Reads the tables of a run on disk, or runs a scenario now.
 fn run(path: &Path, options: &Figure) -> Result<Run> {
     let source = &*printable(&path.to_string_lossy());
     let ending = path.extension();
@@ -259,7 +259,7 @@ fn run(path: &Path, options: &Figure) -> Result<Run> {
             let rule = format!("{source} has no such state; it has those at {cycles}");
             ensure!(is_there, Refusal::new(format!("--at {}", at.0), rule));
         }
-        let is_wanted = |state: &Table| wanted.iter().any(|at| is_at(state, at.cycle()));
+        let is_wanted = |state: &Arc<Table>| wanted.iter().any(|at| is_at(state, at.cycle()));
         run.states.retain(is_wanted);
     }
     Ok(run)
@@ -293,8 +293,10 @@ fn from_directory(directory: &Path) -> Result<Run> {
 /// Reads a table of a run.
 fn take(run: &mut Run, path: &Path) -> Result<()> {
     let table = Table::of_file(&Columns::read(path)?);
-    ensure!(table.rows() > 0, unread(path, "has no rows of numbers"));
-    Ok(run.take(table).map_err(|why| unread(path, why))?)
+    let has_rows = table.rows() > 0;
+    run.take(table).map_err(|why| unread(path, why))?;
+    ensure!(has_rows, unread(path, "has no rows of numbers"));
+    Ok(())
 }
 
 fn unread(path: &Path, why: impl std::fmt::Display) -> Refusal {

@@ -20,7 +20,7 @@ use crate::studies::fit::{Fit, Fitted, Options, SetResult, Structure, Switch, Va
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
-/// Fits, and prints, draws and writes what was asked for.
+/// Fits, and prints, draws and writes the results.
 pub fn fit(options: &args::Fit) -> Result<()> {
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
     let data = data(options)?;
@@ -54,7 +54,7 @@ fn run(fit: &Fit, quiet: bool) -> Result<(Fitted, u64)> {
     Ok((outcome?, runs))
 }
 
-/// How to fit, by the options.
+/// Translates the command-line options into options of the fit.
 fn how(options: &args::Fit) -> Options {
     let switch = |beside: Beside| match beside {
         Beside::Auto => Switch::Auto,
@@ -70,7 +70,7 @@ fn how(options: &args::Fit) -> Options {
     }
 }
 
-/// Fits every file by itself: a row each.
+/// Fits every file separately and prints one row per file.
 fn fit_each(options: &args::Fit, scenario: &Scenario, data: Vec<Measured>) -> Result<()> {
     let outcomes = data.into_iter().map(|set| {
         let name = set.name.clone();
@@ -84,7 +84,7 @@ fn fit_each(options: &args::Fit, scenario: &Scenario, data: Vec<Measured>) -> Re
     let told: Vec<_> = found
         .map(|(fitted, runs)| Told::new(fitted, *runs))
         .collect();
-    // A file that cannot be fitted has its row, too.
+    // A file that cannot be fitted gets a row, too.
     let row = |(name, outcome): &(String, Result<(Fitted, u64)>)| match outcome {
         Ok((fitted, _)) => {
             let values = fitted.values.iter().map(value).collect::<Vec<_>>();
@@ -116,7 +116,7 @@ fn fit_each(options: &args::Fit, scenario: &Scenario, data: Vec<Measured>) -> Re
     })
 }
 
-/// What is printed as JSON: the keys, and how it was found.
+/// The JSON output: the keys, and how they were found.
 #[derive(Serialize)]
 struct Told<'a> {
     #[serde(flatten)]
@@ -141,7 +141,7 @@ impl<'a> Told<'a> {
     }
 }
 
-/// All data sets that the options name.
+/// Reads all data sets given by the options.
 fn data(options: &args::Fit) -> Result<Vec<Measured>> {
     let naming = options.naming.of_columns();
     let mut data = Vec::new();
@@ -164,7 +164,7 @@ fn data(options: &args::Fit) -> Result<Vec<Measured>> {
     Ok(data)
 }
 
-/// `FILE@CYCLE` as a file and a cycle; an existing file with such a name takes precedence.
+/// Splits `FILE@CYCLE` into file and cycle; an existing file of that full name takes precedence.
 fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
     let bytes = given.as_os_str().as_bytes();
     let sign = bytes.iter().rposition(|&byte| byte == b'@');
@@ -178,23 +178,24 @@ fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
     }
 }
 
-/// A fitted value with its errors.
+/// Formats a fitted value with its errors.
 fn value(one: &Value) -> String {
     let (value, unit) = (one.value, one.unit);
-    // A coefficient of wear is told with what it is per.
+    // A wear coefficient also says what it is per.
     let (unit, per) = match unit {
         "1/Pa" => ("1/Pa", " per friction work"),
         "m^3/(N*m)" => ("m^3/(N*m)", " per load and distance"),
         unit => (unit, ""),
     };
-    let error = match one.stderr {
+    // A remark tells the limit on the one side.
+    let error = match one.stderr.filter(|_| !one.is_open()) {
         Some(error) => {
             let share = 100.0 * (error / value).abs();
             format!("± {error:.2e} {unit} ({share:.2} %)")
         }
         None => format!("{unit} (not determined)"),
     };
-    // A pin test's k is read in mm³/(N·m), an amplitude in µm.
+    // Converts k to mm³/(N·m), the unit of a pin test, and an amplitude to µm.
     let read = match reading(value, one.unit, true) {
         (_, read) if read == one.unit => String::new(),
         (number, read) => format!(", {number} {read}{per}"),
@@ -202,14 +203,14 @@ fn value(one: &Value) -> String {
     format!("{value:.6e} {error}{read}")
 }
 
-/// The keys with their errors and correlations, and how well each data set is matched.
+/// Reports the keys with their errors and correlations, and how well each data set is matched.
 fn report(fit: &Fit, fitted: &Fitted) -> String {
     let mut lines = Vec::new();
     let width = fitted.values.iter().map(|value| value.key.len()).max();
     let width = width.unwrap_or(0);
     for one in &fitted.values {
         lines.push(format!("{:width$}  {}", one.key, value(one)));
-        if let Some(numerical) = one.numerical_error {
+        if let (Some(numerical), false) = (one.numerical_error, one.is_open()) {
             let share = 100.0 * (numerical / one.value).abs();
             lines.push(format!(
                 "{:width$}  numerical error {numerical:.1e} {} ({share:.2} %)",
@@ -225,7 +226,7 @@ fn report(fit: &Fit, fitted: &Fitted) -> String {
         }
     }
     for (measured, set) in fit.data.iter().zip(&fitted.sets) {
-        let (name, unit, points, rms) = (&set.file, measured.axes.unit(), set.points, set.rms());
+        let (name, unit, points, rms) = (&set.file, measured.axes.y.unit(), set.points, set.rms());
         let at = match (measured.axes, measured.cycle) {
             (Axes::LOOP, Some(cycle)) => format!(" in cycle {cycle}"),
             (Axes::LOOP, None) => {
@@ -260,15 +261,22 @@ fn report(fit: &Fit, fitted: &Fitted) -> String {
     lines.iter().map(|line| format!("{line}\n")).collect()
 }
 
-/// Measured minus simulated values, one plot per data set.
+/// Plots measured minus simulated values, one plot per data set.
 fn residual_plots(fit: &Fit, fitted: &Fitted, marker: Marker) -> String {
     let sets = fit.data.iter().zip(&fitted.sets);
     let charts = sets.map(|(measured, set)| {
         let abscissa = measured.axes.x;
-        let (name, unit) = abscissa.rsplit_once('_').unwrap_or((abscissa, ""));
-        let ordinate = Axis::new(format!("{}: residual", measured.name), measured.axes.unit());
+        let ordinate = Axis::new(
+            format!("{}: residual", measured.name),
+            measured.axes.y.unit(),
+        );
         let curve = Curve::new("", &measured.at[..], &set.residuals[..], Role::Profile);
-        Chart::new("", Axis::new(name, unit), ordinate).curve(curve)
+        Chart::new(
+            "",
+            Axis::new(abscissa.quantity(), abscissa.unit()),
+            ordinate,
+        )
+        .curve(curve)
     });
     small_multiples::draw(&charts.collect::<Vec<_>>(), marker)
 }

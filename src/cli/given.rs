@@ -1,4 +1,4 @@
-//! Scenarios that the command line names.
+//! Scenarios named on the command line.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -7,10 +7,10 @@ use std::path::Path;
 
 use crate::scenario::{Refusal, Scenario};
 
-/// What messages and files call the standard input.
+/// The name of standard input in messages and files.
 const STDIN: &str = "stdin";
 
-/// Loads the preset or the file of this name, or the standard input for `-`. What the shell has opened, as `/dev/fd/63`,
+/// Loads the preset or file of this name, or standard input for `-`. A file opened by the shell, such as `/dev/fd/63`,
 /// may be a pipe.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! `mdr-tui guide [TOPIC]`: the long documentation, in a pager where stdout is a terminal.
+//! `mdr-tui guide [TOPIC]`: the long documentation, in a pager if stdout is a terminal.
 
 use std::io::{self, IsTerminal, Write};
 use std::process::{Command, Stdio};
@@ -11,7 +11,7 @@ use crate::guide::{TOPICS, Topic};
 use crate::scenario::Refusal;
 use crate::scenario::nearest::hint;
 
-/// Shows a topic; without one, the list of topics.
+/// Shows a topic, or the list of topics if none is given.
 pub fn guide(options: &Guide) -> Result<()> {
     let Some(name) = &options.topic else {
         return Ok(io::stdout().write_all(list().as_bytes())?);
@@ -24,7 +24,7 @@ pub fn guide(options: &Guide) -> Result<()> {
     Ok(shown?)
 }
 
-/// The width of the terminal, in cells.
+/// Returns the width of the terminal, in cells.
 fn columns() -> usize {
     crossterm::terminal::size().map_or(80, |(columns, _)| usize::from(columns))
 }
@@ -40,14 +40,14 @@ fn unknown(name: &str) -> Refusal {
     Refusal::new(format_args!("guide {name}"), "no such topic").or(hint)
 }
 
-/// Shows the text in `$PAGER`, or `less`; without either, prints it.
+/// Shows the text in `$PAGER` or `less`; prints it if neither works.
 fn page(text: &str) -> io::Result<()> {
     let pager = std::env::var("PAGER").unwrap_or_default();
     let mut words = pager.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or("less"));
     command.args(words).stdin(Stdio::piped());
     if std::env::var_os("LESS").is_none() {
-        // As git does: leave at once if the text fits, keep colours, leave the text on the screen.
+        // As git does: quit at once if the text fits, keep colours, leave the text on the screen.
         command.env("LESS", "FRX");
     }
     let Ok(mut pager) = command.spawn() else {

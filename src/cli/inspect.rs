@@ -1,4 +1,4 @@
-//! `mdr-tui inspect`: what is understood of a measured table, before anything is fitted to it.
+//! `mdr-tui inspect`: how a measured table is understood, before anything is fitted to it.
 
 use anyhow::{Result, bail};
 use serde::Serialize;
@@ -8,56 +8,58 @@ use super::{results, small_multiples};
 use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
+use crate::reading::column::unit_of;
 use crate::scenario::columns::Columns;
 use crate::studies::measured::record::{Figures, Record};
 use crate::studies::measured::{Kind, Measured, loop_columns};
-use crate::traces::{Axes, unit_of};
+use crate::traces::Axes;
 
-/// Cycles of a record that are printed one by one; of more, as many in even steps.
+/// Maximum number of cycles printed; a longer record is thinned evenly to this number.
 const MOST_ROWS: usize = 20;
 
-/// What is understood of a table.
+/// How a table is understood.
 #[derive(Serialize)]
 struct Understood {
     file: String,
-    /// How the text is written.
+    /// The format of the text.
     written: String,
-    /// What it is taken for.
+    /// The kind of data.
     kind: &'static str,
     rows: usize,
     columns: Vec<Column>,
     notes: Vec<String>,
-    /// The figures of each cycle of a loop.
+    /// The measured figures of each cycle of a loop.
     cycles: Vec<CycleRow>,
 }
 
 #[derive(Serialize)]
 struct Column {
     name: String,
-    /// As this program names it, in SI units.
+    /// The name that this program uses, in SI units.
     read_as: String,
     least: f64,
     largest: f64,
     missing: usize,
 }
 
+/// Named as the columns of a history, where these are the same.
 #[derive(Serialize)]
 #[allow(non_snake_case)]
 struct CycleRow {
     cycle: usize,
-    energy_J: f64,
-    force_amplitude_N: f64,
-    displacement_amplitude_m: f64,
+    energy_per_cycle_J: f64,
+    F_x_amplitude_N: f64,
+    u_x_amplitude_m: f64,
     opening_m: f64,
-    A: f64,
-    B: f64,
-    D: f64,
+    energy_ratio: f64,
+    energy_ratio_B: f64,
+    sliding_ratio: f64,
     friction: Option<f64>,
     mean_displacement_m: f64,
     mean_force_N: f64,
 }
 
-/// Prints and draws what is understood of a file.
+/// Prints and draws how a file is understood.
 pub fn inspect(options: &Inspect) -> Result<()> {
     let columns = Columns::read_as(&options.file, &options.naming.of_columns())?;
     let kind = Kind::of(&columns);
@@ -80,7 +82,9 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         understood.notes.extend(trends(&understood.cycles));
     }
     results::print(options.json.then_some(&understood), || {
-        understood.text() + &small_multiples::draw(&[chart(&measured)], options.marker)
+        let over_cycles = of_cycles(&understood.cycles);
+        let charts: Vec<Chart> = [chart(&measured)].into_iter().chain(over_cycles).collect();
+        understood.text() + &small_multiples::draw(&charts, options.marker)
     })
 }
 
@@ -123,7 +127,7 @@ fn understood(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Und
     }
 }
 
-/// Sides, centre, offset and tilt of a trace, as far as they show without a model.
+/// Describes sides, centre, offset and tilt of a trace, as far as they can be seen without a model.
 fn of_trace(measured: &Measured) -> Vec<String> {
     let (at, values) = (&measured.at, &measured.values);
     if measured.is_averaged || !measured.is_two_sided() {
@@ -153,7 +157,7 @@ fn of_trace(measured: &Measured) -> Vec<String> {
     notes
 }
 
-/// The figures of every cycle that is looked at.
+/// Returns the figures of every selected cycle.
 fn cycles(columns: &Columns, options: &Inspect) -> Result<Vec<CycleRow>> {
     let ([u, force], _) = columns.whole_rows(loop_columns(columns))?;
     let mut record = Record::new(&u, &force).map_err(|why| columns.refuse(why))?;
@@ -175,20 +179,20 @@ fn row(number: usize, figures: &Figures, load: Option<f64>) -> CycleRow {
     let [a, d, b] = figures.ratios();
     CycleRow {
         cycle: number,
-        energy_J: figures.energy,
-        force_amplitude_N: figures.force,
-        displacement_amplitude_m: figures.amplitude,
+        energy_per_cycle_J: figures.energy,
+        F_x_amplitude_N: figures.force,
+        u_x_amplitude_m: figures.amplitude,
         opening_m: figures.opening,
-        A: a,
-        B: b,
-        D: d,
+        energy_ratio: a,
+        energy_ratio_B: b,
+        sliding_ratio: d,
         friction: load.map(|load| figures.friction(load)),
         mean_displacement_m: figures.means[0],
         mean_force_N: figures.means[1],
     }
 }
 
-/// Zeros that are off, and what drifts from the first cycle to the last.
+/// Describes zeros that are off, and drift from the first cycle to the last.
 fn trends(cycles: &[CycleRow]) -> Vec<String> {
     let (Some(first), Some(last)) = (cycles.first(), cycles.last()) else {
         return Vec::new();
@@ -196,7 +200,7 @@ fn trends(cycles: &[CycleRow]) -> Vec<String> {
     let mean = |of: fn(&CycleRow) -> f64| cycles.iter().map(of).sum::<f64>() / cycles.len() as f64;
     let mut notes = vec![format!(
         "stroke ±{:.3e} m, mean displacement {:.2e} m, mean force {:.2e} N",
-        mean(|row| row.displacement_amplitude_m),
+        mean(|row| row.u_x_amplitude_m),
         mean(|row| row.mean_displacement_m),
         mean(|row| row.mean_force_N)
     )];
@@ -206,7 +210,7 @@ fn trends(cycles: &[CycleRow]) -> Vec<String> {
             first.cycle, last.cycle,
             last.mean_displacement_m - first.mean_displacement_m,
             last.mean_force_N - first.mean_force_N,
-            100.0 * (last.energy_J / first.energy_J - 1.0)
+            100.0 * (last.energy_per_cycle_J / first.energy_per_cycle_J - 1.0)
         ));
     }
     notes
@@ -256,13 +260,13 @@ impl Understood {
                 lines.push(format!(
                     "{:5}  {:9.3e}  {:9.3e}  {:9.3e}  {:9.3e}  {:5.3}  {:5.3}  {:5.3} {friction}",
                     row.cycle,
-                    row.energy_J,
-                    row.force_amplitude_N,
-                    row.displacement_amplitude_m,
+                    row.energy_per_cycle_J,
+                    row.F_x_amplitude_N,
+                    row.u_x_amplitude_m,
                     row.opening_m,
-                    row.A,
-                    row.B,
-                    row.D
+                    row.energy_ratio,
+                    row.energy_ratio_B,
+                    row.sliding_ratio
                 ));
             }
         }
@@ -272,12 +276,23 @@ impl Understood {
 
 fn chart(measured: &Measured) -> Chart {
     let axes = measured.axes;
-    let (name, unit) = axes.x.rsplit_once('_').unwrap_or((axes.x, ""));
     let curve = Curve::new("", &measured.at[..], &measured.values[..], Role::Profile);
     Chart::new(
         "",
-        Axis::new(name, unit),
-        Axis::new(axes.symbol, axes.unit()),
+        Axis::new(axes.x.quantity(), axes.x.unit()),
+        Axis::new(axes.y.symbol(), axes.y.unit()),
     )
     .curve(curve)
+}
+
+/// E_d over the cycles of a record of several.
+fn of_cycles(cycles: &[CycleRow]) -> Option<Chart> {
+    let column = |of: fn(&CycleRow) -> f64| cycles.iter().map(of).collect::<Vec<f64>>();
+    let (at, energies) = (
+        column(|row| row.cycle as f64),
+        column(|row| row.energy_per_cycle_J),
+    );
+    let curve = Curve::new("", at, energies, Role::Profile);
+    (cycles.len() > 1)
+        .then(|| Chart::new("", Axis::new("cycle", ""), Axis::new("E_d", "J")).curve(curve))
 }

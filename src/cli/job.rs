@@ -1,5 +1,5 @@
-//! What a run still has to do and what it has recorded. A checkpoint holds it next to the session,
-//! so that an interrupted run writes the same files as an uninterrupted one.
+//! What a run still has to do and what it has recorded. Checkpoints hold it beside the session, so that an interrupted
+//! run writes the same files as an uninterrupted one.
 
 use std::path::{Path, PathBuf};
 
@@ -11,25 +11,32 @@ use crate::export::history::History;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 
-/// Maximum number of rows of a history: a file of some 3 GB.
+/// Maximum number of rows in a history: a file of some 3 GB.
 const MOST_ROWS: f64 = 1e7;
 
 /// The job of a run and its progress.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunJob {
-    /// Tells the run from others: the same for a run of the same scenario and options. See [`RunJob::identify`].
+    /// Identifies the run: equal for runs of the same scenario and options. See [`RunJob::identify`].
     pub id: String,
     /// Where the run ends, cycles.
     pub cycles: f64,
-    /// Whether the history has a row per step or per cycle.
+    /// Whether the history has one row per step instead of one per cycle.
     every_step: bool,
-    /// Cycles at which the state is written, in order, those beyond the end included.
+    /// Cycles at which the state is written, in increasing order, including those beyond the end.
     pub snapshots: Vec<CycleAsGiven>,
-    /// The [checksums](rows_sum) of those done so far; `None` for one that another program was to write.
+    /// The [checksums](rows_sum) of the snapshots taken so far; `None` for snapshots due before the run took over from
+    /// the explorer, which were not written.
     taken: Vec<Option<u32>>,
     /// The rows so far.
     pub history: History,
+    /// Whether the stresses inside the bodies are written at the end.
+    #[serde(default)]
+    pub field: bool,
+    /// Whether the error of the result is estimated at the end.
+    #[serde(default)]
+    pub estimates: bool,
     /// Statements for the file headers, such as the estimated error.
     pub statements: Vec<(String, String)>,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
@@ -55,14 +62,16 @@ impl RunJob {
             cycles,
             every_step: options.history == HistoryChoice::EveryStep,
             snapshots,
+            field: options.field,
+            estimates: options.estimate_error,
             history: history.map_err(|why| Refusal::new("--column", why))?,
             ..Self::default()
         }
         .ready(scenario)
     }
 
-    /// Makes the job of a restored `session`: `kept` for the checkpoint of a run, and the
-    /// scenario's plan for one of the explorer.
+    /// Makes the job of a restored `session`: `kept` if the checkpoint comes from a run, or the scenario's plan if it
+    /// comes from the explorer.
     pub fn resumed(
         kept: Option<Self>,
         session: &Session,
@@ -92,7 +101,7 @@ impl RunJob {
         job.ready(session.scenario())
     }
 
-    /// Sorts the snapshots and refuses histories too large to store.
+    /// Sorts the snapshots and refuses a history too large to store.
     fn ready(mut self, scenario: &Scenario) -> Result<Self> {
         self.snapshots
             .sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
@@ -107,8 +116,7 @@ impl RunJob {
         Ok(self)
     }
 
-    /// Gives the run its identity: runs that compute and record the same have the same, so that files of equal runs
-    /// stay equal.
+    /// Sets the identity: runs that compute and record the same have the same identity, so that their files are equal.
     #[must_use]
     pub fn identify(mut self, scenario: &Scenario) -> Self {
         let mut sum = crc32fast::Hasher::new();
@@ -119,7 +127,7 @@ impl RunJob {
         self
     }
 
-    /// Checks what a checkpoint holds as if it were typed and computed here.
+    /// Checks a job read from a checkpoint.
     fn check(&self) -> Result<(), String> {
         cycles(&self.cycles.to_string())?;
         for snapshot in &self.snapshots {
@@ -131,28 +139,28 @@ impl RunJob {
         self.history.check()
     }
 
-    /// The next snapshot before `cycle`.
+    /// Returns the next snapshot before `cycle`.
     pub fn next_snapshot(&self, cycle: f64) -> Option<&CycleAsGiven> {
         let next = self.snapshots.get(self.taken.len())?;
         (next.cycle() < cycle && next.cycle() <= self.cycles).then_some(next)
     }
 
-    /// Notes that the next snapshot is done, and what its table is.
+    /// Marks the next snapshot as taken, with its table.
     pub fn snapshot_is_done(&mut self, table: &str) {
         self.taken.push(Some(rows_sum(table.as_bytes())));
     }
 
-    /// The snapshots done so far, with the checksums of their rows.
+    /// Returns the snapshots taken so far, with the checksums of their rows.
     pub fn taken(&self) -> impl Iterator<Item = (&CycleAsGiven, Option<u32>)> {
         self.snapshots.iter().zip(self.taken.iter().copied())
     }
 
-    /// The snapshots as `scenario.toml` is to name them.
+    /// Returns the snapshots for the `scenario.toml`.
     pub fn snapshot_at(&self) -> Vec<f64> {
         self.snapshots.iter().map(CycleAsGiven::cycle).collect()
     }
 
-    /// Records the present moment in the history, if it is due.
+    /// Records the present moment in the history if it is due.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
         if self.every_step
@@ -169,18 +177,19 @@ impl RunJob {
     /// Stores the directory of the run's files in checkpoints.
     pub fn set_home(&mut self, directory: &Path) {
         let real = directory.canonicalize().ok();
-        // A checkpoint holds text alone.
+        // A checkpoint holds only text.
         self.home = real.filter(|home| home.to_str().is_some());
     }
 
-    /// Goes back to how far the job had come when `earlier` was copied from it.
+    /// Returns to the progress that the job had when `earlier` was copied from it.
     pub fn rewind(&mut self, earlier: &Self) {
         self.taken.truncate(earlier.taken.len());
         self.history.rewind(&earlier.history);
     }
 }
 
-/// The checksum of the rows of a table, without its header: the end of a run may state its errors there.
+/// Returns the checksum of a table's rows, without its header, which may change when the run states its errors at the
+/// end.
 pub fn rows_sum(table: &[u8]) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     let rows = table.split_inclusive(|&byte| byte == b'\n');
@@ -189,12 +198,12 @@ pub fn rows_sum(table: &[u8]) -> u32 {
     sum.finalize()
 }
 
-/// The end of a run, which must be known.
+/// Returns the end of a run, which must be given.
 pub(super) fn end(cycles: Option<f64>, name: &str) -> Result<f64, Refusal> {
     cycles.ok_or_else(|| Refusal::new(name, "run.cycles is missing; give --cycles X"))
 }
 
-/// The snapshots that the scenario itself asks for.
+/// Returns the snapshots that the scenario itself asks for.
 fn planned(scenario: &Scenario) -> Vec<CycleAsGiven> {
     let planned = scenario.run().snapshot_at.iter();
     planned.map(|at| CycleAsGiven(at.to_string())).collect()

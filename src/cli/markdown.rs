@@ -1,15 +1,15 @@
-//! Markdown for a terminal: paragraphs, lists and tables fitted to its width, headings in bold, code as it is.
+//! Formats Markdown for a terminal: paragraphs, lists and tables fitted to its width, headings in bold, code unchanged.
 
 use crate::tui::line::{cells, wrapped};
 
-/// The widest text that is read with ease, in cells.
+/// The widest text that is easy to read, in cells.
 const WIDEST: usize = 100;
 
-/// Cells between the columns of a table, and the narrowest column.
+/// The gap between the columns of a table, and the width of the narrowest column, in cells.
 const GAP: usize = 2;
 const NARROWEST: usize = 8;
 
-/// The text in lines of at most `columns` cells; lines of code are never broken.
+/// Returns the text in lines of at most `columns` cells; lines of code are never broken.
 pub fn rendered(text: &str, columns: usize) -> String {
     let width = columns.clamp(20, WIDEST);
     let mut lines = text.lines().peekable();
@@ -36,7 +36,7 @@ pub fn rendered(text: &str, columns: usize) -> String {
                     text.push(' ');
                     text.push_str(line.trim());
                 }
-                // An item hangs behind its mark.
+                // The lines of an item are indented by its mark.
                 let before = line.len() - line.trim_start().len();
                 let hang = match kind(line) {
                     Kind::Item => text.find(' ').map_or(0, |at| at + 1),
@@ -56,7 +56,7 @@ pub fn rendered(text: &str, columns: usize) -> String {
     out
 }
 
-/// What a line is.
+/// The kinds of lines.
 #[derive(PartialEq)]
 enum Kind {
     Fence,
@@ -83,7 +83,7 @@ fn bold(text: &str) -> String {
     format!("\u{1b}[1m{}\u{1b}[0m", plain(text))
 }
 
-/// A text without the marks of emphasis; a link has its address behind it.
+/// Returns a text without emphasis marks; a web link is followed by its address.
 fn plain(text: &str) -> String {
     let mut rest = text.replace("**", "");
     let mut out = String::new();
@@ -97,7 +97,7 @@ fn plain(text: &str) -> String {
     out + &rest
 }
 
-/// What stands before a link, its label and its address, and what follows.
+/// Splits a text into what precedes a link, its label, its address, and what follows.
 fn link(text: &str) -> Option<(&str, &str, &str, &str)> {
     let (head, tail) = text.split_once("](")?;
     let (before, label) = head.rsplit_once('[')?;
@@ -105,7 +105,7 @@ fn link(text: &str) -> Option<(&str, &str, &str, &str)> {
     Some((before, label, address, after))
 }
 
-/// The cells of a row of a table; a bar in code or behind a backslash divides nothing.
+/// Returns the cells of a table row; a bar in code or after a backslash is not a separator.
 fn row(line: &str) -> Vec<String> {
     let line = line.trim().trim_start_matches('|');
     let line = line.strip_suffix('|').unwrap_or(line);
@@ -125,7 +125,7 @@ fn row(line: &str) -> Vec<String> {
     cells.iter().map(|cell| plain(cell.trim())).collect()
 }
 
-/// A table in lines: the widest columns give way until it fits, and their texts are broken.
+/// Returns a table in lines. The widest columns are narrowed until it fits, and their texts are wrapped.
 fn table(mut rows: Vec<Vec<String>>, width: usize) -> Vec<String> {
     let is_rule = |row: &Vec<String>| {
         row.iter()
@@ -181,7 +181,7 @@ mod tests {
                 let text = rendered(topic.text, width);
                 let is_wide = |line: &&str| cells(line) > width + 8 && !line.starts_with("    ");
                 assert_eq!(text.lines().find(is_wide), None, "{}", topic.name);
-                // Every word is there, and whole.
+                // Every word is there, unbroken.
                 let words = |text: &str| {
                     let text = text.replace(['|', '*', '#', '\\'], " ");
                     text.split_whitespace()

@@ -53,13 +53,12 @@ const FAILED: u8 = 1;
 /// Exit code of wrong use or wrong input.
 const MISUSED: u8 = 2;
 
-/// Exit code of an interrupted study (EX_TEMPFAIL): its rows are saved, and `--resume` continues
-/// it.
+/// Exit code of an interrupted study (EX_TEMPFAIL): its rows are saved, and `--resume` continues it.
 const UNFINISHED: u8 = 75;
 
-/// Runs the program on the arguments of the process.
+/// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
-    // Answers a shell that asks for completions, and exits.
+    // If a shell asks for completions, prints them and exits.
     CompleteEnv::with_factory(Arguments::command)
         .var(complete::VARIABLE)
         .complete();
@@ -68,7 +67,7 @@ pub fn main() -> ExitCode {
         Err(error) => return refuse(&error),
     };
     crate::panics::capture();
-    // Ignores SIGXFSZ: a file at its size limit is an error like a full disk.
+    // Ignores SIGXFSZ, so that a file at its size limit is an error like a full disk.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     let Ok(outcome) = catch_unwind(AssertUnwindSafe(|| dispatch(arguments))) else {
         let word = crate::panics::take_message().unwrap_or_default();
@@ -102,7 +101,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
         Some(Command::Figure(options)) => figure::figure(&options)?,
         Some(Command::Completions { shell }) => documents::completions(shell)?,
         Some(Command::Man(options)) => documents::man(&options)?,
-        // What these have computed may be less than was asked for.
+        // These may end with less computed than was asked for.
         Some(Command::Run(options)) => return run::run(&options),
         Some(Command::Trade(options)) => return trade::trade(&options),
         Some(Command::Stability(options)) => return stability::stability(&options),
@@ -111,7 +110,7 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The exit code of a study that has done what was asked for, or not.
+/// Returns the exit code of a study.
 fn succeeded(has_succeeded: bool) -> ExitCode {
     match has_succeeded {
         true => ExitCode::SUCCESS,
@@ -144,7 +143,7 @@ pub(crate) fn without_waiting(is_terminal: bool, write: impl FnOnce() + Send + '
     let _ = finished.recv_timeout(TERMINAL_TIMEOUT);
 }
 
-/// Wrong use and wrong input are 2, a run that failed is 1.
+/// Returns 2 for wrong use and wrong input, 1 for a run that failed.
 fn exit_code(error: &anyhow::Error) -> u8 {
     let is_misuse = |cause: &(dyn std::error::Error + 'static)| {
         let wraps_misuse = matches!(cause.downcast_ref(), Some(SessionError::Scenario(_)));
@@ -162,7 +161,7 @@ fn exit_code(error: &anyhow::Error) -> u8 {
     }
 }
 
-/// `mdr-tui presets | head -1` is not an error.
+/// Whether the reader of a pipe has left: `mdr-tui presets | head -1` is not an error.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let io_error = |cause: &'_ (dyn std::error::Error + 'static)| {
         let error = match cause.downcast_ref() {
@@ -174,7 +173,7 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(io_error)
 }
 
-/// What is said to a word in the place of a command that is none, and no preset or path, where it looks like one.
+/// Returns an error that suggests the nearest command, if `word` looks like a mistyped one and is no preset or path.
 fn mistyped_command(word: &str) -> Option<Refusal> {
     let program = Arguments::command();
     let commands = program.get_subcommands().map(clap::Command::get_name);
@@ -185,7 +184,7 @@ fn mistyped_command(word: &str) -> Option<Refusal> {
     Some(refusal.or(format_args!("did you mean mdr-tui {command}?")))
 }
 
-/// Help and version go to stdout as they are; a mistake becomes one line.
+/// Prints help and version on stdout; reports a mistake in one line.
 fn refuse(error: &clap::Error) -> ExitCode {
     let kind = error.kind();
     if matches!(kind, ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {

@@ -1,4 +1,4 @@
-//! Progress bars on stderr, if that is a terminal.
+//! Progress bars on stderr, if it is a terminal.
 
 use std::fmt;
 use std::io::{self, IsTerminal};
@@ -17,11 +17,11 @@ const INTERVAL: Duration = Duration::from_millis(100);
 /// Template of a bar that can estimate the remaining time.
 pub const TIMES: &str = "{percent}%  {elapsed} gone, {eta} to go";
 
-/// Template of a bar that counts runs of different lengths, whose remaining time nobody knows.
+/// Template of a bar that counts runs of different lengths, whose remaining time cannot be estimated.
 pub const COUNTS: &str = "{pos} of {len}  {elapsed} gone";
 
-/// A bar of `length`, with `behind` (placeholders of `indicatif`) behind it; silent if `quiet` or if
-/// stderr is no terminal.
+/// Makes a bar of `length`, followed by `behind` (placeholders of `indicatif`); hidden if `quiet` or if stderr is not a
+/// terminal.
 pub fn bar(length: usize, behind: &str, quiet: bool) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length as u64), target(quiet));
     if let Ok(style) = ProgressStyle::with_template(&format!("{{msg}} [{{bar:32}}] {behind}")) {
@@ -30,7 +30,7 @@ pub fn bar(length: usize, behind: &str, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// A spinner for work of unknown length.
+/// Makes a spinner for work of unknown length.
 pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
     // These characters exist in every locale.
     let style = ProgressStyle::default_spinner().tick_chars("-\\|/ ");
@@ -42,7 +42,7 @@ pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
     spinner
 }
 
-/// Where progress is shown, if anywhere.
+/// Returns where progress is drawn, or a hidden target.
 fn target(quiet: bool) -> ProgressDrawTarget {
     match quiet || !io::stderr().is_terminal() {
         true => ProgressDrawTarget::hidden(),
@@ -50,12 +50,12 @@ fn target(quiet: bool) -> ProgressDrawTarget {
     }
 }
 
-/// The progress of a run in cycles, drawn by a thread of its own: a terminal that stops reading does
-/// not stop the run. The bar goes when this is dropped.
+/// The progress of a run in cycles, drawn by a separate thread, so that a terminal that stops reading does not stop the
+/// run. The bar disappears when this is dropped.
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// For `cycles` in all.
+    /// Makes a bar for `cycles` in total.
     pub fn new(cycles: f64, quiet: bool) -> Self {
         let bar = bar((cycles * PARTS) as usize, TIMES, quiet);
         let reached = |state: &ProgressState, out: &mut dyn fmt::Write| {
@@ -68,7 +68,7 @@ impl Progress {
         Self(bar)
     }
 
-    /// Says that `cycle` is reached.
+    /// Shows that `cycle` is reached.
     pub fn at(&self, cycle: f64) {
         self.0.set_position((cycle * PARTS) as u64);
     }

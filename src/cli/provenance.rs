@@ -1,7 +1,7 @@
-//! How the files of a run were made: what their contents do not hang on, and what a reader may ask for.
+//! How the files of a run were made: facts on which their contents do not depend, but which a reader may want.
 //!
-//! It has its own file. The tables of a run are the same to the byte whenever and wherever it is
-//! repeated on the same arithmetic, which their headers name; a date in them would end that.
+//! These are in a separate file, because the tables of a run are byte for byte the same whenever and wherever it is
+//! repeated with the same arithmetic (named in their headers); a date in them would break that.
 
 use std::env::consts::{ARCH, OS};
 use std::fs;
@@ -16,13 +16,13 @@ use crate::scenario::values::literal;
 /// The name of the file.
 pub const FILE: &str = "provenance.toml";
 
-/// The largest file of that name that is read, in bytes.
+/// The largest such file to be read, in bytes.
 const LARGEST: u64 = 1 << 16;
 
-/// The version, with the commit where it is known.
+/// The version, with the commit if known.
 pub const VERSION: &str = env!("MDR_TUI_VERSION");
 
-/// What is known of this process, its machine and the identity of its `run`.
+/// Describes this process, its machine and the identity of its `run`.
 pub fn text(run: &str) -> String {
     let about = "# mdr-tui: how the files beside this one were made; they do not depend on it\n";
     let known = [
@@ -38,21 +38,21 @@ pub fn text(run: &str) -> String {
     about.to_owned() + &lines.concat()
 }
 
-/// The identity of the run whose files in `directory` were written last, if they tell.
+/// Returns the identity of the run that last wrote its files in `directory`, if recorded.
 pub fn run_of(directory: &Path) -> Option<String> {
     let text = bounded_read::text(&directory.join(FILE), LARGEST).ok()?;
     let known: toml::Table = toml::from_str(&text).ok()?;
     Some(known.get("run")?.as_str()?.to_owned())
 }
 
-/// The command line as a shell reads it back.
+/// Returns the command line, quoted for a shell.
 fn command() -> String {
     let words = std::env::args_os().skip(1);
     let words = words.map(|word| shell_word(&word));
     words.fold("mdr-tui".to_owned(), |line, word| line + " " + &word)
 }
 
-/// Seconds since 1970: from `SOURCE_DATE_EPOCH`, as in reproducible builds, or from the clock.
+/// Returns the seconds since 1970, from `SOURCE_DATE_EPOCH`, as in reproducible builds, or from the clock.
 fn now() -> u64 {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok();
     let since = || UNIX_EPOCH.elapsed().map_or(0, |since| since.as_secs());
@@ -60,8 +60,8 @@ fn now() -> u64 {
     given.unwrap_or_else(since)
 }
 
-/// A moment as ISO 8601 has it, in UTC. The days are counted from 1 March of the year 0, so that a leap
-/// day is the last of its year (H. Hinnant, "chrono-compatible low-level date algorithms").
+/// Formats a moment in ISO 8601, in UTC. Days are counted from 1 March of the year 0, so that a leap day is the last of
+/// its year (H. Hinnant, "chrono-compatible low-level date algorithms").
 fn date(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, day) = (days / 146_097, days % 146_097);
@@ -77,7 +77,7 @@ fn date(seconds: u64) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
-/// The name of the processor, if the system gives it.
+/// Returns the name of the processor, if the system provides it.
 fn processor() -> Option<String> {
     let about = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = about.lines().find(|line| line.starts_with("model name"))?;

@@ -1,4 +1,4 @@
-//! Output of what a study has found: a file, and a text or JSON on stdout.
+//! Output of a study's results: a file, and text or JSON on stdout.
 
 use std::io::{self, Write};
 
@@ -13,14 +13,14 @@ use crate::scenario::escape;
 use crate::studies::table::Table;
 
 impl Output {
-    /// Claims the file that is asked for, before anything is computed.
+    /// Claims the output file, if there is one, before anything is computed.
     pub(super) fn claim(&self) -> Result<Option<Target>, WriteError> {
         Target::claim_given(self.csv.as_deref(), self.force)
     }
 }
 
-/// Writes the file of a study, if there is one: program, study, `notes` and rows. It comes before what is printed: a
-/// closed pipe on stdout must not cost it.
+/// Writes the file of a study, if there is one: program, study, `notes` and rows. Call it before printing, so that a
+/// closed pipe on stdout does not cost the file.
 pub fn write(
     target: Option<&Target>,
     study: &str,
@@ -37,7 +37,7 @@ pub fn write(
     target.write(text.as_bytes())
 }
 
-/// Prints what was found as JSON, if that is given, or as a text.
+/// Prints the results as JSON if given, otherwise as text.
 pub fn print<T: Serialize>(json: Option<&T>, text: impl FnOnce() -> String) -> Result<()> {
     stop::nothing_is_left_to_save();
     let text = match json {

@@ -1,4 +1,4 @@
-//! Text plots side by side, each on its own axes, so that they can be compared without colour.
+//! Text plots side by side, each with its axes, so that they can be compared without colour.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -8,16 +8,16 @@ use crate::math::scan::range;
 use crate::plot::theme::{Look, Theme};
 use crate::plot::{Axis, Chart, Marker, Plot, Scale};
 
-/// Size of one plot, cells.
+/// Size of one plot, in cells.
 const SIZE: (u16, u16) = (39, 11);
 
-/// Columns between two plots.
+/// Gap between two plots, in cells.
 const GAP: u16 = 2;
 
-/// Plots beside each other.
+/// Plots per row.
 const ACROSS: usize = 2;
 
-/// The charts in rows of two.
+/// Draws the charts in rows of two.
 pub fn draw(charts: &[Chart], marker: Marker) -> String {
     let theme = Theme::new(Look::Mono, marker);
     let (width, height) = SIZE;
@@ -38,7 +38,7 @@ pub fn draw(charts: &[Chart], marker: Marker) -> String {
     text
 }
 
-/// [`draw`] with the axes that hold the curves of all of them, so that they can be compared; nothing where a
+/// Like [`draw`], but with the same axes for all charts, which hold all of their curves. Returns nothing if a
 /// logarithmic axis has nothing to show.
 pub fn draw_alike(mut charts: Vec<Chart>, marker: Marker) -> String {
     let ends = charts.first().and_then(|first| {
@@ -55,10 +55,10 @@ pub fn draw_alike(mut charts: Vec<Chart>, marker: Marker) -> String {
     draw(&charts, marker)
 }
 
-/// The smallest value on a logarithmic axis; anything below is rounding.
+/// The smallest value on a logarithmic axis; anything smaller is rounding error.
 const FLOOR: f64 = 1e-17;
 
-/// The ends of an axis that holds all values, as far as it can; `None` without any.
+/// Returns the ends of an axis that holds all values it can show; `None` without any.
 fn ends<'a>(axis: &Axis, values: impl Iterator<Item = &'a f64>) -> Option<[f64; 2]> {
     let floor = match axis.scale {
         Scale::Log => FLOOR,

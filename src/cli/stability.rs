@@ -13,7 +13,7 @@ use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Line, Setting, Study};
 
-/// Runs the study and prints, draws and writes what was asked for.
+/// Runs the study and prints and writes its results.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
     let target = options.output.claim()?;
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
@@ -45,7 +45,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     Ok(succeeded(!interrupted))
 }
 
-/// The lines of the study, as far as `go_on` lets it come.
+/// Computes the lines of the study, until `go_on` says to stop.
 fn lines(
     study: &Study,
     options: &Stability,
@@ -66,7 +66,7 @@ fn lines(
     Ok(lines)
 }
 
-/// Method by method, guard by guard, grid by grid.
+/// Returns all settings: by method, then guard, then grid.
 fn settings(options: &Stability, geometry: Geometry) -> Vec<Setting> {
     let guards: &[bool] = match options.guard {
         Guard::Off => &[false],

@@ -14,28 +14,28 @@ use signal_hook::iterator::Signals;
 
 use super::FAILED;
 
-/// Signals that ask a program to end. Queueing systems send SIGUSR1 or SIGUSR2 shortly before the
-/// time limit, and the system SIGXCPU.
+/// Signals that ask a program to end. Queueing systems send SIGUSR1 or SIGUSR2 shortly before the time limit; the
+/// system sends SIGXCPU.
 pub const ENDING: [i32; 9] = [
     SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU,
 ];
 
-/// Signals that a user sends from the keyboard.
+/// Signals that a user can send from the keyboard.
 const TYPED: [i32; 2] = [SIGINT, SIGQUIT];
 
-/// How long a program may take to stop and save after the first signal.
+/// Maximum time for stopping and saving after the first signal.
 const GRACE: Duration = Duration::from_secs(2);
 
-/// Whether everything is done but for what is printed.
+/// Whether everything is saved and only output remains.
 static DONE: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
-/// From here on any signal ends the process at once: a reader of what is printed may not read.
+/// Makes any further signal end the process at once, since the reader of its output may have stopped reading.
 pub fn nothing_is_left_to_save() {
     DONE.store(true, Ordering::SeqCst);
 }
 
 /// Returns a flag that is set by the first signal that asks to end. Later signals change nothing, since a scheduler may
-/// send several; but Ctrl-C ends the process at once if it has not stopped in [`GRACE`].
+/// send several; but Ctrl-C ends the process at once if it has not stopped within [`GRACE`].
 pub fn signal() -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     let heard = ENDING.into_iter();
@@ -60,17 +60,17 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
             }
         }
     };
-    // Where the system has no thread left, the first signal still counts.
+    // If the system cannot start a thread, the first signal still works.
     let _ = thread::Builder::new().spawn(watch);
     Ok(stop)
 }
 
-/// Whether to go on: as long as this is not set.
+/// Returns a function that says to continue until `stop` is set.
 pub fn unless(stop: Arc<AtomicBool>) -> impl Fn() -> bool {
     move || !stop.load(Ordering::Relaxed)
 }
 
-/// Whether the process was started with this signal ignored; `false` if the system cannot tell.
+/// Whether the process was started with this signal ignored; `false` if unknown.
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -16,19 +16,19 @@ use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement::{Budget, Level, Reached, SearchError, Verdict, run_to_accuracy};
 use crate::studies::trade::{self, Reference, Setting, Timed, Trial, cheapest, front, table};
 
-/// Accuracies whose search for a level is timed as well as the fixed settings.
+/// Accuracies for which the search for a level is timed, in addition to the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
 
-/// The accuracy that a setting is recommended for where none is asked for.
+/// The accuracy to recommend a setting for if none is given.
 const USUAL: f64 = ACCURACIES[0];
 
-/// The longest that the search for an accuracy may take, s.
+/// Time limit of the search for an accuracy, s.
 const LONGEST_SEARCH: Budget = Budget::of_search(10.0);
 
-/// The reference is asked to be this many times as accurate as the least error that settings are judged by.
+/// The reference must be this many times more accurate than the smallest error by which settings are judged.
 const SHARPER: f64 = 3.0;
 
-/// Runs the study and prints, draws and writes what was asked for.
+/// Runs the study and prints, draws and writes its results.
 pub fn trade(options: &Trade) -> Result<ExitCode> {
     let target = options.output.claim()?;
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
@@ -44,7 +44,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     results::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     if let (Some(accuracy), None) = (options.accuracy, best) {
-        // What no fixed setting meets, a level that is searched for may.
+        // A searched level may meet an accuracy that no fixed setting meets.
         let reached = run_to_accuracy(&scenario, cycles, accuracy, LONGEST_SEARCH, &go_on);
         let reached = reached
             .ok()
@@ -84,7 +84,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     Ok(succeeded(go_on()))
 }
 
-/// What was measured, and what was compared with what: the reference first, then every setting, the cheapest first;
+/// Returns what was measured and notes on what was compared: the reference first, then every setting, cheapest first.
 /// `None` without a reference.
 fn run(
     scenario: &Scenario,
@@ -140,7 +140,7 @@ fn run(
     Ok(Some((trials, notes)))
 }
 
-/// What an accuracy cost, beside the cheapest fixed setting that would have done.
+/// Describes what an accuracy cost, compared with the cheapest fixed setting that meets it.
 fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reference) -> String {
     let (seconds, Level { points, steps, .. }) = (reached.seconds, &reached.rung.level);
     let errors = reached.rung.outcome.against(&reference.outcome);
@@ -163,7 +163,7 @@ fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Referenc
     )
 }
 
-/// The last line: what to use.
+/// Returns the last line: which setting to use.
 fn advice(best: Option<Timed>) -> String {
     match best {
         Some((trial, [seconds, error])) => format!(
@@ -177,7 +177,7 @@ fn advice(best: Option<Timed>) -> String {
     }
 }
 
-/// Error against time: one plot per method with its front; the overall front is dashed.
+/// Plots error against time: one plot per method with its Pareto front; the overall front is dashed.
 fn plots(trials: &[Trial], options: &Trade) -> String {
     let curve = |method: Option<AbelMethod>| {
         let mut mine = trials.iter().collect::<Vec<_>>();

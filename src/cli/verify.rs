@@ -12,7 +12,7 @@ use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
 use crate::studies::verify::{Outcome, Problem, STICK_RADIUS, Task, tasks};
 
-/// Runs the study and prints, draws and writes what was asked for.
+/// Runs the study and prints, draws and writes its results.
 pub fn verify(options: &Verify) -> Result<()> {
     let target = options.output.claim()?;
     let problems = match &options.problem[..] {
@@ -48,13 +48,13 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
     outcomes
 }
 
-/// The problems that were tried, each with its outcomes.
+/// Groups the outcomes by problem.
 fn by_problem(outcomes: &[Outcome]) -> impl Iterator<Item = (Problem, &[Outcome])> {
     let groups = outcomes.chunk_by(|a, b| a.task.problem == b.task.problem);
     groups.map(|group| (group[0].task.problem, group))
 }
 
-/// Every table under what it shows, and the curves under their table.
+/// Returns every table below its description, with the curves below the table.
 fn text(outcomes: &[Outcome], options: &Verify) -> String {
     let of_problem = |(problem, outcomes): (Problem, &[Outcome])| {
         let mut text = format!("{problem}\n");
@@ -77,7 +77,7 @@ fn text(outcomes: &[Outcome], options: &Verify) -> String {
     texts.join("\n")
 }
 
-/// How far the best method is from theory, in a line: its worst problem, on the finest grid of each.
+/// Says in one line how far the best method is from theory: its worst problem, on the finest grid of each.
 fn verdict(outcomes: &[Outcome]) -> String {
     let stopped = match outcomes.iter().filter(|o| o.errors.is_err()).count() {
         0 => String::new(),
@@ -99,15 +99,15 @@ fn verdict(outcomes: &[Outcome]) -> String {
     }
 }
 
-/// What the errors of each problem are.
+/// Describes the errors of each problem.
 fn notes(outcomes: &[Outcome]) -> Vec<String> {
     let problems = by_problem(outcomes).map(|(problem, _)| problem);
     let note = |problem: Problem| format!("{problem}: {}", problem.facts().description.join(" "));
     problems.map(note).collect()
 }
 
-/// Curves of the error over r/a, drawn as text: for all quantities of a problem a small plot per method on its finest
-/// grid, all on the same axes, so that they can be compared without colour.
+/// Draws the error over r/a as text: for each quantity of a problem one small plot per method on its finest grid, all
+/// on the same axes, so that they can be compared without colour.
 ///
 /// ```text
 /// a: g, N = 800                          b: g, N = 800

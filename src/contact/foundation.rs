@@ -15,42 +15,42 @@ use crate::math::quadrature::{
 };
 use crate::math::scan::{leading, trailing};
 
-/// What pressing a profile to a depth gives, beside the line load itself.
+/// Result of pressing a profile to a depth, besides the line load itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct NormalContact {
-    /// The largest load of a spring, N/m; NaN where one is not finite.
+    /// The largest load of a spring, N/m; NaN if any load is not finite.
     pub strongest: f64,
     /// The contact radius a, m; 0 without contact.
     pub radius: f64,
-    /// How many springs, counted from r = 0, lie within the contact radius: what is further out carries nothing.
+    /// Number of springs within the contact radius, counted from r = 0; springs further out carry nothing.
     pub nodes: usize,
 }
 
-/// Where the springs stand, and how loads on them add up.
+/// The positions of the springs, and the rules for adding up loads on them.
 ///
-/// Loads are taken as linear in x² between springs, and kinked where the contact or the stick zone
-/// ends between two of them: the kinks of a [`Field`] say where, and its dome how a load ends at the edge of a scar.
+/// Loads are linear in x² between springs, with kinks where the contact or the stick zone ends between two of them: the
+/// kinks of a [`Field`] say where, and its dome how a load ends at the edge of a scar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WinklerFoundation {
     geometry: Geometry,
     grid: RadialGrid,
     weights: Vec<f64>,
     tip: Tip,
-    /// Of the work of q on the slip in each cell.
+    /// Weights of the work of q on the slip in each cell.
     products: ProductWeights,
-    /// ∫ of what a cusp of slope one adds to a load linear in x², from the tip to each node, m².
+    /// ∫ of the excess over a load linear in x² for a cusp of slope one, from the tip to each node, m².
     bubbles: Vec<f64>,
-    /// Of ∫ (−u′) ln(R/s) ds, R the grid's radius; none of a round contact.
+    /// Weights of ∫ (−u′) ln(R/s) ds, with R the grid's radius; empty for a round contact.
     logs: Vec<f64>,
 }
 
 impl WinklerFoundation {
-    /// Springs of a round contact at the nodes of a grid.
+    /// Places the springs of a round contact at the nodes of a grid.
     pub fn new(grid: &RadialGrid) -> Self {
         Self::of(Geometry::Round, grid)
     }
 
-    /// Springs of a contact of this `geometry` at the nodes of a grid.
+    /// Places the springs of a contact of this `geometry` at the nodes of a grid.
     pub fn of(geometry: Geometry, grid: &RadialGrid) -> Self {
         Self {
             geometry,
@@ -76,11 +76,10 @@ impl WinklerFoundation {
         self.grid.squares()
     }
 
-    /// 2∫ q dx over the row: the force (N) of a line load (N/m) with its kinks, that ends where the `contact` does.
-    /// Of a line contact it is the spring at the centre that tells the force, L q(0).
+    /// Returns the force (N) of a line load (N/m) with its kinks, which ends at the edge of the `contact`: 2∫ q dx over
+    /// the row. In a line contact the spring at the centre gives the force, L q(0).
     ///
-    /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²: what that adds is
-    /// added.
+    /// A load with a cusp at the tip, as under a cone, is linear in x and not in x²; the difference is added.
     pub fn force(&self, load: &Field, contact: NormalContact) -> f64 {
         if let Some(length) = self.geometry.length() {
             return length * load.nodal[0];
@@ -88,6 +87,15 @@ impl WinklerFoundation {
         let nodal = weighted_first(&self.weights, &load.nodal, contact.nodes);
         let kinked = nodal + load.between_nodes(self.grid.radius());
         2.0 * (kinked + self.cusp_integral(&load.nodal, contact))
+    }
+
+    /// The compression of the first `touching` springs that carries as much as `values` do.
+    pub fn mean(&self, values: &[f64], touching: usize) -> f64 {
+        if self.geometry.is_line() {
+            return values[0];
+        }
+        let all: f64 = self.weights[..touching].iter().sum();
+        weighted_first(&self.weights, values, touching) / all
     }
 
     /// A dome with what its integral has beyond that of its polyline.
@@ -109,21 +117,22 @@ impl WinklerFoundation {
         Dome { beyond, ..dome }
     }
 
-    /// What no force (N) of a line load of up to `strongest` (N/m) exceeds: finite where an f64 holds the force.
+    /// Returns an upper bound on the force (N) of line loads up
+    /// to `strongest` (N/m); finite if an f64 can hold the force.
     pub fn most_force(&self, strongest: f64) -> f64 {
         if let Some(length) = self.geometry.length() {
             return length * strongest;
         }
-        // Cusps are integrated by their bubbles: 0 · ∞ is none.
+        // Cusps are integrated by their bubbles: if those overflow, 0 · ∞ makes the bound NaN.
         2.0 * strongest * self.grid.radius() + 0.0 * self.bubbles[self.bubbles.len() - 1]
     }
 
-    /// 2∫ q |s| dx over the row: the work (J) of a line load (N/m) that ends where the `contact` does on a slip (m).
-    /// Both are linear in x² in each cell. Of a line contact, that on the slip beyond the rigid one, and the force on
-    /// the rigid slip: see [`Geometry`].
+    /// Returns the work (J) of a line load (N/m), which ends at the edge of the `contact`, on a slip (m): 2∫ q |s| dx
+    /// over the row, both linear in x² in each cell. In a line contact this is the work on the slip beyond the rigid
+    /// one, plus the force times the rigid slip: see [`Geometry`].
     pub fn work(&self, load: &[f64], slip: &[f64], contact: NormalContact) -> f64 {
         let rigid = self.rigid_slip(slip);
-        // Most springs stick or carry nothing.
+        // Skip the springs that stick or carry nothing: most of them.
         let first = leading(slip, |&slip| slip == 0.0).saturating_sub(1);
         let end = load.len() + 1 - trailing(load, |&load| load == 0.0);
         let end = end.min(load.len()).saturating_sub(1).max(first);
@@ -135,7 +144,7 @@ impl WinklerFoundation {
         2.0 * (smooth + cusp)
     }
 
-    /// Half of the work (J) per slip (m) of what the kinks of a load (N/m) add between the springs.
+    /// Returns half of the work (J) per slip (m) that the kinks of a load (N/m) add between the springs.
     pub fn between_springs(&self, load: &Field) -> f64 {
         let radius = self.grid.radius();
         match self.geometry {
@@ -148,14 +157,14 @@ impl WinklerFoundation {
         }
     }
 
-    /// How far springs of a line contact that stand at `spring` (m) move the body against a point of the half-plane
-    /// that lies at the depth `gauge` (m) far below the contact, m:
+    /// Returns how far (m) the springs of a line contact, displaced by `spring` (m), move the body against a point of
+    /// the half-plane at a depth `gauge` (m) far below the contact:
     ///
     /// ```text
     /// (2/π) ∫ (−u′) arcosh(L/s) ds ≈ (2/π) [u(0) ln(2L/R) + ∫ (−u′) ln(R/s) ds]
     /// ```
     ///
-    /// L the gauge, R the grid's radius.
+    /// L is the gauge, R the grid's radius.
     pub fn shift_against(&self, gauge: f64, spring: &Field) -> f64 {
         let radius = self.grid.radius();
         let nodal = weighted(&self.logs, &spring.nodal);
@@ -167,12 +176,12 @@ impl WinklerFoundation {
         FRAC_2_PI * (spring.nodal[0] * (2.0 * gauge / radius).ln() + nodal + kinked)
     }
 
-    /// How far the spring `k` slips beyond the rigid slip, m.
+    /// Returns how far the spring `k` slips beyond the rigid slip, m.
     pub fn beyond_rigid(&self, slip: &[f64], k: usize) -> f64 {
         slip[k].abs() - self.rigid_slip(slip)
     }
 
-    /// How far the bodies slip as a whole, m: what the half-plane of a line contact does not resist.
+    /// Returns how far the bodies slip as a whole, m, which the half-plane of a line contact does not resist.
     fn rigid_slip(&self, slip: &[f64]) -> f64 {
         match self.geometry {
             Geometry::Round => 0.0,
@@ -180,7 +189,8 @@ impl WinklerFoundation {
         }
     }
 
-    /// The slope of `values` at the tip, x → 0, if there is a cusp and the contact extends beyond it; otherwise 0.
+    /// Returns the slope of `values` at the tip, x → 0, if there
+    /// is a cusp and the contact extends beyond it; otherwise 0.
     pub fn cusp(&self, values: &[f64], edge: f64) -> f64 {
         if edge > self.nodes()[3] {
             self.tip.slope(values)
@@ -189,7 +199,7 @@ impl WinklerFoundation {
         }
     }
 
-    /// ∫ of what the cusp of `values` adds to them within the `contact`, in their unit times m.
+    /// Returns ∫ of the excess due to the cusp of `values` within the `contact`, in their unit times m.
     fn cusp_integral(&self, values: &[f64], contact: NormalContact) -> f64 {
         let cusp = self.cusp(values, contact.radius);
         if cusp == 0.0 {
@@ -214,7 +224,7 @@ fn log_weights(grid: &RadialGrid) -> Vec<f64> {
     weights
 }
 
-/// ∫ −ln √t dt from 0 to `t`.
+/// Returns ∫ −ln √t dt from 0 to `t`.
 fn log_moment(t: f64) -> f64 {
     if t > 0.0 {
         0.5 * t * (1.0 - t.ln())
@@ -223,12 +233,12 @@ fn log_moment(t: f64) -> f64 {
     }
 }
 
-/// ∫ of the bubble of a cusp of slope one over a cell, m².
+/// Returns ∫ of the bubble of a cusp of slope one over a cell, m².
 fn bubble(a: f64, b: f64) -> f64 {
     (b - a).powi(3) / (6.0 * (a + b))
 }
 
-/// The same from the tip to each node.
+/// Sums the bubbles from the tip to each node.
 fn bubbles(nodes: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let whole = nodes.windows(2).map(|cell| {
@@ -238,12 +248,12 @@ fn bubbles(nodes: &[f64]) -> Vec<f64> {
     std::iter::once(0.0).chain(whole).collect()
 }
 
-/// A relative change of the load over two cells below this is rounding, not a cusp.
+/// A smaller relative change of the load over two cells is rounding, not a cusp.
 const NO_CUSP: f64 = 1e-9;
 
-/// The first three springs, which tell the cusp of a load at the tip: a cone's is linear in x and not in x².
+/// The first three springs, which give the cusp of a load at the tip: a cone's load is linear in x and not in x².
 ///
-/// On every cell (x_k, x_{k+1}) a load with the cusp A is its chord in x² and A (x − x_k)(x_{k+1} − x)/X_k,
+/// On every cell (x_k, x_{k+1}) a load with the cusp A is its chord in x² plus A (x − x_k)(x_{k+1} − x)/X_k,
 ///
 /// ```text
 /// A = (σ_0 − σ_1) / (1/X_0 − 1/X_1),   X_k = x_k + x_{k+1},   σ = Δq/Δ(x²)
@@ -270,7 +280,7 @@ impl Tip {
         }
     }
 
-    /// The cusp A of nodal `values`: their slope d/dx at the tip, x → 0; 0 where it is rounding.
+    /// Returns the cusp A of nodal `values`: their slope d/dx at the tip, x → 0; 0 if it is mere rounding.
     fn slope(&self, values: &[f64]) -> f64 {
         let tip = || self.weights.iter().zip(values);
         let slope: f64 = tip().map(|(weight, value)| weight * value).sum();

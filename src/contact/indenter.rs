@@ -1,5 +1,5 @@
-//! The unworn indenter: its profile f₀(r), the gap to its tip before anything deforms, and the 1D
-//! image g₀(x) of that profile in closed form.
+//! The unworn indenter: its profile f₀(r), the gap to its tip before deformation, and the 1D image g₀(x) of that
+//! profile in closed form.
 //!
 //! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics and friction,
 //! ch. 3; κₙ = √π Γ(n/2 + 1)/Γ(n/2 + ½).
@@ -10,21 +10,21 @@ use super::measured::MeasuredProfile;
 use crate::math::geometry::Geometry;
 use crate::math::invalid::{Invalid, positive};
 
-/// A shape of revolution.
+/// A body of revolution, or the section of a cylinder.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Indenter {
     /// f = (r² − b²)/(2R) outside a flat tip of radius b.
     Paraboloid {
         /// R, m.
         radius: f64,
-        /// b, m; 0 of a whole paraboloid.
+        /// b, m; 0 for a whole paraboloid.
         tip_radius: f64,
     },
     /// f = (r − b) tan θ outside a flat tip of radius b.
     Cone {
         /// θ, rad, between the surface and the cone's flank.
         angle: f64,
-        /// b, m; 0 of a whole cone.
+        /// b, m; 0 for a whole cone.
         tip_radius: f64,
     },
     /// f = A rⁿ.
@@ -34,14 +34,14 @@ pub enum Indenter {
         /// n.
         exponent: f64,
     },
-    /// f = 0 up to the rim, and nothing beyond it.
+    /// f = 0 up to the rim, where the punch ends.
     FlatPunch {
         /// The punch's radius, m.
         radius: f64,
     },
-    /// f = (r − b)²/(2R) outside a flat face of radius b: a punch whose edge is rounded.
+    /// f = (r − b)²/(2R) outside a flat face of radius b: a punch with a rounded edge.
     RoundedPunch {
-        /// R, m: the radius of the rounding.
+        /// R, m: radius of the rounding.
         radius: f64,
         /// b, m.
         tip_radius: f64,
@@ -51,19 +51,19 @@ pub enum Indenter {
 }
 
 impl Indenter {
-    /// A paraboloid with radius of curvature R in m.
+    /// Makes a paraboloid with radius of curvature R in m.
     pub fn paraboloid(radius: f64) -> Result<Self, Invalid> {
         let tip_radius = 0.0;
         positive("radius", radius).map(|radius| Self::Paraboloid { radius, tip_radius })
     }
 
-    /// A cone whose flank rises by `angle` rad, greater than 0 and less than π/2.
+    /// Makes a cone whose flank rises by `angle` rad, greater than 0 and less than π/2.
     pub fn cone(angle: f64) -> Result<Self, Invalid> {
         let tip_radius = 0.0;
         check_angle(angle).map(|angle| Self::Cone { angle, tip_radius })
     }
 
-    /// f = `coefficient` · r^`exponent`, with an exponent from 1 to 20.
+    /// Makes f = `coefficient` · r^`exponent`, with an exponent from 1 to 20.
     pub fn power(coefficient: f64, exponent: f64) -> Result<Self, Invalid> {
         let coefficient = positive("coefficient", coefficient)?;
         if (1.0..=20.0).contains(&exponent) {
@@ -76,12 +76,12 @@ impl Indenter {
         }
     }
 
-    /// A flat punch of the given radius in m.
+    /// Makes a flat punch of the given radius in m.
     pub fn flat_punch(radius: f64) -> Result<Self, Invalid> {
         positive("radius", radius).map(|radius| Self::FlatPunch { radius })
     }
 
-    /// A paraboloid of curvature radius R in m, cut flat at a tip radius in m.
+    /// Makes a paraboloid of curvature radius R in m, cut flat at a tip radius in m.
     pub fn truncated_paraboloid(radius: f64, tip_radius: f64) -> Result<Self, Invalid> {
         Ok(Self::Paraboloid {
             radius: positive("radius", radius)?,
@@ -89,7 +89,7 @@ impl Indenter {
         })
     }
 
-    /// A cone of the given angle in rad, cut flat at a tip radius in m.
+    /// Makes a cone of the given angle in rad, cut flat at a tip radius in m.
     pub fn truncated_cone(angle: f64, tip_radius: f64) -> Result<Self, Invalid> {
         Ok(Self::Cone {
             angle: check_angle(angle)?,
@@ -97,7 +97,7 @@ impl Indenter {
         })
     }
 
-    /// A punch with a flat face of radius `tip_radius` (m) and an edge rounded by `radius` (m).
+    /// Makes a punch with a flat face of radius `tip_radius` (m) and an edge rounded by `radius` (m).
     pub fn rounded_punch(radius: f64, tip_radius: f64) -> Result<Self, Invalid> {
         Ok(Self::RoundedPunch {
             radius: positive("radius", radius)?,
@@ -105,12 +105,12 @@ impl Indenter {
         })
     }
 
-    /// A profile from a table: see [`MeasuredProfile::new`].
+    /// Makes a profile from a table: see [`MeasuredProfile::new`].
     pub fn table(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
         MeasuredProfile::new(radii, heights, smoothing).map(Self::Table)
     }
 
-    /// f₀(r), m. A flat punch ends at its rim: there is nothing to ask beyond.
+    /// Returns f₀(r), m. A flat punch ends at its rim; callers do not ask beyond it.
     pub fn profile(&self, r: f64) -> f64 {
         if r <= self.tip_radius() {
             return 0.0;
@@ -130,7 +130,8 @@ impl Indenter {
         }
     }
 
-    /// g₀(x), m, of a contact of this `geometry`: the shape is one of revolution, or the section of a cylinder.
+    /// Returns g₀(x), m, in a contact of this `geometry`, whose
+    /// shape is a body of revolution or the section of a cylinder.
     pub fn image(&self, geometry: Geometry, x: f64) -> f64 {
         match geometry {
             Geometry::Round => self.profile_1d(x),
@@ -138,14 +139,14 @@ impl Indenter {
         }
     }
 
-    /// g₀(x), m: Eq. (1L), ∫ r f′/√(x² − r²) dr, in closed form.
+    /// Returns g₀(x), m: Eq. (1L), ∫ r f′/√(x² − r²) dr, in closed form.
     fn line_profile_1d(&self, x: f64) -> f64 {
         let b = self.tip_radius();
         if x <= b {
             return 0.0;
         }
         let root = ((x - b) * (x + b)).sqrt();
-        // A face of half-width b leaves the arc from b to x.
+        // With a face of half-width b the arc runs from b to x.
         let sector = |radius: f64, sign: f64| {
             let arc = if b == 0.0 { FRAC_PI_2 } else { (b / x).acos() };
             (x * x * arc + sign * b * root) / (2.0 * radius)
@@ -163,7 +164,7 @@ impl Indenter {
         }
     }
 
-    /// g₀(x), m: Eq. (1) of the paper in closed form.
+    /// Returns g₀(x), m: Eq. (1) of the paper in closed form.
     pub fn profile_1d(&self, x: f64) -> f64 {
         if x <= self.tip_radius() {
             return 0.0;
@@ -186,8 +187,8 @@ impl Indenter {
         }
     }
 
-    /// The radius at which f₀ reaches `height`, m: nothing outside it touches at that depth,
-    /// whatever wears inside. A punch never reaches beyond its rim.
+    /// Returns the radius at which f₀ reaches `height`, m: at that depth nothing touches outside it, whatever wears
+    /// inside. A punch never reaches beyond its rim.
     pub fn radius_at(&self, height: f64) -> f64 {
         let height = height.max(0.0);
         match *self {
@@ -207,7 +208,7 @@ impl Indenter {
         }
     }
 
-    /// The rim at which the indenter ends, m, where it does.
+    /// Returns the rim at which the indenter ends, m, if it has one.
     pub fn rim(&self) -> Option<f64> {
         match *self {
             Self::FlatPunch { radius } => Some(radius),
@@ -215,7 +216,7 @@ impl Indenter {
         }
     }
 
-    /// The radius beyond which the indenter's shape is unknown, m: the rim, or the end of a table.
+    /// Returns the radius beyond which the shape is unknown, m: the rim, or the end of a table.
     pub fn end(&self) -> Option<f64> {
         match self {
             Self::Table(measured) => Some(measured.last_radius()),
@@ -223,7 +224,7 @@ impl Indenter {
         }
     }
 
-    /// R of a whole paraboloid, m: by Hertz, that of a ball.
+    /// Returns R of a whole paraboloid, m: the radius of a Hertzian ball.
     pub fn ball_radius(&self) -> Option<f64> {
         match *self {
             Self::Paraboloid {
@@ -234,7 +235,7 @@ impl Indenter {
         }
     }
 
-    /// The radius of the flat face that rises at its edge, m; 0 where there is none.
+    /// Returns the radius of the flat face inside a rising profile, m; 0 if there is none.
     pub fn tip_radius(&self) -> f64 {
         match *self {
             Self::Paraboloid { tip_radius, .. }
@@ -244,7 +245,7 @@ impl Indenter {
         }
     }
 
-    /// What was made of a measured profile, in a line.
+    /// Summarises in one line how a measured profile was treated.
     pub fn remark(&self) -> Option<String> {
         match self {
             Self::Table(measured) => Some(measured.summary()),
@@ -252,7 +253,7 @@ impl Indenter {
         }
     }
 
-    /// The shape's name, as a scenario spells it.
+    /// Returns the name used in scenarios.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Paraboloid { .. } if self.tip_radius() > 0.0 => "truncated-paraboloid",
@@ -314,8 +315,8 @@ mod tests {
         }
     }
 
-    /// Eqs. (1) and (1L) with r = x sin φ: g = x ∫ f′(x sin φ) dφ, and r in the place of x, by the midpoint rule on f′ by
-    /// differences.
+    /// Eqs. (1) and (1L) with r = x sin φ: g = x ∫ f′(x sin φ) dφ, and with r instead of x, by the midpoint rule on
+    /// differences of f.
     #[test]
     fn the_closed_images_are_those_of_eq_1() {
         for shape in shapes() {

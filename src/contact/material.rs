@@ -1,4 +1,4 @@
-//! Elastic moduli and friction of the contact, checked once where they are made.
+//! Elastic moduli and friction of the contact, checked once on construction.
 
 use crate::math::invalid::{Invalid, non_negative, positive};
 
@@ -12,12 +12,12 @@ pub enum Body {
         /// ν.
         poisson: f64,
     },
-    /// Adds no compliance.
+    /// Rigid; adds no compliance.
     Rigid,
 }
 
 impl Body {
-    /// An elastic body with E in Pa; ν from 0 to 0.5.
+    /// Makes an elastic body with E in Pa; ν from 0 to 0.5.
     pub fn elastic(youngs_modulus: f64, poisson: f64) -> Result<Self, Invalid> {
         Ok(Self::Elastic {
             youngs_modulus: positive("youngs_modulus", youngs_modulus)?,
@@ -25,7 +25,7 @@ impl Body {
         })
     }
 
-    /// ν; `None` if the body is rigid.
+    /// Returns ν; `None` if the body is rigid.
     fn poisson(self) -> Option<f64> {
         match self {
             Self::Elastic { poisson, .. } => Some(poisson),
@@ -33,7 +33,7 @@ impl Body {
         }
     }
 
-    /// (1 − ν²)/E, this body's share of 1/E*, 1/Pa.
+    /// Returns (1 − ν²)/E, this body's share of 1/E*, 1/Pa.
     fn normal_compliance(self) -> f64 {
         match self {
             Self::Elastic {
@@ -44,7 +44,7 @@ impl Body {
         }
     }
 
-    /// (2 − ν)/(4G) with G = E/(2(1 + ν)), this body's share of 1/G*, 1/Pa.
+    /// Returns (2 − ν)/(4G) with G = E/(2(1 + ν)), this body's share of 1/G*, 1/Pa.
     fn tangential_compliance(self) -> f64 {
         match self {
             Self::Elastic {
@@ -66,7 +66,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// From E* in Pa, the ν of the elastic body (or of both, if they are alike), and μ.
+    /// Makes the pair from E* in Pa, ν of the elastic body (or of both, if they are alike), and μ.
     ///
     /// # Formula
     /// G*/E* = 2(1 − ν)/(2 − ν).
@@ -81,11 +81,11 @@ impl Material {
         })
     }
 
-    /// From two bodies and μ.
+    /// Makes the pair from two bodies and μ.
     ///
     /// # Formula
-    /// 1/E* = Σ(1 − ν²)/E and 1/G* = Σ(2 − ν)/(4G) over the two bodies. Exact without coupling of
-    /// normal and tangential displacement, that is for elastically similar bodies.
+    /// 1/E* = Σ(1 − ν²)/E and 1/G* = Σ(2 − ν)/(4G) over the two bodies. Exact if normal and tangential displacement are
+    /// uncoupled, as for elastically similar bodies.
     pub fn of_bodies(indenter: Body, half_space: Body, friction: f64) -> Result<Self, Invalid> {
         let normal = indenter.normal_compliance() + half_space.normal_compliance();
         let tangential = indenter.tangential_compliance() + half_space.tangential_compliance();
@@ -104,7 +104,7 @@ impl Material {
         })
     }
 
-    /// The same pair in a line contact: in plane strain a half-plane resists a tangential load as it does a normal one,
+    /// Returns the same pair in a line contact: in plane strain a half-plane resists tangential and normal loads alike,
     /// G* = E*.
     #[must_use]
     pub fn in_plane_strain(self) -> Self {
@@ -114,12 +114,12 @@ impl Material {
         }
     }
 
-    /// ν of the half-space, or of the elastic body where that is rigid: what stresses inside depend on.
+    /// Returns ν of the half-space, or of the indenter if the half-space is rigid; stresses inside depend on it.
     pub fn poisson(&self) -> f64 {
         self.poisson
     }
 
-    /// The same with another μ, 0 or greater.
+    /// Returns the same pair with another μ, 0 or greater.
     #[must_use]
     pub fn with_friction(self, friction: f64) -> Self {
         Self { friction, ..self }
@@ -140,13 +140,13 @@ impl Material {
         self.friction
     }
 
-    /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
+    /// Returns μ/G*, 1/Pa: the largest strain of a spring under unit load.
     pub fn reach(&self) -> f64 {
         self.friction / self.tangential_modulus
     }
 
-    /// κ = G*/(μE*): the tangential displacement that a spring of compression κ⁻¹ can hold is 1.
-    /// Infinite without friction.
+    /// Returns κ = G*/(μE*): a spring compressed by d − g holds a tangential displacement of up to (d − g)/κ. Infinite
+    /// without friction.
     pub fn stick_ratio(&self) -> f64 {
         self.tangential_modulus / (self.friction * self.normal_modulus)
     }

@@ -1,11 +1,10 @@
 //! A measured profile: turns the rows of a table into a shape of revolution and reports every
 //! correction.
 //!
-//! A trace may begin at the axis or run through it (negative radii). In the second case its two
-//! sides are averaged, which removes the tilt of the stage; half of their difference is reported,
-//! and so is the tilt. Noise is handled on request only: a local parabola is fitted around each
-//! point with Gaussian weights of standard deviation `smoothing` (W. S. Cleveland, 1979, J. Am.
-//! Stat. Assoc. 74, 829–836), the profile being continued as an even function beyond the axis. A
+//! A trace may begin at the axis or run through it (negative radii). In the second case its two sides are averaged,
+//! which removes the tilt of the stage; the tilt and half of their difference are reported. Noise is removed only on
+//! request: a local parabola is fitted around each point with Gaussian weights of standard deviation `smoothing` (W. S.
+//! Cleveland, 1979, J. Am. Stat. Assoc. 74, 829–836), continuing the profile beyond the axis as an even function. A
 //! paraboloid passes unchanged.
 
 use std::sync::Arc;
@@ -13,13 +12,13 @@ use std::sync::Arc;
 use crate::math::invalid::{Invalid, check_table, non_negative};
 use crate::math::monotone::Monotone;
 
-/// The fewest points of a profile.
+/// Minimum number of points.
 const FEWEST: usize = 4;
 
-/// The most points of a profile: the image of each x sums over all inside it.
+/// Maximum number of points: the image at each x sums over all points inside it.
 pub const MOST_POINTS: usize = 20_000;
 
-/// By how much of its largest value the 1D image may fall and still counts as level.
+/// The 1D image counts as level if it falls by no more than this fraction of its largest value.
 const LEVEL: f64 = 1e-6;
 
 /// A profile f(r) from a table; cheap to clone.
@@ -29,25 +28,25 @@ pub struct MeasuredProfile {
     treatment: Treatment,
 }
 
-/// What was done to the rows.
+/// Corrections made to the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Treatment {
-    /// The height at the axis, which was taken off, m.
+    /// Height at the axis, which was subtracted, m.
     pub offset: f64,
-    /// The tilt that averaging both sides removed, rad; none for a profile that begins at the axis.
+    /// Tilt that averaging both sides removed, rad; `None` for a profile that begins at the axis.
     pub tilt: Option<f64>,
-    /// The rms of half the difference of both sides, the tilt taken off, m.
+    /// Rms of half the difference of both sides, without the tilt, m.
     pub asymmetry: f64,
-    /// The rms and the largest change due to smoothing, m.
+    /// Rms and largest change due to smoothing, m.
     pub smoothed: Option<(f64, f64)>,
 }
 
 impl MeasuredProfile {
-    /// From radii (m, strictly increasing, from the axis or through it) and heights (m), smoothed over
-    /// a length of `smoothing` (m), 0 for none.
+    /// Makes a profile from radii (m, strictly increasing, from the axis or through it) and heights (m), smoothed over
+    /// a length `smoothing` (m); 0 for no smoothing.
     ///
     /// # Errors
-    /// Rows that do not make a profile, or a profile whose contact would not be a disc: its 1D image must not fall.
+    /// If the rows do not form a profile, or if the contact would not be a disc: the 1D image must not fall.
     pub fn new(radii: &[f64], heights: &[f64], smoothing: f64) -> Result<Self, Invalid> {
         let smoothing = non_negative("smoothing", smoothing)?;
         let number = FEWEST..=MOST_POINTS;
@@ -84,17 +83,17 @@ impl MeasuredProfile {
         })
     }
 
-    /// f(r), m; beyond the table by its last slope.
+    /// Returns f(r), m; beyond the table by its last slope.
     pub fn profile(&self, r: f64) -> f64 {
         self.curve.at(r)
     }
 
-    /// g(x), m: Eq. (1) of the interpolant in closed form.
+    /// Returns g(x), m: Eq. (1) of the interpolant in closed form.
     pub fn profile_1d(&self, x: f64) -> f64 {
         self.curve.image(x)
     }
 
-    /// g(x), m, of a line contact: Eq. (1L) of the interpolant in closed form.
+    /// Returns g(x), m, in a line contact: Eq. (1L) of the interpolant in closed form.
     pub fn line_profile_1d(&self, x: f64) -> f64 {
         self.curve.line_image(x)
     }
@@ -102,27 +101,27 @@ impl MeasuredProfile {
     /// Checks that the contact of a cylinder with this section is one strip at every depth.
     ///
     /// # Errors
-    /// Its 1D image falls somewhere.
+    /// If its 1D image falls somewhere.
     pub fn check_strip(&self) -> Result<(), Invalid> {
         check_disc(&self.curve, |x| self.curve.line_image(x))
     }
 
-    /// The outermost radius at which f reaches `height`, m.
+    /// Returns the outermost radius at which f reaches `height`, m.
     pub fn radius_at(&self, height: f64) -> f64 {
         self.curve.last_at(height)
     }
 
-    /// Where the table ends, m.
+    /// Returns the radius at which the table ends, m.
     pub fn last_radius(&self) -> f64 {
         self.curve.nodes().last().copied().unwrap_or_default()
     }
 
-    /// How many points lie within `radius`, m.
+    /// Returns the number of points within `radius`, m.
     pub fn points_within(&self, radius: f64) -> usize {
         self.curve.nodes().partition_point(|&r| r <= radius)
     }
 
-    /// The table in a line: how many points, and what was done to them.
+    /// Describes the table in one line: the number of points, and what was done to them.
     pub fn summary(&self) -> String {
         let Treatment {
             offset,
@@ -149,8 +148,8 @@ impl MeasuredProfile {
     }
 }
 
-/// A profile that begins at the axis: where its first radius is a little off, the parabola through the
-/// first points leads to r = 0.
+/// Completes a profile that begins near the axis: if its first radius is not 0, the parabola through the first points
+/// gives the value at r = 0.
 fn from_axis(radii: &[f64], heights: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Invalid> {
     let (mut radii, mut heights) = (radii.to_vec(), heights.to_vec());
     let (first, second) = (radii[0], radii[1]);
@@ -167,7 +166,7 @@ fn from_axis(radii: &[f64], heights: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Inv
     Ok((radii, heights))
 }
 
-/// Both sides of a trace through the axis, averaged at the union of their radii.
+/// Averages both sides of a trace through the axis at the union of their radii.
 fn fold(
     radii: &[f64],
     heights: &[f64],
@@ -192,7 +191,7 @@ fn fold(
         .collect();
     folded.push(0.0);
     folded.sort_by(f64::total_cmp);
-    // Radii of both sides that all but coincide are one.
+    // Merge radii of both sides that nearly coincide.
     let closest = 1e-6 * reach;
     folded.dedup_by(|next, before| *next - *before <= closest);
     let odd: Vec<f64> = folded.iter().map(|&r| 0.5 * (at(r) - at(-r))).collect();
@@ -212,7 +211,7 @@ fn fold(
     Ok((folded, even))
 }
 
-/// Local parabolas with Gaussian weights, of the profile continued evenly beyond the axis.
+/// Fits local parabolas with Gaussian weights to the profile, continued evenly beyond the axis.
 fn smoothed(radii: &[f64], heights: &[f64], length: f64) -> Vec<f64> {
     let reach = 4.0 * length;
     let fitted = |k: usize| {
@@ -246,7 +245,7 @@ fn smoothed(radii: &[f64], heights: &[f64], length: f64) -> Vec<f64> {
             m0 * (m2 * m4 - m3 * m3) - m1 * (m1 * m4 - m2 * m3) + m2 * (m1 * m3 - m2 * m2);
         let numerator =
             p0 * (m2 * m4 - m3 * m3) - m1 * (p1 * m4 - p2 * m3) + m2 * (p1 * m3 - p2 * m2);
-        // Too few neighbours for a parabola: the point stays as it is.
+        // With too few neighbours for a parabola, keep the point unchanged.
         if determinant > 1e-9 * m0 * m0 * m0 {
             numerator / determinant
         } else {
@@ -256,8 +255,8 @@ fn smoothed(radii: &[f64], heights: &[f64], length: f64) -> Vec<f64> {
     (0..radii.len()).map(fitted).collect()
 }
 
-/// Contact is a disc at every depth only where g rises: a spring that begins outside of one that does
-/// not touch yet would be a ring.
+/// Checks that g rises, so that contact is a disc at every depth: a spring that touches before one further in would
+/// make a ring.
 fn check_disc(curve: &Monotone, image: impl Fn(f64) -> f64) -> Result<(), Invalid> {
     let (nodes, values) = (curve.nodes(), curve.values());
     let last = nodes.len() - 1;
@@ -321,7 +320,7 @@ mod tests {
         let kept = MeasuredProfile::new(&radii, &exact, 3e-5).expect("a profile");
         let (rms, largest) = kept.treatment.smoothed.expect("smoothed");
         assert!(rms <= largest && largest < 1e-12 * exact[200], "{largest}");
-        // Noise of 1e-7 m with alternating signs makes rings of contact.
+        // Noise of 1e-7 m with alternating signs creates rings of contact.
         let noisy: Vec<f64> = exact
             .iter()
             .enumerate()

@@ -1,15 +1,14 @@
-//! Normal springs: independent, without memory. Contact is where the depth exceeds the 1D profile.
+//! Normal springs: independent and without memory. They touch where the depth exceeds the 1D profile.
 //!
-//! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics and
-//! friction, ch. 3: q_z(x) = E*(d − g(x)) where that is positive; F_z = 2∫₀ᵃ q_z dx.
+//! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics
+//! and friction, ch. 3: q_z(x) = E*(d − g(x)) where that is positive; F_z = 2∫₀ᵃ q_z dx.
 //!
-//! The edge of the contact lies between two springs. The compression d − g is known on both sides of
-//! it, negative outside, so it is interpolated there, never extrapolated: exact for a paraboloid and a
-//! cone.
+//! The edge of the contact lies between two springs. The compression d − g is known on both sides of it, negative
+//! outside, so it is interpolated, never extrapolated: exact for a paraboloid and a cone.
 //!
-//! At the end of a scar that is wrong: g rises like a root beyond it, 5 to 50 times as steeply as the load falls towards
-//! it, and a line from one to the other ends too early. The contact ends with the scar there, as far out as the loads
-//! inside lead to, and the load ends as a [dome](crate::math::abel::dome).
+//! This fails at the end of a scar: beyond it g rises like a root, 5 to 50 times as steeply as the load falls towards
+//! it, and a line from one to the other ends too early. There the contact ends with the scar, or as far out as the
+//! loads inside suggest, and the load ends as a [dome](crate::math::abel::dome).
 
 use std::hint::select_unpredictable as select;
 
@@ -25,16 +24,16 @@ use crate::math::vector::vectorized;
 /// An edge closer to a spring than this fraction of the cell counts as being on it.
 const ON_A_SPRING: f64 = 1e-9;
 
-/// Springs that a 1D profile is pressed on.
+/// Springs under a 1D profile.
 #[derive(Debug, Clone, Copy)]
 pub struct Springs<'a> {
-    /// Where they stand.
+    /// Their positions.
     pub row: &'a WinklerFoundation,
     /// The profile g, m, nodal.
     pub g: &'a [f64],
-    /// Their stiffness a length, E*, Pa.
+    /// Their stiffness per length, E*, Pa.
     pub modulus: f64,
-    /// Where a scar ends, t = r², m².
+    /// End of the scar, t = r², m².
     pub scar: Option<f64>,
 }
 
@@ -56,7 +55,7 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
     let (xs, squares) = (row.nodes(), row.squares());
     let mut contact = NormalContact::default();
     let compression = |k: usize| modulus * (depth - g[k]);
-    // Written so that NaN counts as contact and is seen, instead of passing as an open gap.
+    // Written so that NaN counts as contact and shows, rather than passing as an open gap.
     let is_open = |compression: f64| compression <= 0.0;
     contact.strongest = vectorized(
         #[inline(always)]
@@ -71,7 +70,7 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
         },
     );
     let cusp = row.cusp(&[0, 1, 2].map(compression), f64::INFINITY);
-    // One side of an edge carries nothing, the other does.
+    // One side of an edge is open, the other in contact.
     for k in changes(q, |&load| is_open(load)) {
         let ends = [compression(k - 1), compression(k)];
         let mut edge = product::edge_square(&xs[k - 1..=k], &ends, 0, cusp);
@@ -91,7 +90,7 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
     }
     if q.last().is_some_and(|&load| load != 0.0) {
         (contact.nodes, contact.radius) = (q.len(), xs[q.len() - 1]);
-        // At a rim the load ends with a jump, and as it wears it falls to that like a root.
+        // At a rim the load ends with a jump; as the contact wears, the load falls to that jump like a root.
         if scar.is_some() {
             *dome = Dome::at_rim(q, squares).map(|dome| row.measured(dome));
         }
@@ -99,7 +98,7 @@ pub fn press(springs: Springs<'_>, depth: f64, load: &mut Field) -> NormalContac
     contact
 }
 
-/// Whether a `scar` ends with the contact of the first k springs: in the same cell, or in the one before it while the
+/// Whether a `scar` ends with the contact of the first k springs: in the same cell, or in the previous one if the
 /// outermost spring has not worn yet.
 fn ends_at(scar: f64, squares: &[f64], k: usize) -> bool {
     k >= 2 && scar > squares[k - 2] && scar <= squares[k]
@@ -123,8 +122,8 @@ fn edge_of_scar(q: &[f64], squares: &[f64], [line, scar]: [f64; 2]) -> f64 {
     end.max(line).min(led_to).min(squares[last + 1])
 }
 
-/// The depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth, sought from a depth near it up to
-/// the `deepest`. `None` where the load is beyond what the row can carry there.
+/// Finds the depth (m) at which the profile carries `load` (N), to about 1e-14 of the depth, starting nearby and
+/// searching up to the `deepest`. `None` if the row cannot carry the load there.
 pub fn depth_for_load(
     springs: Springs<'_>,
     load: f64,
@@ -186,7 +185,7 @@ mod tests {
         }
     }
 
-    /// An even pressure up to the edge a = 1 of a scar, and beyond it a gap that rises five times as steeply.
+    /// A uniform pressure up to the edge a = 1 of a scar; beyond it the gap rises five times as steeply.
     #[test]
     fn the_load_on_a_scar_is_exact_wherever_it_ends() {
         for cells in [7, 50, 123] {
@@ -203,11 +202,11 @@ mod tests {
             let contact = press(scar(Some(1.0)), 0.0, &mut q);
             let exact = force(contact, &q);
             assert!((contact.radius - 1.0).abs() < 1e-14, "{}", contact.radius);
-            // The last nodes inside tell the dome.
+            // The last nodes inside determine the dome.
             assert!((exact - 1.0).abs() < 1e-3, "{exact}");
             let dome = q.dome.expect("a dome");
             assert!((dome.height - 1.0).abs() < 1e-2, "{}", dome.height);
-            // Without it the load ends too early, with too little.
+            // Without the scar the contact ends too early and carries too little.
             let contact = press(scar(None), 0.0, &mut q);
             assert!(contact.radius <= 1.0 && q.dome.is_none());
             assert!(force(contact, &q) < 1.0 - 1e-4);
@@ -241,7 +240,7 @@ mod tests {
     #[test]
     fn a_gap_in_the_middle_is_seen() {
         let (row, g) = hertz(100);
-        // A tip that has receded: contact in a ring.
+        // A worn tip: contact in a ring.
         let g: Vec<f64> = g.iter().map(|t| t + 2.0 * (0.3 - t).max(0.0)).collect();
         let mut q = Field::zeros(g.len());
         let contact = press(springs(&row, &g), 0.5, &mut q);

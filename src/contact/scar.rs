@@ -1,11 +1,11 @@
-//! A measured scar: the worn depth over the radius that a run begins with.
+//! A measured scar: the worn depth over the radius at the start of a run.
 
 use std::sync::Arc;
 
 use crate::math::grid;
 use crate::math::invalid::{Invalid, check_table, non_negative};
 
-/// The fewest and the most points of a scar.
+/// Minimum and maximum number of points.
 const FEWEST: usize = 3;
 const MOST: usize = 100_000;
 
@@ -17,10 +17,10 @@ pub struct Scar {
 }
 
 impl Scar {
-    /// From radii (m, strictly increasing, 0 or greater) and as many depths (m, 0 or greater).
+    /// Makes a scar from radii (m, strictly increasing, 0 or greater) and as many depths (m, 0 or greater).
     ///
     /// # Errors
-    /// Rows that do not make a scar; the fields are `initial_radii` and `initial_depths`.
+    /// If the rows do not form a scar; the fields are `initial_radii` and `initial_depths`.
     pub fn new(radii: &[f64], depths: &[f64]) -> Result<Self, Invalid> {
         let columns = ["initial_radii", "initial_depths"];
         check_table((columns[0], radii), (columns[1], depths), FEWEST..=MOST)?;
@@ -34,8 +34,8 @@ impl Scar {
         })
     }
 
-    /// The worn depth at `r`, m: linear in r² between the points, as wear is between nodes; that of the
-    /// first point inside it, and 0 outside of the last one.
+    /// Returns the worn depth at `r`, m: linear in r² between the points, as wear is between nodes; constant inside the
+    /// first point, and 0 outside the last one.
     pub fn depth(&self, r: f64) -> f64 {
         if r > self.last_radius() {
             return 0.0;
@@ -43,19 +43,19 @@ impl Scar {
         grid::interpolate(&self.radii, &self.depths, r)
     }
 
-    /// The greatest depth, m.
+    /// Returns the greatest depth, m.
     pub fn deepest(&self) -> f64 {
         self.depths.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The first radius from which on nothing is worn, m; the last one where that is worn as well.
+    /// Returns the first radius from which on nothing is worn, m; the last radius if that is worn as well.
     pub fn edge(&self) -> f64 {
         let last = self.depths.iter().rposition(|&depth| depth > 0.0);
         let edge = last.map_or(0, |last| (last + 1).min(self.radii.len() - 1));
         self.radii[edge]
     }
 
-    /// Where the table ends, m, and how deep it is there, m.
+    /// Returns the last radius of the table, m, and the depth there, m.
     pub fn end(&self) -> (f64, f64) {
         (self.last_radius(), self.depths[self.depths.len() - 1])
     }

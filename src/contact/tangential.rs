@@ -1,8 +1,8 @@
-//! Tangential springs: Coulomb's rule for each, with memory of its displacement.
+//! Tangential springs: each follows Coulomb's rule and remembers its displacement.
 //!
-//! The second Eq. (15) of the paper (the number is given twice): predict that a spring moves with
-//! the indenter; where G*|u| ≤ μ q_z it does (stick), elsewhere u = ±μ q_z/G* with the
-//! predictor's sign (slip). A spring out of contact carries nothing and remembers nothing: u = 0.
+//! The second Eq. (15) of the paper (the number appears twice): predict that a spring moves with the indenter. If
+//! G*|u| ≤ μ q_z it does (stick), otherwise u = ±μ q_z/G* with the predictor's sign (slip). A spring out of contact
+//! carries nothing and forgets its displacement: u = 0.
 
 use std::hint::select_unpredictable as select;
 
@@ -15,13 +15,12 @@ use crate::math::abel::kink;
 use crate::math::scan::{changes, leading};
 use crate::math::vector::vectorized;
 
-/// How far beyond its limit, as a fraction of the limit, a spring still sticks.
+/// A spring still sticks if it exceeds its limit by no more than this fraction of the limit.
 ///
-/// A spring that has shaken down touches its limit only once per cycle: rounding must not
-/// make it slip there.
+/// After shakedown a spring touches its limit only once per cycle; rounding must not make it slip there.
 const TOUCH: f64 = 1e-10;
 
-/// The same as a fraction of the largest limit, for springs that carry next to nothing.
+/// The same as a fraction of the largest limit, for springs that carry almost nothing.
 const TOUCH_OF_LARGEST: f64 = 1e-12;
 
 /// A spring sticks, as far as the stick radius is concerned, if it slips by less than this part of what the outermost one
@@ -56,30 +55,30 @@ impl SpringState {
     }
 }
 
-/// What the tangential springs need to know: the normal contact, and where they stood before.
+/// Input of the tangential springs: the normal contact and their previous displacements.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipInput<'a> {
-    /// Where the springs stand.
+    /// Positions of the springs.
     pub foundation: &'a WinklerFoundation,
     /// The normal line load q_z, N/m, nodal.
     pub normal_load: &'a [f64],
-    /// How the load falls to zero at the end of a scar.
+    /// How the load falls to zero at the end of a scar, if it does.
     pub dome: Option<Dome>,
-    /// Where the contact ends, and the largest of the load.
+    /// The edge of the contact and the largest load.
     pub contact: NormalContact,
-    /// μ/G*, 1/Pa: how far a spring of unit load can be strained.
+    /// μ/G*, 1/Pa: the largest strain of a spring under unit load.
     pub reach: f64,
-    /// u_x before, m.
+    /// Previous u_x, m.
     pub before: &'a [f64],
-    /// What the springs did in the step before.
+    /// Spring states in the previous step.
     pub held: &'a [SpringState],
 }
 
-/// Moves the indenter by `increment` (m): `spring` (m) receives the displacement of every spring
-/// after, `slip` (m) what the indenter moved and the spring did not, `hold` what it did.
+/// Moves the indenter by `increment` (m). `spring` (m) receives the new displacement of every spring, `slip` (m) the
+/// part of the motion that the spring did not follow, and `hold` its state.
 ///
-/// The slip is exactly zero where a spring sticks, so that a transform that looks inwards gives a
-/// surface slip of exactly zero inside the stick zone.
+/// The slip is exactly zero where a spring sticks, so a transform that looks inwards gives a surface slip of exactly
+/// zero inside the stick zone.
 pub fn slide(
     input: SlipInput<'_>,
     increment: f64,
@@ -95,7 +94,7 @@ pub fn slide(
     spring[nodes..].fill(0.0);
     slip[nodes..].fill(increment);
     hold[nodes..].fill(SpringState::Open);
-    // Without branches, so that the processor takes several springs at a time.
+    // Branchless, so that the processor handles several springs at a time.
     vectorized(
         #[inline(always)]
         move || {
@@ -123,9 +122,9 @@ pub fn slide(
     );
 }
 
-/// Corrects what [`slide`] did to springs that came into contact in the step, from the depth `before` to the depth
-/// `now` (m) with the 1D profile `g` (m): the indenter takes a spring along from where it touches it, in the
-/// middle of the step, and not over the whole `increment` (m).
+/// Corrects [`slide`] for springs that came into contact during the step, from the depth `before` to the depth `now`
+/// (m) with the 1D profile `g` (m): the indenter moves a spring only from the moment it touches, not over the whole
+/// `increment` (m).
 pub fn take_along_late(
     input: SlipInput<'_>,
     increment: f64,
@@ -176,7 +175,7 @@ pub fn borders(
         dome,
     } = spring;
     kinks.clear();
-    // Springs that slip at the edge stand at their limit, which ends as the load does.
+    // Springs that slip at the edge are at their limit, which ends as the load does.
     let outermost = input.contact.nodes.checked_sub(1);
     let sign = outermost.and_then(|last| states[last].sign());
     *dome = input
@@ -257,7 +256,7 @@ struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// Where stick ends in this cell, its inner spring included: x² and u_x there.
+    /// Returns x² and u_x where stick ends in this cell, which may be at its inner spring.
     fn border(&self, edge: Option<f64>) -> Option<(f64, f64)> {
         let (k, t) = (self.k, self.input.foundation.squares());
         let width = t[k + 1] - t[k];
@@ -304,7 +303,7 @@ mod tests {
     use super::*;
     use crate::math::grid::RadialGrid;
 
-    /// Springs under a Hertzian load in units of d = a = E* = G* = 1, μ = 0.1.
+    /// Test springs under a Hertzian load in units of d = a = E* = G* = 1, μ = 0.1.
     struct Bench {
         row: WinklerFoundation,
         load: Vec<f64>,
@@ -384,7 +383,7 @@ mod tests {
         let mut bench = Bench::new();
         bench.slide(0.05, 0.1);
         let there = bench.spring.nodal.clone();
-        // All but the springs at the very edge, which carry less than the increment, stick.
+        // All springs stick except at the very edge, where they carry less than the increment.
         assert!(bench.slide(-1e-9, 0.1) > 0.99);
         assert!(
             bench
@@ -402,7 +401,7 @@ mod tests {
         let mut bench = Bench::new();
         bench.slide(0.05, 0.1);
         bench.slide(-0.03, 0.1);
-        // Slipped there and back: only where 2μ(1 − x²) < 0.03. Further in, up to √½, limits are touched.
+        // Slip reverses only where 2μ(1 − x²) < 0.03. Further in, up to √½, springs just touch their limits.
         let stick = bench.slide(0.03 * (1.0 + 1e-12), 0.1);
         assert!((stick - 0.85f64.sqrt()).abs() < 0.005, "{stick}");
     }

@@ -1,12 +1,12 @@
-//! Checkpoints on a timer: one file, replaced each time, whole or not at all; and a copy in memory.
+//! Checkpoints on a timer: one file, replaced as a whole each time, and a copy in memory.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use super::file::{INTERNAL, WriteError, sweep, write_whole};
-use super::safe_open;
+use super::file::{INTERNAL, WriteError, sweep};
+use super::run_directory::{RUN_CHECKPOINT, RunDirectory};
 use super::target::Target;
 use crate::scenario::session::Session;
 
@@ -19,25 +19,25 @@ const ENDING: &str = "checkpoint";
 /// Maximum number of the explorer's checkpoints; the oldest are removed.
 const KEPT: usize = 20;
 
-/// The most numbers that are tried for a new checkpoint.
+/// Maximum number of names tried for a new checkpoint.
 const MOST_AT_ONCE: u64 = 1000;
 
-/// The largest number that a checkpoint is given. A name that ends in a larger one is not of this program.
+/// The largest number in a checkpoint's name. Names with larger numbers were not made by this program.
 const LARGEST_NUMBER: u64 = 1_000_000_000_000;
 
-/// A temporary file of this age is abandoned.
+/// Temporary files older than this are considered abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
-/// The newest state of a session on disk: in the file of its run or, while that fails, in a new file of a directory.
+/// Keeps the newest state of a session on disk: in the file of its run or, if that fails, in a new file in a directory.
 #[derive(Debug)]
 pub struct Autosave {
-    /// The run's own file.
-    home: Option<PathBuf>,
+    /// The run's own directory.
+    home: Option<RunDirectory>,
     /// Where free places are.
     directory: Option<PathBuf>,
-    /// In use since the last attempt at home failed, or where there is none.
+    /// The fallback file, in use since `home` failed or if there is no `home`.
     elsewhere: Option<Target>,
-    /// 0: only on request.
+    /// The interval; 0 saves only on request.
     every: Duration,
     last: Instant,
     /// The newest checkpoint, and its cycle.
@@ -48,7 +48,7 @@ pub struct Autosave {
 impl Autosave {
     /// Saves to `home`; falls back to a new file in `directory`. Once per interval `every`, or only on request if that
     /// is 0.
-    pub fn new(home: Option<PathBuf>, directory: Option<PathBuf>, every: Duration) -> Self {
+    pub fn new(home: Option<RunDirectory>, directory: Option<PathBuf>, every: Duration) -> Self {
         Self {
             home,
             directory,
@@ -71,18 +71,18 @@ impl Autosave {
         (!self.every.is_zero()).then_some(left)
     }
 
-    /// Whether it is time for the next.
+    /// Whether the next checkpoint is due.
     pub fn is_due(&self) -> bool {
         self.wait() == Some(Duration::ZERO)
     }
 
-    /// Writes `checkpoint`, which holds `session`; returns a message when that begins to fail or to go elsewhere. The
-    /// next one is due an interval later, even if this fails.
+    /// Writes `checkpoint`, the state of `session`. Returns a message when saving begins to fail or moves to the
+    /// fallback. The next checkpoint is due one interval later, even if this one fails.
     pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
         let (mut saved, mut failure) = (None, None);
         if let Some(home) = &self.home {
-            match write_whole(home, checkpoint) {
-                Ok(()) => saved = Some(home.clone()),
+            match home.write(RUN_CHECKPOINT, checkpoint) {
+                Ok(()) => saved = Some(home.checkpoint()),
                 Err(error) => failure = Some(error.to_string()),
             }
         }
@@ -107,7 +107,7 @@ impl Autosave {
         Some(format!("{failure}; {outcome}"))
     }
 
-    /// Writes the checkpoint in a free place of the directory; `None` without a directory.
+    /// Writes the checkpoint into the fallback file; `None` without a directory.
     fn save_elsewhere(
         &mut self,
         stem: &str,
@@ -119,29 +119,29 @@ impl Autosave {
             (None, None) => return Ok(None),
         };
         let path = place.path().to_owned();
-        // An older checkpoint there is better than nothing.
+        // If writing fails, an older checkpoint in this place is better than nothing.
         self.elsewhere.insert(place).write(checkpoint)?;
         Ok(Some(path))
     }
 
-    /// Continues with another session; the checkpoint of this one stays.
+    /// Continues with another session; keeps the checkpoint of the previous one.
     pub fn turn_over(&mut self) {
         (self.elsewhere, self.kept) = (None, None);
     }
 
-    /// The newest checkpoint that is still there, and its cycle.
+    /// Returns the newest checkpoint that still exists, and its cycle.
     pub fn kept(&self) -> Option<(&Path, f64)> {
         let (path, cycle) = self.kept.as_ref()?;
         path.exists().then_some((path, *cycle))
     }
 
-    /// Why the last checkpoint could not be saved in its place.
+    /// Returns why the last checkpoint could not be saved in its proper place.
     pub fn failure(&self) -> Option<&str> {
         self.failure.as_deref()
     }
 }
 
-/// A copy of what is computed that survives a bug: never older than `COPY_INTERVAL` where it is refreshed at every step.
+/// A copy of computed data that survives a bug; at most `COPY_INTERVAL` old if refreshed at every step.
 #[derive(Debug)]
 pub struct Recent<T> {
     copy: T,
@@ -149,7 +149,7 @@ pub struct Recent<T> {
 }
 
 impl<T> Recent<T> {
-    /// The first copy.
+    /// Makes the first copy.
     pub fn new(copy: T) -> Self {
         Self {
             copy,
@@ -157,12 +157,12 @@ impl<T> Recent<T> {
         }
     }
 
-    /// The copy.
+    /// Returns the copy.
     pub fn get(&self) -> &T {
         &self.copy
     }
 
-    /// Replaces the copy by what `make` makes, if it is too old.
+    /// Replaces the copy with the result of `make` if it is too old.
     pub fn refresh(&mut self, make: impl FnOnce() -> T) {
         if self.at.elapsed() >= COPY_INTERVAL {
             *self = Self::new(make());
@@ -170,8 +170,8 @@ impl<T> Recent<T> {
     }
 }
 
-/// Claims a new file for a session on a scenario called `stem`: creates the directory, in which only the newest
-/// checkpoints stay beside it and those of running sessions. Its number is above those of all checkpoints there.
+/// Claims a new file for a session on a scenario called `stem`, numbered above all checkpoints in the directory.
+/// Creates the directory, and removes old checkpoints of finished sessions from it.
 fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let failed = WriteError::io(directory);
     fs::create_dir_all(directory).map_err(failed)?;
@@ -181,12 +181,12 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let highest = others.iter().map(|(_, number, _)| *number).max();
     let mut excess = (others.len() + 1).saturating_sub(KEPT);
     for (_, number, path) in others {
-        // What can be claimed here belongs to no running session; the highest number stays, so that the next is new.
+        // What can be claimed belongs to no running session. The highest number stays, so that the next one is new.
         if excess > 0
             && Some(number) != highest
             && let Ok(claimed) = Target::hold(&path)
         {
-            // One that cannot be removed does no harm.
+            // A file that cannot be removed does no harm.
             let _ = fs::remove_file(claimed.path());
             excess -= 1;
         }
@@ -195,7 +195,7 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     for number in first..first + MOST_AT_ONCE {
         let path = directory.join(format!("{stem}-{number}.{ENDING}"));
         match Target::claim(&path, false) {
-            // Another explorer has it, or has had it meanwhile.
+            // Another explorer has it, or had it a moment ago.
             Err(WriteError::Refused(_)) => {}
             claimed => return claimed,
         }
@@ -203,8 +203,7 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     Err(failed(io::ErrorKind::AlreadyExists.into()))
 }
 
-/// The checkpoints in a directory: when each was written, the number at the end of its name (0 without one), and
-/// where it is.
+/// Lists the checkpoints in a directory: time of writing, number at the end of the name (0 without one), and path.
 fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(directory)? {
@@ -221,17 +220,12 @@ fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> 
     Ok(found)
 }
 
-/// Directory of the explorer's checkpoints; `None` without a home directory.
-pub fn state_directory() -> Option<PathBuf> {
-    safe_open::directory("XDG_STATE_HOME", ".local/state")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scenario::Scenario;
 
-    /// A session that comes, is kept, and goes.
+    /// Makes the checkpoint of a short session and returns its path.
     fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
         let place = free(directory, stem).expect("a place");
         place.write(stem.as_bytes()).expect("a file");
@@ -273,7 +267,7 @@ mod tests {
         names.sort();
         names.dedup();
         assert_eq!(names.len(), count, "a name was given out twice");
-        // Once it is gone, its file is like any other.
+        // After its session has ended, its file can be removed like any other.
         let path = paused.path().to_owned();
         drop(paused);
         for _ in 0..KEPT + 2 {
@@ -299,10 +293,34 @@ mod tests {
     }
 
     #[test]
+    fn a_clock_that_was_wrong_loses_nothing() {
+        let base = tempfile::tempdir().expect("a directory");
+        let days = |days: u64| Duration::from_secs(86400 * days);
+        let now = SystemTime::now();
+        for (name, at) in [
+            ("past-7.checkpoint", now - days(11_000)),
+            ("future-8.checkpoint", now + days(2)),
+            (".mdr-tui-future.tmp", now + days(2)),
+        ] {
+            let file = fs::File::create(base.path().join(name)).expect("a file");
+            file.set_modified(at).expect("a time");
+        }
+        for _ in 0..2 * KEPT {
+            let place = come_and_go(base.path(), "hertz");
+            assert!(place.exists());
+        }
+        assert_eq!(checkpoints(base.path()).expect("a directory").len(), KEPT);
+        assert!(!base.path().join("past-7.checkpoint").exists());
+        // One that could belong to a living process stays.
+        assert!(base.path().join(".mdr-tui-future.tmp").exists());
+    }
+
+    #[test]
     fn a_checkpoint_is_due_when_its_time_has_come() {
         let base = tempfile::tempdir().expect("a directory");
-        let path = base.path().join("run.checkpoint");
-        let every = |every| Autosave::new(Some(path.clone()), None, every);
+        let run = RunDirectory::claim(base.path(), false).expect("a directory");
+        let path = run.checkpoint();
+        let every = |every| Autosave::new(Some(run.clone()), None, every);
         assert!(!every(Duration::ZERO).is_due());
         assert!(!every(Duration::from_secs(60)).is_due());
         let mut always = every(Duration::from_nanos(1));
@@ -319,17 +337,26 @@ mod tests {
     #[test]
     fn what_cannot_be_saved_at_home_goes_elsewhere_and_comes_back_and_is_told_once() {
         let base = tempfile::tempdir().expect("a directory");
-        let home = base.path().join("run/run.checkpoint");
-        let state = base.path().join("state");
-        let mut autosave = Autosave::new(Some(home.clone()), Some(state), Duration::ZERO);
+        let [place, away, state] = ["run", "away", "state"].map(|name| base.path().join(name));
+        let run = RunDirectory::claim(&place, false).expect("a directory");
+        let home = run.checkpoint();
+        let mut autosave = Autosave::new(Some(run), Some(state), Duration::ZERO);
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
         let session = Session::start(scenario).expect("a contact");
+        fs::rename(&place, &away).expect("a move");
         let word = autosave.save(&session, b"one").expect("a word");
         assert!(word.contains("; checkpoints go to "), "{word}");
         assert_eq!(autosave.save(&session, b"two"), None);
         let elsewhere = autosave.kept().expect("a checkpoint").0.to_owned();
         assert_eq!(fs::read(&elsewhere).expect("the file"), b"two");
-        fs::create_dir(base.path().join("run")).expect("a directory");
+        // In its place another run begins.
+        let other = RunDirectory::claim(&place, false).expect("a directory");
+        other.write(RUN_CHECKPOINT, b"theirs").expect("a file");
+        assert_eq!(autosave.save(&session, b"two"), None);
+        assert_eq!(fs::read(&home).expect("its file"), b"theirs");
+        drop(other);
+        fs::remove_dir_all(&place).expect("a directory");
+        fs::rename(&away, &place).expect("a move");
         assert_eq!(autosave.save(&session, b"three"), None);
         assert_eq!(autosave.kept(), Some((home.as_path(), 0.0)));
         assert!(!elsewhere.exists());

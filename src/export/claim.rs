@@ -1,7 +1,7 @@
-//! Claims a directory or a file for one process, by a lock file that lives as long as the process.
+//! Claims a directory or a file for one process, with a lock file that exists as long as the process.
 //!
-//! The system's lock decides, so the file of a killed process is recognised as stale. On a file system
-//! without locks the contents, `PROCESS HOST`, decide: whoever makes the file has the claim.
+//! The system's file lock decides, so the lock file of a killed process is recognised as stale. On a file system
+//! without locks the contents, `PROCESS HOST`, decide: the process that creates the file has the claim.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
@@ -19,19 +19,19 @@ use crate::scenario::printable;
 /// The name of the lock file in a directory.
 pub const LOCK: &str = ".mdr-tui-lock";
 
-/// The longest name of a file that its lock's name repeats; longer ones would become too long.
+/// Maximum length of a file name that its lock's name repeats; with longer ones, the lock's name would be too long.
 const LONGEST: usize = 200;
 
-/// Without locks, how long a file may be empty that its maker is about to write.
+/// Without locks: how long a lock file may be empty before its maker is considered dead.
 const UNWRITTEN: Duration = Duration::from_secs(10);
 
-/// A directory or a file that belongs to this process until this is dropped.
+/// A directory or file that belongs to this process until the claim is dropped.
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
-    /// Whether the directory goes too if nothing has been written into it.
+    /// Whether to remove the directory, too, if it is still empty.
     pub(super) is_new: bool,
-    /// Locked as long as it is open.
+    /// Locked while it is open.
     file: File,
 }
 
@@ -51,7 +51,7 @@ impl Owner {
         }
     }
 
-    /// Who has written this file, where anybody has.
+    /// Returns who wrote this lock file, if anyone.
     fn of(file: &mut File) -> Option<Self> {
         let mut text = String::new();
         file.rewind().ok()?;
@@ -67,13 +67,13 @@ impl Owner {
         self.host == Self::this().host
     }
 
-    /// Whether the process may still be there. One on another machine cannot be asked.
+    /// Whether the process may still be alive. It cannot be checked on another machine.
     fn may_live(&self) -> bool {
         let process = i32::try_from(self.process).map(Pid::from_raw);
         !self.is_here() || process.is_ok_and(|process| kill(process, None) != Err(Errno::ESRCH))
     }
 
-    /// The process, in brackets.
+    /// Names the process, in brackets.
     fn named(&self) -> String {
         let (process, host) = (self.process, printable(&self.host));
         let hint = match self.is_here() {
@@ -85,17 +85,17 @@ impl Owner {
 }
 
 impl Claim {
-    /// Claims `directory`, which exists, for this process.
+    /// Claims `directory`, which must exist, for this process.
     ///
     /// # Errors
     ///
-    /// If a living process has claimed it, and if no file can be made in it.
+    /// If another living process has claimed it, or no file can be created in it.
     pub fn of_directory(directory: &Path) -> Result<Self, WriteError> {
         let words = ["another run is writing there", "choose another directory"];
         Self::by(directory.join(LOCK), directory, words)
     }
 
-    /// Claims the file at `path`, whether it is there or not, for this process.
+    /// Claims the file at `path`, whether it exists or not, for this process.
     ///
     /// # Errors
     ///
@@ -113,7 +113,8 @@ impl Claim {
         Self::by(directory_of(path).join(name), path, words)
     }
 
-    /// Claims what is at `path` by the file `lock`. If another process has it, `words` say so, and what else to do.
+    /// Claims what is at `path` with the file `lock`. If another process has it, the error says so in `words`, with
+    /// what to do instead.
     fn by(lock: PathBuf, path: &Path, words: [&str; 2]) -> Result<Self, WriteError> {
         match Self::locked(&lock) {
             Ok(Ok(file)) => Ok(Self {
@@ -126,11 +127,27 @@ impl Claim {
                 let rule = format!("{}{owner}; wait for it to end or {}", words[0], words[1]);
                 Err(WriteError::refused(path, rule))
             }
-            // Where no lock can be made, no file can.
+            // If the lock cannot be created, no file can be created there.
             Err(cause) => match lock.symlink_metadata() {
                 Ok(_) => Err(WriteError::io(&lock)(cause)),
                 Err(_) => Err(WriteError::io(path)(cause)),
             },
+        }
+    }
+
+    /// Checks that what was claimed was neither moved nor removed: its place may belong to another process by now.
+    ///
+    /// # Errors
+    ///
+    /// If the lock file is no longer at its place.
+    pub fn check(&self) -> Result<(), WriteError> {
+        match is_at(&self.file, &self.path) {
+            true => Ok(()),
+            false => {
+                let rule =
+                    "was moved, removed or cleared meanwhile, and may belong to another run by now";
+                Err(WriteError::refused(directory_of(&self.path), rule))
+            }
         }
     }
 
@@ -142,11 +159,11 @@ impl Claim {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                     match safe_open::open(path, false) {
                         Ok(file) => (file, false),
-                        // That of another user: locked all the same, and left where it is.
+                        // Another user's file can be locked, too, but not removed.
                         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
                             (safe_open::read(path)?, false)
                         }
-                        // The previous owner has removed it in the meantime.
+                        // The previous owner has just removed it.
                         Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                         Err(error) => return Err(error),
                     }
@@ -178,7 +195,7 @@ impl Claim {
                 .set_len(0)
                 .and_then(|()| file.rewind())
                 .and_then(|()| writeln!(file, "{process} {host}"));
-            // On a full disk the lock has to do.
+            // On a full disk the lock alone is enough.
             if let (false, Err(error)) = (has_lock, written) {
                 let _ = fs::remove_file(path);
                 return Err(error);
@@ -190,17 +207,17 @@ impl Claim {
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // It is still locked, so no other process has claimed what is removed here.
+        // The file is still locked, so no other process can have claimed it.
         if is_at(&self.file, &self.path) {
             let _ = fs::remove_file(&self.path);
-        }
-        if let Some(directory) = self.path.parent().filter(|_| self.is_new) {
-            let _ = fs::remove_dir(directory);
+            if self.is_new {
+                let _ = fs::remove_dir(directory_of(&self.path));
+            }
         }
     }
 }
 
-/// Locks a file until it is closed, where the file system has locks.
+/// Locks a file until it is closed, if the file system supports locks.
 fn try_lock(file: &File) -> Result<(), TryLockError> {
     if crate::failpoint::is_asked_for("no locks") {
         return Err(TryLockError::Error(io::ErrorKind::Unsupported.into()));
@@ -208,14 +225,14 @@ fn try_lock(file: &File) -> Result<(), TryLockError> {
     file.try_lock()
 }
 
-/// Whether a file was made so lately that its maker may be about to write into it.
+/// Whether a file is so new that its maker may still be about to write into it.
 fn is_young(file: &File) -> bool {
     let made = file.metadata().and_then(|about| about.modified());
     made.is_ok_and(|at| at.elapsed().is_ok_and(|age| age < UNWRITTEN))
 }
 
-/// Removes a stale lock file. Of several processes that do it at once only one renames it, and a new
-/// one that somebody has made meanwhile is put back.
+/// Removes a stale lock file. If several processes do so at once, only one of them succeeds in renaming it; if the
+/// renamed file turns out to be another process's new lock, it is put back.
 fn take_away(file: &File, path: &Path) -> io::Result<()> {
     let aside = path.with_file_name(format!(".mdr-tui-{}.tmp", std::process::id()));
     match fs::rename(path, &aside) {
@@ -228,7 +245,7 @@ fn take_away(file: &File, path: &Path) -> io::Result<()> {
     fs::remove_file(aside)
 }
 
-/// Whether the open file is the one that the path names now.
+/// Whether the open file is still the one at this path.
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let (Ok(one), Ok(other)) = (file.metadata(), path.symlink_metadata()) else {
@@ -250,11 +267,29 @@ mod tests {
         assert!(refused.to_string().contains(&owner), "{refused}");
         drop(first);
         assert!(!base.path().join(LOCK).exists());
-        // What a process leaves behind that was killed.
+        // What a killed process leaves behind.
         for stale in ["1 elsewhere\n", "999999999 here\n", "", "no number"] {
             std::fs::write(base.path().join(LOCK), stale).expect("a file");
             drop(Claim::of_directory(base.path()).expect("a stale lock"));
         }
+    }
+
+    #[test]
+    fn a_directory_in_the_place_of_a_removed_one_is_left_alone() {
+        let base = tempfile::tempdir().expect("a directory");
+        let place = base.path().join("x");
+        fs::create_dir(&place).expect("a directory");
+        let mut claim = Claim::of_directory(&place).expect("a free directory");
+        claim.is_new = true;
+        claim.check().expect("its place");
+        fs::remove_dir_all(&place).expect("a directory");
+        fs::create_dir(&place).expect("another one");
+        let other = Claim::of_directory(&place).expect("a free directory");
+        assert!(claim.check().is_err());
+        drop(claim);
+        other.check().expect("its place");
+        drop(other);
+        assert!(place.exists());
     }
 
     #[test]

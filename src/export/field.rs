@@ -1,50 +1,50 @@
-//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, and the fatigue parameters
-//! of a steady cycle, one row per point.
+//! `field.csv`: the stresses inside the half-space in the plane of motion y = 0, and the fatigue parameters of a
+//! steady-state cycle, one row per point.
 
 use super::header;
-use crate::reading::Curves;
 use crate::reading::fatigue::{Fatigue, StressCycle};
+use crate::reading::{Column, Curves};
 use crate::scenario::scalars::field;
 use crate::scenario::session::Session;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 11] = [
-    "x_m",
-    "z_m",
-    "sigma_xx_Pa",
-    "sigma_yy_Pa",
-    "sigma_zz_Pa",
-    "sigma_xz_Pa",
-    "von_mises_Pa",
-    "max_principal_Pa",
-    "swt_Pa",
-    "shear_amplitude_Pa",
-    "max_hydrostatic_Pa",
+pub const COLUMNS: [Column; 11] = [
+    Column::X,
+    Column::Z,
+    Column::StressXx,
+    Column::StressYy,
+    Column::StressZz,
+    Column::StressXz,
+    Column::VonMises,
+    Column::MaxPrincipal,
+    Column::Swt,
+    Column::ShearAmplitude,
+    Column::MaxHydrostatic,
 ];
 
-/// Half the intervals along x, and the intervals in depth.
+/// Number of intervals in half the width, and in depth.
 const HALF_WIDTH: i32 = 100;
 const DEPTH: i32 = 100;
 
-/// How far the plane reaches to either side and downwards, in contact radii.
+/// Extent of the plane to either side and downwards, in contact radii.
 const REACH: f64 = 1.5;
 
-/// The whole file for the present state of `session`: depth by depth from the surface down, x from
-/// −1.5 a to 1.5 a. Without contact the domain takes the place of a, and all stresses are zero.
+/// Returns the whole file for the present state of `session`: rows from the surface down, in each x from −1.5 a to 1.5
+/// a. Without contact the domain's radius replaces a, and all stresses are zero.
 pub fn table(session: &Session) -> String {
     let rows = rows(session).into_iter();
     let fields = rows.map(|row| row.into_iter().map(field).collect::<Vec<_>>());
     header::table(session, &COLUMNS, fields)
 }
 
-/// The rows of the file; the fatigue parameters are NaN where the motion has no steady cycle.
+/// Returns the rows of the file; the fatigue parameters are NaN if the motion has no steady-state cycle.
 pub fn rows(session: &Session) -> Vec<Vec<f64>> {
     let simulation = session.simulation();
     let seen = simulation.observe(Curves::SPRINGS);
     let load = seen.spring_load(simulation.setup().material.poisson());
     let radius = match seen.moment.contact_radius {
         contact if contact > 0.0 => contact,
-        _ => seen.radii.last().copied().unwrap_or_default(),
+        _ => seen.radii().last().copied().unwrap_or_default(),
     };
     let cycle = StressCycle::of(simulation);
     let step = REACH * radius / f64::from(HALF_WIDTH);

@@ -1,4 +1,4 @@
-//! Writes whole files or none: into a temporary file, renamed into place.
+//! Writes whole files or none: first into a temporary file, which is then renamed.
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
@@ -14,29 +14,29 @@ use thiserror::Error;
 use crate::scenario::bounded_read::is_avoidable;
 use crate::scenario::{Refusal, printable};
 
-/// A file or directory that could not be written; nothing half-written is left behind.
+/// A file or directory that could not be written; no half-written file is left behind.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// Something is there already, or another process writes it.
+    /// Something already exists there, or another process is writing it.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// The system refused.
+    /// The system reported an error.
     #[error("{}: cannot write: {cause}", path.display())]
     Io {
-        /// The path to be written.
+        /// The path that was to be written.
         path: PathBuf,
-        /// The cause; part of the message, so not a source of the error.
+        /// The cause. It is part of the message and therefore not a source of the error.
         cause: io::Error,
     },
 }
 
 impl WriteError {
-    /// Refuses what is at `path`.
+    /// Refuses to write at `path`.
     pub(super) fn refused(path: &Path, rule: impl Display) -> Self {
         Refusal::new(path.display(), rule).into()
     }
 
-    /// What becomes of an error of the system at `path`.
+    /// Turns the system's error at `path` into this error.
     pub fn io(path: &Path) -> impl Fn(io::Error) -> Self + Copy {
         move |cause| Self::Io {
             path: path.to_owned(),
@@ -44,25 +44,25 @@ impl WriteError {
         }
     }
 
-    /// Whether another choice of directory by the user would have avoided it.
+    /// Whether the user could have avoided the error by choosing another place.
     pub fn is_misuse(&self) -> bool {
         match self {
-            Self::Refused(_) => true,
+            Self::Refused(refusal) => !refusal.is_failure(),
             Self::Io { cause, .. } => is_avoidable(cause),
         }
     }
 }
 
-/// What is said of a link, a device or a pipe, which would be replaced by a file.
+/// Message for a link, a device or a pipe, which a new file would replace.
 pub(super) const IRREGULAR: &str =
     "is not a regular file (but a link, a device or a pipe); choose another name";
 
-/// A path as a shell reads it back, and no command takes it for an option.
+/// Quotes a path for a shell, and so that no command takes it for an option.
 pub fn shell_path(path: &Path) -> String {
     shell_word(before_dash(path).as_os_str())
 }
 
-/// A path of the working directory that begins with a dash, with `./` before it; others as they are.
+/// Prepends `./` to a relative path that begins with a dash; leaves other paths unchanged.
 pub fn before_dash(path: &Path) -> Cow<'_, Path> {
     if path.as_os_str().as_encoded_bytes().starts_with(b"-") {
         return Path::new(".").join(path).into();
@@ -70,7 +70,7 @@ pub fn before_dash(path: &Path) -> Cow<'_, Path> {
     path.into()
 }
 
-/// Refuses `-`, which elsewhere stands for the standard output.
+/// Refuses `-`, which usually stands for standard output.
 pub(super) fn refuse_dash(path: &Path) -> Result<(), WriteError> {
     let rule =
         "is not a name for files; /dev/stdout is the standard output, ./- is a file of this name";
@@ -80,7 +80,7 @@ pub(super) fn refuse_dash(path: &Path) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// A word as a shell reads it back.
+/// Quotes a word for a shell.
 pub fn shell_word(word: &OsStr) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
     match word.to_str() {
@@ -88,7 +88,7 @@ pub fn shell_word(word: &OsStr) -> String {
         Some(text) if text.chars().all(plain) => text.to_owned(),
         Some(text) if printable(text) == text => format!("'{}'", text.replace('\'', "'\\''")),
         _ => {
-            // Bytes that would break the line, or that a terminal would act on.
+            // Escapes bytes that would break the line or control the terminal.
             let bytes = word.as_encoded_bytes().iter();
             let escaped = bytes.map(|&byte| match byte {
                 b'\'' | b'\\' => format!("\\{}", char::from(byte)),
@@ -100,13 +100,13 @@ pub fn shell_word(word: &OsStr) -> String {
     }
 }
 
-/// Writes `contents` to `path`: to a temporary file in the same directory, flushed to the disk and
-/// renamed over `path`, so that a reader sees the old file or the new one and never a torn one.
+/// Writes `contents` to `path` through a temporary file in the same directory, which is flushed to disk and then
+/// renamed, so that a reader sees the old file or the new one, but never a part of it.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), WriteError> {
     write_whole_with(path, |out| out.write_all(contents))
 }
 
-/// [`write_whole`] with what `fill` writes, which need not be in memory at once.
+/// Like [`write_whole`], but `fill` writes the contents, which need not be in memory at once.
 pub fn write_whole_with(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -118,7 +118,7 @@ pub fn write_whole_with(
     })
 }
 
-/// [`write_whole`] by `fill`, which is given the new file; returns what `fill` returns.
+/// Like [`write_whole`], but `fill` receives the new file; returns the result of `fill`.
 pub fn write_with<T, E: From<WriteError>>(
     path: &Path,
     fill: impl FnOnce(&mut fs::File) -> Result<T, E>,
@@ -127,8 +127,8 @@ pub fn write_with<T, E: From<WriteError>>(
     let prefix = temporary_of(path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(TEMPORARY);
-    // Results are ordinary files, not secrets: what the umask leaves of 0666. Opened here, an error does not name the
-    // temporary file, which means nothing to a user.
+    // Results are ordinary files, not secrets, so their mode is 0666 minus the umask. Opening the file here keeps the
+    // temporary file's name, which means nothing to a user, out of error messages.
     let mut options = fs::File::options();
     options.read(true).write(true).create_new(true).mode(0o666);
     let made = builder.make_in(directory_of(path), |path| options.open(path));
@@ -140,28 +140,28 @@ pub fn write_with<T, E: From<WriteError>>(
     Ok(filled)
 }
 
-/// The directory of a file.
+/// Returns the directory of a file.
 pub fn directory_of(path: &Path) -> &Path {
     let parent = path.parent();
     let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
     parent.unwrap_or(Path::new("."))
 }
 
-/// How the names of unfinished files for `path` begin.
+/// Returns the prefix of temporary files for `path`.
 pub(super) fn temporary_of(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default();
     let name = crc32fast::hash(name.as_encoded_bytes());
     format!("{INTERNAL}{name:08x}-")
 }
 
-/// Prefix of files that are not results: unfinished files and locks.
+/// Prefix of temporary files and locks, which are not results.
 pub(super) const INTERNAL: &str = ".mdr-tui-";
 
-/// Suffix of unfinished files.
+/// Suffix of temporary files.
 const TEMPORARY: &str = ".tmp";
 
-/// Removes the temporary files of a directory that begin with `prefix` and are at least of this age: processes that
-/// were killed have left them behind. One that cannot be removed does no harm.
+/// Removes temporary files left behind by killed processes: those in `directory` that begin with `prefix` and are at
+/// least `age` old. Files that cannot be removed do no harm.
 pub(super) fn sweep(directory: &Path, prefix: &str, age: Duration) {
     for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
@@ -176,6 +176,7 @@ pub(super) fn sweep(directory: &Path, prefix: &str, age: Duration) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::bounded_read::Unread;
 
     #[test]
     fn a_file_is_replaced_whole_and_leaves_no_trace_of_its_making() {
@@ -192,7 +193,10 @@ mod tests {
             place.display()
         );
         assert_eq!((refused.to_string(), refused.is_misuse()), (due, true));
-        assert!(!WriteError::io(&place)(io::Error::from_raw_os_error(nix::libc::EIO)).is_misuse());
+        let broken = || io::Error::from_raw_os_error(nix::libc::EIO);
+        assert!(!WriteError::io(&place)(broken()).is_misuse());
+        let unread = Refusal::unread("x", &Unread::Io(broken()));
+        assert!(!WriteError::from(unread).is_misuse());
     }
 
     #[test]

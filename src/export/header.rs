@@ -1,38 +1,42 @@
-//! The `# key: value` lines that open every CSV file, and numbers that read back exactly.
+//! The `# key: value` lines at the top of every CSV file, and numbers that read back exactly.
 
 use crate::math::grid::RadialGrid;
+use crate::reading::Column;
 use crate::scenario::escape::{csv_line, printable};
 pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
 /// How a file begins that tells of the present state of `session`: the header and the names of the columns.
-pub fn head(session: &Session, names: &[&str]) -> String {
+pub fn head(session: &Session, columns: &[Column]) -> String {
     let entries = entries(session);
     let lines = entries.iter().map(|(key, value)| line(key, value));
-    lines.collect::<String>() + &names.join(",") + "\n"
+    lines.collect::<String>() + &csv_line(columns.iter().map(|column| column.name()))
 }
 
-/// A whole file, of the fields row by row.
+/// Returns a whole file, given the fields of each row.
 pub fn table<R: AsRef<[String]>>(
     session: &Session,
-    names: &[&str],
+    columns: &[Column],
     rows: impl IntoIterator<Item = R>,
 ) -> String {
     let rows = rows.into_iter().map(|row| csv_line(row.as_ref()));
-    rows.fold(head(session, names), |text, row| text + &row)
+    rows.fold(head(session, columns), |text, row| text + &row)
 }
 
-/// A line of a header.
+/// Returns one line of a header.
 pub fn line(key: &str, value: &str) -> String {
-    // A title must stay on its line and must not control a terminal.
+    // A title must stay on one line and must not control a terminal.
     format!("# {}: {}\n", printable(key), printable(value))
 }
 
 /// Key and value of the line of a run whose error is not known.
-pub const UNMEASURED: (&str, &str) = ("estimated_error", "not measured (--estimate-error)");
+pub const UNMEASURED: (&str, &str) = (
+    Column::WornDepthError.name(),
+    "not measured (--estimate-error)",
+);
 
-/// What the header of a file says of the present state of `session`: keys and values.
+/// Returns the keys and values of a file's header for the present state of `session`.
 pub fn entries(session: &Session) -> Vec<(String, String)> {
     let scenario = session.scenario();
     let setup = session.simulation().setup();
@@ -42,19 +46,19 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     line("mdr-tui", env!("CARGO_PKG_VERSION"));
     line("arithmetic", arithmetic());
     line("scenario", scenario.title());
-    line("cycle", &number(session.simulation().cycle()));
+    line(Column::Cycle.name(), &number(session.simulation().cycle()));
     if let Some(remark) = setup.geometry.remark() {
         line("geometry", &remark);
     }
     line("method", setup.method.name());
     line("law", law);
     if let Some(law) = &setup.wear {
-        // 1/Pa = m³/J, per friction work.
+        // 1/Pa = m³/J: worn volume per friction work.
         let k = law.coefficient();
         line("wear_coefficient_per_Pa", &number(k));
         line("wear_coefficient_mm3_per_J", &number(k * 1e9));
         line("wear_coefficient_um3_per_J", &number(k * 1e18));
-        // Archard's, per load and sliding distance, at the friction of the moment.
+        // Archard's coefficient, per load and sliding distance, at the present friction.
         let per_load = number(k * setup.material.friction() * 1e9);
         line("wear_coefficient_per_load_mm3_per_Nm", &per_load);
     }
@@ -94,7 +98,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     entries
 }
 
-/// What the last digits depend on: whether the processor multiplies and adds with one rounding.
+/// Names what the last digits depend on: whether the processor rounds a multiply-add once or twice.
 pub fn arithmetic() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
@@ -109,7 +113,7 @@ pub fn arithmetic() -> &'static str {
     }
 }
 
-/// What the cells are: graded ones may have had nothing to narrow towards.
+/// Returns the grid's spacing: a graded grid without anything to refine towards is in fact uniform.
 fn grid(setup: &Setup) -> &'static str {
     let even = RadialGrid::uniform(setup.grid.cells(), setup.grid.radius());
     match even.is_ok_and(|even| even.nodes() == setup.grid.nodes()) {
@@ -118,7 +122,7 @@ fn grid(setup: &Setup) -> &'static str {
     }
 }
 
-/// `ok`, or each check that fails with its size.
+/// Returns `ok`, or each failing check with its error.
 fn checks(session: &Session) -> String {
     let checks = session.checks();
     let failing = checks.iter().filter(|check| !check.holds());

@@ -1,21 +1,19 @@
 //! `history.csv`: one row per recorded moment.
 //!
-//! During the run, rows go to a separate file, so that neither memory nor checkpoints grow with
-//! them; the header describes the end of the run and is added then. A checkpoint holds the newest
-//! rows and the length of the file. Rows that cannot be written stay in memory and in the
-//! checkpoint.
+//! During the run, rows go to a separate file, so that neither memory nor checkpoints grow with the number of rows. The
+//! header describes the end of the run and is written then. A checkpoint holds the newest rows and the length of the
+//! file. Rows that cannot be written stay in memory and in the checkpoint.
 
 use std::io::{self, Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::header::head;
 use super::safe_open;
+use crate::reading::Column;
 use crate::scenario::scalars::{self, Reading, Value};
 use crate::scenario::session::Session;
-
-pub use crate::scenario::scalars::HISTORY as COLUMNS;
 
 /// Rows buffered in memory before they are written, bytes.
 const CHUNK: usize = 64 << 10;
@@ -23,45 +21,55 @@ const CHUNK: usize = 64 << 10;
 /// The rows recorded so far, as text.
 #[derive(Debug, Default, Clone, Serialize, Deserialize)]
 pub struct History {
-    /// The newest rows, which are not in the file yet.
+    /// The newest rows, not yet in the file.
     rows: String,
-    /// How much of the file belongs to this history, in bytes, and the CRC-32 of that.
+    /// The length of this history's part of the file, in bytes, and its CRC-32.
     written: u64,
     checksum: u32,
     last_cycle: Option<f64>,
     /// Columns after the ones that every history has.
-    further: Vec<String>,
+    further: Vec<Column>,
 }
 
 impl History {
-    /// An empty history that records the scalars of these names beside its own columns.
+    /// Makes an empty history that records the scalars `further` in addition to the standard columns.
     ///
     /// # Errors
     ///
-    /// In one line, the first name that is not a scalar, or a column already.
+    /// Names, in one line, the first of them that is not a scalar or is already a column.
     pub fn with(further: &[String]) -> Result<Self, String> {
-        for (at, name) in further.iter().enumerate() {
-            scalars::named(name)?;
-            if COLUMNS.contains(&name.as_str()) || further[..at].contains(name) {
-                return Err(format!("{name} is a column of the history already"));
-            }
-        }
-        Ok(Self {
-            further: further.to_vec(),
+        let further = further.iter().map(|name| scalars::named(name));
+        let history = Self {
+            further: further.collect::<Result<_, _>>()?,
             ..Self::default()
-        })
+        };
+        history.check_columns()?;
+        Ok(history)
     }
 
-    /// The names of all columns.
-    fn names(&self) -> impl Iterator<Item = &str> {
-        let further = self.further.iter().map(String::as_str);
-        COLUMNS.into_iter().chain(further)
+    /// Refuses a column that stands twice.
+    fn check_columns(&self) -> Result<(), String> {
+        let columns: Vec<Column> = self.columns().collect();
+        let mut further = columns.iter().enumerate().skip(Column::HISTORY.len());
+        match further.find(|(at, column)| columns[..*at].contains(column)) {
+            Some((_, column)) => Err(format!(
+                "{} is a column of the history already",
+                column.name()
+            )),
+            None => Ok(()),
+        }
+    }
+
+    fn columns(&self) -> impl Iterator<Item = Column> {
+        Column::HISTORY
+            .into_iter()
+            .chain(self.further.iter().copied())
     }
 
     /// The columns of the present moment of `session` with their values.
-    pub fn values(&self, session: &Session) -> Vec<(&str, Value)> {
+    pub fn values(&self, session: &Session) -> Vec<(Column, Value)> {
         let reading = Reading::new(session);
-        let values = self.names().map(|name| (name, reading.value(name)));
+        let values = self.columns().map(|column| (column, reading.value(column)));
         values.collect()
     }
 
@@ -76,12 +84,12 @@ impl History {
         self.length() == 0
     }
 
-    /// All that is recorded, in bytes.
+    /// Returns the size of all recorded rows, in bytes.
     fn length(&self) -> u64 {
         self.written + self.rows.len() as u64
     }
 
-    /// Forgets what was recorded after `earlier` was copied from it.
+    /// Drops what was recorded after `earlier` was copied from this history.
     pub fn rewind(&mut self, earlier: &Self) {
         match earlier.length().checked_sub(self.written) {
             Some(kept) => self.rows.truncate(kept as usize),
@@ -94,7 +102,7 @@ impl History {
         self.last_cycle = earlier.last_cycle;
     }
 
-    /// Adds the present moment of `session`, once.
+    /// Records the present moment of `session`, but no moment twice.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
         if self.last_cycle == Some(simulation.cycle()) {
@@ -104,48 +112,49 @@ impl History {
         self.rows += &(self.row(session) + "\n");
     }
 
-    /// Appends the buffered rows to the file at a path, which is asked for once there are enough of them. On an error they
-    /// stay in memory and the file is unchanged.
-    pub fn spill(&mut self, path: impl FnOnce() -> PathBuf) -> io::Result<()> {
-        if self.rows.len() < CHUNK {
-            return Ok(());
-        }
-        let mut file = safe_open::open_or_make(&path())?;
-        // Anything beyond was written by a killed run.
+    /// Whether there are enough buffered rows to [`spill`](Self::spill).
+    pub fn is_full(&self) -> bool {
+        self.rows.len() >= CHUNK
+    }
+
+    /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the file is unchanged.
+    pub fn spill(&mut self, path: &Path) -> io::Result<()> {
+        let mut file = safe_open::open_or_make(path)?;
+        // A killed run may have written rows beyond this length.
         file.set_len(self.written)?;
         file.seek(SeekFrom::Start(self.written))?;
         file.write_all(self.rows.as_bytes())?;
-        // A checkpoint that counts on them may be written at any time from now on.
+        // From now on a checkpoint may rely on these rows.
         file.sync_data()?;
         self.checksum = self.checksum_with_rows();
         self.written += self.rows.len() as u64;
-        // Not only cleared: while the disk was full, it may have become large.
+        // Frees the buffer, which may have grown large while the disk was full.
         self.rows = String::new();
         Ok(())
     }
 
-    /// The checksum of the file once the buffered rows are in it.
+    /// Returns the checksum of the file including the buffered rows.
     fn checksum_with_rows(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new_with_initial_len(self.checksum, self.written);
         sum.update(self.rows.as_bytes());
         sum.finalize()
     }
 
-    /// Whether rows are in a file, not in memory.
+    /// Whether any rows are in the file.
     pub fn has_file(&self) -> bool {
         self.written > 0
     }
 
-    /// Forgets the rows in the file: the history then begins with those in memory.
+    /// Drops the rows in the file; the history then begins with the rows in memory.
     pub fn forget_file(&mut self) {
         (self.written, self.checksum) = (0, 0);
     }
 
-    /// Copies the rows of this history that are in the file at `from`.
+    /// Copies this history's rows from the file at `from`.
     ///
     /// # Errors
     ///
-    /// If the system refuses, and of the kind `InvalidData` if the file holds others.
+    /// The system's error, or `InvalidData` if the file does not hold this history's rows.
     pub fn copy_rows(&self, from: &Path, to: &mut dyn Write) -> io::Result<()> {
         let mut rows = safe_open::read(from)?.take(self.written);
         let mut sum = crc32fast::Hasher::new();
@@ -165,14 +174,14 @@ impl History {
         }
     }
 
-    /// Checks what a checkpoint holds as if it were computed here.
+    /// Checks a history read from a checkpoint.
     ///
     /// # Errors
     ///
-    /// In one line, what no history holds.
+    /// Says in one line what is invalid.
     pub fn check(&self) -> Result<(), String> {
-        Self::with(&self.further)?;
-        let commas = self.names().count() - 1;
+        self.check_columns()?;
+        let commas = self.columns().count() - 1;
         let has_all = |row: &str| row.matches(',').count() == commas;
         let is_whole = self.rows.is_empty() || self.rows.ends_with('\n');
         if !(is_whole && is_of_cells(self.rows.as_bytes()) && self.rows.lines().all(has_all)) {
@@ -181,11 +190,11 @@ impl History {
         Ok(())
     }
 
-    /// Writes the whole table up to the present state of `session`, of which its header tells; the
-    /// rows that are not in memory are read from the file at `rows`.
+    /// Writes the whole table up to the present state of `session`, which its header describes. Rows that are not in
+    /// memory are read from the file at `rows`.
     pub fn write(&self, session: &Session, rows: &Path, out: &mut dyn Write) -> io::Result<()> {
-        let names: Vec<&str> = self.names().collect();
-        out.write_all(head(session, &names).as_bytes())?;
+        let columns: Vec<Column> = self.columns().collect();
+        out.write_all(head(session, &columns).as_bytes())?;
         if self.has_file() {
             self.copy_rows(rows, out)?;
         }
@@ -197,18 +206,18 @@ impl History {
     }
 }
 
-/// Whether a text could be of rows: cells are numbers and plain words.
+/// Whether a text may consist of rows, whose cells are numbers and plain words.
 fn is_of_cells(text: &[u8]) -> bool {
     let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"+-.,\n".contains(byte);
     text.iter().all(plain)
 }
 
-/// What is wrong with a file of other rows.
+/// Error for a file with rows of another run.
 fn foreign() -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, "holds rows of another run")
 }
 
 /// The fields of a moment, in the order of the columns.
-pub fn fields(reading: &Reading) -> [String; COLUMNS.len()] {
-    COLUMNS.map(|name| scalars::cell(&reading.value(name)))
+pub fn fields(reading: &Reading) -> [String; Column::HISTORY.len()] {
+    Column::HISTORY.map(|column| scalars::cell(&reading.value(column)))
 }

@@ -1,17 +1,23 @@
-//! `loop.csv`: the fretting loop of the last period, finely stepped on the last profile.
+//! `loop.csv`: the fretting loop of the last period, computed with fine steps on the last profile.
 
 use super::header::{field, table};
+use crate::reading::Column;
 use crate::scenario::session::Session;
 use crate::simulation::{PeriodPoint, Simulation};
 
 /// The columns, in order; the last one stays empty without a rig that yields.
-pub const COLUMNS: [&str; 4] = ["cycle", "u_x_m", "F_x_N", "rig_displacement_m"];
+pub const COLUMNS: [Column; 4] = [
+    Column::Cycle,
+    Column::Shift,
+    Column::TangentialForce,
+    Column::RigDisplacement,
+];
 
-/// The longest period that is written as a whole, in cycles; of a longer one, the last cycle.
+/// Periods of up to this many cycles are written whole; of longer ones, only the last cycle.
 const LONGEST: f64 = 20.0;
 
-/// The moments of the last period: cycle, u_x⁽⁰⁾ (m), F_x (N), displacement of the rig's actuator (m, or NaN on a stiff
-/// rig). No rows without tangential motion.
+/// Returns the moments of the last period: cycle, u_x⁽⁰⁾ (m), F_x (N), displacement of the rig's actuator (m; NaN on a
+/// stiff rig). Returns no rows without tangential motion.
 pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
     let yields = simulation.setup().drive.rig_compliance() > 0.0;
     let Some(period) = simulation.fine_period() else {
@@ -29,7 +35,7 @@ pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
     points.map(row).collect()
 }
 
-/// The whole file for the present state of `session`; `None` without tangential motion.
+/// Returns the whole file for the present state of `session`; `None` without tangential motion.
 pub fn file(session: &Session) -> Option<String> {
     let rows = rows(session.simulation());
     let fields = rows.iter().map(|row| row.map(field));

@@ -1,5 +1,4 @@
-//! Output files: tables of states and histories, written whole or not at all. Nothing here runs a
-//! simulation.
+//! Output files: tables of states and histories, written whole or not at all. This layer runs no simulations.
 
 pub mod autosave;
 pub mod claim;
@@ -8,6 +7,7 @@ pub mod file;
 pub mod header;
 pub mod history;
 pub mod last_loop;
+pub mod own_directory;
 pub mod run_directory;
 pub mod safe_open;
 pub mod state;

@@ -1,36 +1,38 @@
-//! The directory of one run: what it claims, holds until the run is at its end, and clears.
+//! The directory of one run: claiming it, the files kept there until the run ends, and cleaning it up.
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::claim::Claim;
 use super::file::{
-    INTERNAL, IRREGULAR, WriteError, before_dash, refuse_dash, shell_path, sweep, write_whole,
+    INTERNAL, IRREGULAR, WriteError, before_dash, refuse_dash, shell_path, sweep, write_whole_with,
 };
 use super::header::number;
 use super::safe_open;
+use crate::scenario::Refusal;
+use crate::scenario::bounded_read::Unread;
 use crate::scenario::checkpoint::Stamp;
 
-/// The name of the checkpoint in the directory of a run that is not at its end.
+/// The name of the checkpoint in the directory of an unfinished run.
 pub const RUN_CHECKPOINT: &str = "run.checkpoint";
 
-/// The name of the file with the rows of the history, until the run is at its end.
+/// The name of the file with the history's rows, until the run ends.
 pub const RUN_ROWS: &str = ".mdr-tui-history";
 
-/// The directory of one run's files. No other process claims it before this is dropped.
-#[derive(Debug)]
+/// The directory of one run's files. No other process can claim it until the last copy of this is dropped.
+#[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
-    claim: Claim,
+    claim: Arc<Claim>,
 }
 
 impl RunDirectory {
-    /// Takes `path` for the files of a run: makes it where there is none, and refuses one that holds
-    /// anything already unless `force` is set. A directory that a living process writes into is
-    /// refused in any case.
+    /// Claims `path` for a run. Creates the directory if necessary, and refuses one that contains anything unless
+    /// `force` is set. A directory that a living process writes into is always refused.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
         let failed = WriteError::io(path);
         refuse_dash(path)?;
@@ -39,15 +41,14 @@ impl RunDirectory {
         }
         let is_new = !path.exists();
         fs::create_dir_all(path).map_err(failed)?;
-        let mut run = Self::reopen(path)?;
-        run.claim.is_new = is_new;
+        let run = Self::hold(path, is_new)?;
         if !force {
             run.refuse_results()?;
         }
         Ok(run)
     }
 
-    /// Refuses a directory that holds anything.
+    /// Refuses a directory that contains anything.
     fn refuse_results(&self) -> Result<(), WriteError> {
         let is_empty = self.results()?.is_empty();
         let checkpoint = self.checkpoint();
@@ -64,9 +65,9 @@ impl RunDirectory {
         }
     }
 
-    /// The names of all files but those that the program keeps for itself.
+    /// Returns the names of all files except the program's internal ones.
     fn results(&self) -> Result<Vec<OsString>, WriteError> {
-        let failed = WriteError::io(&self.path);
+        let failed = |cause| Refusal::unread(self.path.display(), &Unread::Io(cause));
         let entries = fs::read_dir(&self.path).map_err(failed)?;
         let names = entries.map(|entry| entry.map(|entry| entry.file_name()));
         let names: Vec<OsString> = names.collect::<Result<_, _>>().map_err(failed)?;
@@ -74,12 +75,12 @@ impl RunDirectory {
         Ok(names.into_iter().filter(is_result).collect())
     }
 
-    /// Takes the directory that the run `stamp` has left, to continue there. `is_own` tells whether a file of this
-    /// name was written by that run.
+    /// Reclaims the directory of the run `stamp`, to continue there. `is_own` tells whether that run wrote the file of
+    /// a given name.
     ///
     /// # Errors
     ///
-    /// Unless `force` is set, if another run has used the directory since, or this one has come further there.
+    /// Unless `force` is set: if another run has used the directory since, or this run got further there.
     pub fn return_to(
         path: &Path,
         stamp: &Stamp,
@@ -120,8 +121,7 @@ impl RunDirectory {
         }
     }
 
-    /// Takes a directory that is not there yet: `stem`, or `stem-2`, `stem-3`, … in the working
-    /// directory.
+    /// Claims a new directory in the working directory: `stem`, or else `stem-2`, `stem-3`, …
     pub fn claim_new(stem: &str) -> Result<Self, WriteError> {
         let place = |name: &str| before_dash(Path::new(name)).into_owned();
         let mut path = place(stem);
@@ -133,16 +133,21 @@ impl RunDirectory {
             number += 1;
             path = place(&format!("{stem}-{number}"));
         }
-        let mut run = Self::claim(&path, false)?;
-        run.claim.is_new = true;
-        Ok(run)
+        let run = Self::hold(&path, true)?;
+        run.refuse_results().map(|()| run)
     }
 
-    /// Continues in the directory of an interrupted run and removes leftovers of a kill. Checks
-    /// now, not after an hour of computing, that files can be created there.
+    /// Claims the directory of an interrupted run again and removes what a killed process left there. Checks now,
+    /// rather than after an hour of computing, that files can be created there.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
+        Self::hold(path, false)
+    }
+
+    fn hold(path: &Path, is_new: bool) -> Result<Self, WriteError> {
         let path = path.to_owned();
-        let claim = Claim::of_directory(&path)?;
+        let mut claim = Claim::of_directory(&path)?;
+        claim.is_new = is_new;
+        let claim = Arc::new(claim);
         let rows = path.join(RUN_ROWS);
         if rows.symlink_metadata().is_ok_and(|about| !about.is_file()) {
             return Err(WriteError::refused(&rows, IRREGULAR));
@@ -151,8 +156,8 @@ impl RunDirectory {
         Ok(Self { path, claim })
     }
 
-    /// Removes the files of an earlier run, which would be taken for files of this one, but for those that `is_own`
-    /// names; what this program has not written stays.
+    /// Removes the files of an earlier run, which would be mistaken for this run's, except those that `is_own` accepts.
+    /// Files that this program did not write stay.
     pub fn clear(&self, is_own: impl Fn(&str) -> bool) -> Result<(), WriteError> {
         for name in self.results()? {
             let path = self.path.join(&name);
@@ -166,34 +171,54 @@ impl RunDirectory {
         remove(&self.checkpoint())
     }
 
-    /// Where the checkpoint of the run is until it is at its end.
+    /// Returns the path of the run's checkpoint.
     pub fn checkpoint(&self) -> PathBuf {
         self.path.join(RUN_CHECKPOINT)
     }
 
-    /// Where the rows of the history are until the run is at its end.
+    /// Returns the path of the history's rows.
     pub fn rows(&self) -> PathBuf {
         self.path.join(RUN_ROWS)
     }
 
-    /// Removes the checkpoint of a finished run.
+    /// Removes the checkpoint and the separate rows of a finished run.
     pub fn close(&self) -> Result<(), WriteError> {
+        self.check()?;
         remove(&self.checkpoint())?;
         remove(&self.rows())
     }
 
-    /// Writes one of the run's files, whole.
-    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), WriteError> {
-        write_whole(&self.path.join(name), contents.as_ref())
+    /// Checks that the directory is still this run's. Another run may have begun in its place.
+    ///
+    /// # Errors
+    ///
+    /// If it was moved or removed since it was claimed.
+    pub fn check(&self) -> Result<(), WriteError> {
+        self.claim.check()
     }
 
-    /// Where the files stand.
+    /// Writes one of the run's files, whole.
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), WriteError> {
+        self.write_with(name, |out| out.write_all(contents.as_ref()))
+    }
+
+    /// [`write`](Self::write) with what `fill` writes, which need not be in memory at once.
+    pub fn write_with(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
+        self.check()?;
+        write_whole_with(&self.path.join(name), fill)
+    }
+
+    /// Returns the path of the directory.
     pub fn path(&self) -> &Path {
         &self.path
     }
 }
 
-/// The files of a run that begin as its tables do, except those of snapshots.
+/// Files of a run that begin with its header; snapshots, whose names hold the cycle, are recognised separately.
 const TABLES: [&str; 5] = [
     "history.csv",
     "state.csv",
@@ -202,7 +227,7 @@ const TABLES: [&str; 5] = [
     "provenance.toml",
 ];
 
-/// Whether a run has written this table: it has the name and the header of one.
+/// Whether a run wrote this table, judging by its name and its header.
 fn is_of_a_run(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let cycle = name.strip_prefix("state-");
@@ -216,10 +241,10 @@ fn is_of_a_run(path: &Path) -> bool {
     read.is_ok() && start == *MARK
 }
 
-/// How tables of this program begin.
+/// The first bytes of this program's tables.
 const MARK: &[u8; 11] = b"# mdr-tui: ";
 
-/// Removes a file, if it is there.
+/// Removes a file if it exists.
 fn remove(path: &Path) -> Result<(), WriteError> {
     match fs::remove_file(path) {
         Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError::io(path)(cause)),
@@ -236,7 +261,7 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let path = base.path().join("deep/run");
         let run = RunDirectory::claim(&path, false).expect("a new directory");
-        // Not even by force, while the run is alive.
+        // Not even `force` overrides the claim of a living run.
         for force in [false, true] {
             let refusal = RunDirectory::claim(&path, force).expect_err("a claimed directory");
             let word = "another run is writing there (process ";
@@ -246,7 +271,7 @@ mod tests {
             );
         }
         drop(run);
-        // Removes the directory if nothing was written into it, unless it existed before.
+        // Dropping the claim removes the directory if it is empty, unless it existed before.
         assert!(!path.exists());
         fs::create_dir(&path).expect("a directory");
         drop(RunDirectory::claim(&path, false).expect("an empty directory"));

@@ -1,7 +1,7 @@
-//! A file that a command makes: claimed before anything is computed, and written whole at the end.
+//! An output file of a command: claimed before anything is computed, and written as a whole at the end.
 //!
-//! From its claim until it is dropped no other process makes the same file. Only a regular file is ever
-//! replaced. `/dev/stdout` is written through.
+//! While it is claimed, no other process writes the same file. Only regular files are ever replaced. `/dev/stdout` is
+//! written directly.
 
 use std::fs;
 use std::io::{self, Write};
@@ -13,30 +13,30 @@ use super::file::{
     IRREGULAR, WriteError, directory_of, refuse_dash, sweep, temporary_of, write_whole_with,
 };
 
-/// The name under which a result goes to the standard output.
+/// The path that stands for standard output.
 const STDOUT: &str = "/dev/stdout";
 
 /// A file that belongs to this process until this is dropped.
 #[derive(Debug)]
 pub struct Target {
     path: PathBuf,
-    /// None for the standard output.
+    /// `None` for standard output.
     claim: Option<Claim>,
 }
 
 impl Target {
-    /// Claims `path` for a new file, or, with `force`, in place of the regular file that is there.
+    /// Claims `path` for a new file or, with `force`, to replace an existing regular file.
     ///
     /// # Errors
     ///
-    /// If it is there, if something else than a file is, and if another process makes it.
+    /// If the file exists (without `force`), is not a regular file, or is being written by another process.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
         let target = Self::hold(path)?;
         target.refuse_existing(force)?;
         Ok(target)
     }
 
-    /// [`claim`](Self::claim) for an option that may not be given.
+    /// Like [`claim`](Self::claim), for an optional path.
     ///
     /// # Errors
     ///
@@ -45,11 +45,11 @@ impl Target {
         path.map(|path| Self::claim(path, force)).transpose()
     }
 
-    /// Claims `path`, whether the file is there or not.
+    /// Claims `path`, whether the file exists or not.
     ///
     /// # Errors
     ///
-    /// If something else than a file is there, and if another process makes the file.
+    /// If it is not a regular file, or another process is writing it.
     pub fn hold(path: &Path) -> Result<Self, WriteError> {
         let mut target = Self {
             path: path.to_owned(),
@@ -74,12 +74,12 @@ impl Target {
         Ok(target)
     }
 
-    /// [`hold`](Self::hold), in a directory that is made where it is not there; it goes again if
-    /// nothing is written into it.
+    /// Like [`hold`](Self::hold), but creates the directory if necessary. It is removed again if nothing is written
+    /// into it.
     ///
     /// # Errors
     ///
-    /// As [`hold`](Self::hold), and if the directory cannot be made.
+    /// As [`hold`](Self::hold), and if the directory cannot be created.
     pub fn hold_in_new_directory(path: &Path) -> Result<Self, WriteError> {
         let directory = directory_of(path);
         let is_new = !directory.exists();
@@ -91,11 +91,11 @@ impl Target {
         Ok(target)
     }
 
-    /// Refuses a file that is there, unless `force` is set.
+    /// Refuses an existing file unless `force` is set.
     ///
     /// # Errors
     ///
-    /// If it is there.
+    /// If the file exists.
     pub fn refuse_existing(&self, force: bool) -> Result<(), WriteError> {
         let rule = "already exists; choose another name or add --force";
         match self.exists() && !force {
@@ -104,36 +104,36 @@ impl Target {
         }
     }
 
-    /// Whether the file is there already.
+    /// Whether the file already exists.
     pub fn exists(&self) -> bool {
         !self.is_stdout() && self.path.symlink_metadata().is_ok()
     }
 
-    /// Whether the result goes to the standard output.
+    /// Whether the result goes to standard output.
     pub fn is_stdout(&self) -> bool {
         self.claim.is_none()
     }
 
-    /// The directory of the file.
+    /// Returns the directory of the file.
     pub fn directory(&self) -> &Path {
         directory_of(&self.path)
     }
 
-    /// Where the file stands.
+    /// Returns the path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes the file, whole.
+    /// Writes the file as a whole.
     ///
     /// # Errors
     ///
-    /// If the system refuses; what was there before is then there still.
+    /// If the system refuses, or the directory is another one by now; what was there before is then there still.
     pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
         self.write_with(|out| out.write_all(contents))
     }
 
-    /// [`write`](Self::write) with what `fill` writes, which need not be in memory at once.
+    /// Like [`write`](Self::write), but `fill` writes the contents, which need not be in memory at once.
     ///
     /// # Errors
     ///
@@ -142,7 +142,8 @@ impl Target {
         &self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
-        if !self.is_stdout() {
+        if let Some(claim) = &self.claim {
+            claim.check()?;
             return write_whole_with(&self.path, fill);
         }
         let mut out = io::stdout().lock();
@@ -151,12 +152,11 @@ impl Target {
     }
 }
 
-/// Writes several files that belong together. If one cannot be written, those that were not there
-/// before go again.
+/// Writes several files that belong together. If one cannot be written, the new ones written before it are removed.
 ///
 /// # Errors
 ///
-/// Of the first file that cannot be written.
+/// The error of the first file that cannot be written.
 pub fn write_all(files: &[(&Target, Vec<u8>)]) -> Result<(), WriteError> {
     let mut made: Vec<&Path> = Vec::new();
     for (target, contents) in files {

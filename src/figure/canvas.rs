@@ -1,28 +1,28 @@
-//! Primitives of a figure: lines, areas and text in millimetres, y downwards, in drawing order.
+//! Drawing primitives: lines, areas and text in millimetres, with y downwards, in drawing order.
 
 use super::font;
 pub use crate::plot::colormap::Rgb;
 
-/// Black, for axes and words.
+/// Black, for axes and text.
 pub const BLACK: Rgb = [0, 0, 0];
 
-/// White, as paper is.
+/// White, for the paper.
 pub const WHITE: Rgb = [255; 3];
 
-/// Where a text stands about its point, with the name that SVG has for it.
+/// How a text is aligned to its point; the names are SVG's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Anchor {
-    /// It begins there.
+    /// The text begins at the point.
     Start,
-    /// Its middle is there.
+    /// The text is centred at the point.
     Middle,
-    /// It ends there.
+    /// The text ends at the point.
     End,
 }
 
 impl Anchor {
-    /// The share of a text's width that stands before its point.
+    /// Returns the fraction of a text's width that lies before its point.
     pub fn share_before(self) -> f64 {
         match self {
             Self::Start => 0.0,
@@ -48,15 +48,15 @@ pub struct Line {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
-    /// A point of its baseline, mm.
+    /// A point on the baseline, mm.
     pub at: [f64; 2],
     /// The text.
     pub words: String,
-    /// The size of the font, mm.
+    /// The font size, mm.
     pub size: f64,
-    /// Where it stands about the point.
+    /// How the text is aligned to the point.
     pub anchor: Anchor,
-    /// Whether it reads upwards instead of to the right.
+    /// Whether the text runs upwards instead of to the right.
     pub upwards: bool,
 }
 
@@ -78,12 +78,12 @@ pub enum Shape {
     Text(Text),
 }
 
-/// A sheet of paper with what is on it.
+/// A sheet of paper and what is drawn on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Canvas {
     /// Width and height, mm.
     pub size: [f64; 2],
-    /// What is drawn, in order.
+    /// The shapes, in drawing order.
     pub shapes: Vec<Shape>,
     /// The title, for the file's metadata.
     pub title: String,
@@ -108,12 +108,12 @@ impl Canvas {
         self.shapes.push(Shape::Area { at, size, ink });
     }
 
-    /// Writes a line of text in a font of `size` mm, with the indices that [`font::runs`] finds in it.
+    /// Writes a line of text in a font of `size` mm, with the subscripts and superscripts found by [`font::runs`].
     pub fn text(&mut self, at: [f64; 2], words: &str, size: f64, anchor: Anchor) {
         self.set(at, words, size, anchor, false);
     }
 
-    /// Writes a line of text upwards, its middle at `at`.
+    /// Writes a line of text upwards, centred at `at`.
     pub fn text_upwards(&mut self, at: [f64; 2], words: &str, size: f64) {
         self.set(at, words, size, Anchor::Middle, true);
     }
@@ -140,7 +140,7 @@ impl Canvas {
         }
     }
 
-    /// The facts as one text, a line each.
+    /// Returns the facts as text, one per line.
     pub fn caption(&self) -> String {
         let lines = self.facts.iter();
         let lines = lines.map(|(key, value)| format!("{key}: {value}"));

@@ -1,4 +1,4 @@
-//! A chart on the paper: axes with the same ticks and units as on the screen, curves, a map, a legend.
+//! Draws a chart on paper: axes with the same ticks and units as on the screen, curves, a map, a legend.
 
 use super::canvas::{Anchor, BLACK, Canvas, WHITE};
 use super::font;
@@ -10,11 +10,11 @@ use crate::plot::segment::clip;
 use crate::plot::ticks::{Labels, Ruler};
 use crate::plot::{Chart, Curve, Scale};
 
-/// The share of the data's extent between them and the frame, above and below, so that no plateau lies on it.
-/// Zero may lie on the frame: it is an axis.
+/// Free space above and below the data, relative to their extent, so that no plateau lies on the frame. Zero may lie on
+/// the frame, because it is an axis.
 const HEADROOM: f64 = 0.04;
 
-/// Width of curves, of axes, and of the white beside a line on a map, mm.
+/// Widths of curves, of axes, and of the white margin beside a line on a map, mm.
 const CURVE: f64 = 0.35;
 const FRAME: f64 = 0.15;
 const HALO: f64 = 0.2;
@@ -22,11 +22,12 @@ const HALO: f64 = 0.2;
 /// Length of a tick, mm.
 const TICK: f64 = 1.0;
 
-/// The shares of a frame that an inset spans.
+/// Width and height of an inset, relative to the frame.
 const INSET: [f64; 2] = [0.58, 0.5];
 
 impl Chart {
-    /// What a legend below the frame takes, mm: that of a map stands there, and hides no colour.
+    /// Returns the height of the legend below the frame, mm. Only a map has its legend there, where it hides no
+    /// colours.
     pub(super) fn below(&self, look: &Look) -> f64 {
         match self.map {
             Some(_) => self.named().count() as f64 * LEGEND_LINE * look.font,
@@ -34,7 +35,7 @@ impl Chart {
         }
     }
 
-    /// The ordinate of a chart in `height` mm, with a legend of `below` mm under it.
+    /// Lays out the ordinate of a chart of `height` mm, with a legend of `below` mm under it.
     pub(super) fn ordinate(&self, height: f64, below: f64, look: &Look) -> Ordinate {
         let font = look.font;
         let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
@@ -50,8 +51,8 @@ impl Chart {
         }
     }
 
-    /// Draws the chart into the rectangle at `at` of `size` (mm), with this ordinate of its own.
-    /// An inset has the legend of its chart.
+    /// Draws the chart into the rectangle at `at` of `size` (mm), with the given ordinate. An inset has no legend: its
+    /// chart's applies.
     pub(super) fn draw(
         &self,
         is_inset: bool,
@@ -67,7 +68,7 @@ impl Chart {
             .as_ref()
             .map_or(1.4 * font, |key| key.width(font) + 1.2 * font);
         let width = (size[0] - left - right).max(1.0);
-        // A digit is about 0.57 of the font's size wide.
+        // A digit is about 0.57 times as wide as the font size.
         let across = width / (0.57 * font);
         let across = ruler(&self.x, self.bounds_on_paper()[0], across, Labels::Row(0));
         let frame = Frame {
@@ -96,7 +97,7 @@ impl Chart {
                 canvas.line(part, WHITE, CURVE + 2.0 * HALO, &[]);
             }
         }
-        // Dashes lie on top: of two curves in one place both are seen.
+        // Dashed curves lie on top, so that two curves at the same place are both visible.
         let mut curves: Vec<&Curve> = self.curves.iter().collect();
         curves.sort_by_key(|curve| curve.dashed);
         for curve in curves {
@@ -132,7 +133,8 @@ impl Chart {
         }
     }
 
-    /// The values at the ends of both axes: as given, else from the data, the ordinate's rounded.
+    /// Returns the values at the ends of both axes: the given bounds, or else the data's extent, rounded for the
+    /// ordinate.
     pub fn bounds_on_paper(&self) -> [[f64; 2]; 2] {
         let (extent, axes) = (self.extent(|_| true), [&self.x, &self.y]);
         [0, 1].map(|k| {
@@ -152,7 +154,7 @@ impl Chart {
         })
     }
 
-    /// The frame with its ticks and labels, on paper that begins at `edge`.
+    /// Draws the frame with its ticks and labels; the paper begins at `edge`.
     fn axes(&self, frame: &Frame, edge: f64, canvas: &mut Canvas, font: f64) {
         let [left, top, width, height] = [frame.left, frame.top, frame.size[0], frame.size[1]];
         let (right, bottom) = (frame.right(), frame.bottom());
@@ -165,7 +167,7 @@ impl Chart {
         ];
         canvas.line(corners.to_vec(), BLACK, FRAME, &[]);
         for (k, ruler) in frame.rulers.iter().enumerate() {
-            // A tick's outer end, and its inner one.
+            // The outer end of a tick, and the inner one.
             let place = |value: f64| {
                 let share = ruler.window.share(value)?;
                 Some(match k {
@@ -200,7 +202,7 @@ impl Chart {
         canvas.text_upwards(beside, &title(&self.y, &y.unit), font);
     }
 
-    /// The names of the curves, in the corner where they cover the least of them; those of a map below it.
+    /// Draws the names of the curves in the corner where they cover the least of them, or below a map.
     fn legend(&self, frame: &Frame, drawn: &[[[f64; 2]; 2]], canvas: &mut Canvas, look: &Look) {
         let font = 0.9 * look.font;
         if self.named().next().is_none() {
@@ -212,7 +214,7 @@ impl Chart {
         let height = line * self.named().count() as f64 + gap;
         let [left, top] = [frame.left + TICK, frame.top + TICK];
         let (right, bottom) = (frame.right() - TICK - width, frame.bottom() - TICK - height);
-        // Half millimetres of what is drawn there; a point or a short piece counts as one.
+        // Counts the drawn length inside in half millimetres; a point or a short piece counts as one.
         let covered = |[x, y]: [f64; 2]| -> usize {
             let inside = |&[a, b]: &[[f64; 2]; 2]| clip(a, b, [x, y], [x + width, y + height]);
             let lengths = drawn.iter().filter_map(inside);
@@ -245,8 +247,8 @@ impl Chart {
     }
 }
 
-/// The ordinate of a chart on paper: where its frame begins below the upper edge and how high it is, and how much its
-/// words and numbers take to the left of it, mm.
+/// The layout of a chart's ordinate on paper, mm: the space that its title and numbers take to the left of the frame,
+/// the top of the frame below the upper edge, and its height.
 pub(super) struct Ordinate {
     pub left: f64,
     top: f64,
@@ -254,5 +256,5 @@ pub(super) struct Ordinate {
     ruler: Ruler,
 }
 
-/// Height of a line of the legend, in sizes of the font.
+/// Line height of the legend, in font sizes.
 const LEGEND_LINE: f64 = 1.17;

@@ -1,26 +1,26 @@
-//! The font of figures, Noto Sans (SIL Open Font License): how wide a text is, and its outlines.
+//! The font of figures, Noto Sans (SIL Open Font License): text widths and glyph outlines.
 
 use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId};
 
-/// The font's name, as files give it.
+/// The font's name in files.
 pub const FAMILY: &str = "Noto Sans";
 
-/// The font's file, TrueType.
+/// The font file (TrueType).
 pub const FILE: &[u8] = ttf_noto_sans::REGULAR;
 
 /// The font.
 pub static FACE: LazyLock<Face<'static>> =
     LazyLock::new(|| Face::parse(FILE, 0).expect("the file is a font"));
 
-/// What a unit of the glyphs' outlines is in that of the font's size.
+/// Returns the size of one outline unit, in font sizes.
 pub fn unit() -> f64 {
     1.0 / f64::from(FACE.units_per_em())
 }
 
-/// The glyphs of a text, each with its distance from the text's beginning and its own advance, in
-/// units of the font's size. Signs that the font does not have become its empty box.
+/// Returns the glyphs of a text, each with its distance from the text's beginning and its advance, in font sizes.
+/// Characters that the font lacks become its empty box.
 pub fn glyphs(text: &str) -> Vec<(char, GlyphId, f64, f64)> {
     let mut end = 0.0;
     let glyphs = text.chars().map(|sign| {
@@ -32,19 +32,19 @@ pub fn glyphs(text: &str) -> Vec<(char, GlyphId, f64, f64)> {
     glyphs.collect()
 }
 
-/// The width of a text in units of the font's size.
+/// Returns the width of a text, in font sizes.
 pub fn width(text: &str) -> f64 {
     glyphs(text).iter().map(|(.., advance)| advance).sum()
 }
 
-/// A part of a text that is set in one size on one line.
+/// A part of a text set in one size and at one height.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// The text.
     pub words: String,
-    /// Its size, in that of the whole.
+    /// Its size, relative to the whole text's.
     pub size: f64,
-    /// How far it is raised, in sizes of the whole.
+    /// How far it is raised, in font sizes of the whole text.
     pub lift: f64,
 }
 
@@ -54,14 +54,14 @@ impl Run {
         Self { words, size, lift }
     }
 
-    /// The width in units of the whole text's size.
+    /// Returns the width, in font sizes of the whole text.
     pub fn width(&self) -> f64 {
         width(&self.words) * self.size
     }
 }
 
-/// Splits a text where indices begin and end: `F_x` and `E_d`, a letter with up to three signs, have a subscript,
-/// `10^−8` a superscript. Other texts, file names among them, stay as they are.
+/// Splits a text into plain parts, subscripts and superscripts. `F_x` and `E_d`, a letter with an index of up to three
+/// characters, have a subscript, `10^−8` a superscript; other texts, such as file names, stay unchanged.
 pub fn runs(text: &str) -> Vec<Run> {
     const SMALL: f64 = 0.7;
     let signs: Vec<char> = text.chars().collect();
@@ -83,7 +83,7 @@ pub fn runs(text: &str) -> Vec<Run> {
     runs
 }
 
-/// How many signs after the one at `at` are its index.
+/// Returns the number of characters after the one at `at` that are its index.
 fn index_length(signs: &[char], at: usize) -> usize {
     let is_bound = |at: Option<&char>| at.is_none_or(|c| " ,;:/()*²=".contains(*c));
     let (before, rest) = (&signs[..at], &signs[at + 1..]);
@@ -99,7 +99,7 @@ fn index_length(signs: &[char], at: usize) -> usize {
     }
 }
 
-/// The width of a text with its indices, in units of its size.
+/// Returns the width of a text with its indices, in font sizes.
 pub fn set_width(text: &str) -> f64 {
     runs(text).iter().map(Run::width).sum()
 }

@@ -1,4 +1,4 @@
-//! The inside of a chart on paper: where its values lie, and what of its curves lies within.
+//! The inside of a chart on paper: the positions of its values, and the visible parts of its curves.
 
 use super::canvas::Canvas;
 use super::look::Look;
@@ -7,7 +7,7 @@ use crate::plot::segment::clip;
 use crate::plot::theme::Role;
 use crate::plot::ticks::Ruler;
 
-/// Width of error bars and of the outline of symbols, and half of the size of a symbol, mm.
+/// Widths of error bars and of the outlines of symbols, and half the size of a symbol, mm.
 pub(super) const BAR: f64 = 0.2;
 const SYMBOL: f64 = 0.45;
 
@@ -29,29 +29,29 @@ impl Frame {
         self.top + self.size[1]
     }
 
-    /// Where a point lies, mm; `None` where it has no place.
+    /// Returns the position of a point, mm; `None` if it has none on an axis.
     pub fn place(&self, x: f64, y: f64) -> Option<[f64; 2]> {
         let across = self.rulers[0].window.share(x)?;
         let up = self.rulers[1].window.share(y)?;
         Some([self.left + across * self.size[0], self.height_of(up)])
     }
 
-    /// Where a share of the ordinate lies, mm.
+    /// Returns the height of a share of the ordinate, mm.
     pub fn height_of(&self, share: f64) -> f64 {
         let down = if self.downwards { share } else { 1.0 - share };
         self.top + down * self.size[1]
     }
 
-    /// The vertical line at an abscissa that lies inside.
+    /// Returns the vertical line at an abscissa; `None` outside the frame.
     pub fn vertical(&self, x: f64) -> Option<[[f64; 2]; 2]> {
         let [low, high] = self.rulers[1].window.bounds;
         self.inside(self.place(x, low)?, self.place(x, high)?)
     }
 
-    /// Draws the points of a curve that lie inside, with their error bars, and returns them.
+    /// Draws the points of a curve that lie inside, with their error bars, and returns their positions.
     pub fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
         let (ink, lowest) = (look.color(curve.role), self.rulers[1].window.bounds[0]);
-        // Not below the frame: a logarithmic axis has no place for what is not positive.
+        // Cuts bars at the lower end: on a logarithmic axis, values that are not positive have no position.
         let cut = |y: f64| if y < lowest { lowest } else { y };
         for bar in self.clipped(curve.bars().map(|(x, y)| (x, cut(y)))) {
             canvas.line(bar, ink, BAR, &[]);
@@ -66,7 +66,7 @@ impl Frame {
         drawn
     }
 
-    /// The parts of a line that lie inside.
+    /// Returns the visible parts of a line.
     pub fn clipped(&self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<[f64; 2]>> {
         let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
         let mut before: Option<[f64; 2]> = None;
@@ -85,14 +85,14 @@ impl Frame {
         parts
     }
 
-    /// The part of a segment inside the frame.
+    /// Returns the part of a segment inside the frame.
     pub fn inside(&self, from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let [low, high] = [[self.left, self.top], [self.right(), self.bottom()]];
         clip(from, to, low, high)
     }
 }
 
-/// The outline of the sign of a point: a square, a diamond or a triangle.
+/// Returns the outline of a point's symbol: a square, a diamond or a triangle.
 pub(super) fn symbol(role: Role, [x, y]: [f64; 2]) -> Vec<[f64; 2]> {
     let corners: &[[f64; 2]] = match role {
         Role::Ghost(k) if k % 3 == 1 => &[[0.0, -1.2], [1.2, 0.0], [0.0, 1.2], [-1.2, 0.0]],

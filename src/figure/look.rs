@@ -1,4 +1,4 @@
-//! The look of a figure: font size, and what roles look like in colours or shades of grey.
+//! The look of a figure: its font size, and the colours or greys of its curves.
 
 use clap::ValueEnum;
 
@@ -19,7 +19,7 @@ pub enum Style {
 /// How a figure looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// The size of the font, mm.
+    /// The font size, mm.
     pub font: f64,
     /// Colours or greys.
     pub style: Style,
@@ -35,10 +35,10 @@ const SERIES: [Rgb; 6] = [
     [86, 180, 233],
 ];
 
-/// Colours of other sources: no quantity has them.
+/// Colours of other sources, which no quantity has.
 const GHOSTS: [Rgb; 4] = [[200, 0, 60], [150, 75, 0], [90, 90, 90], [110, 0, 130]];
 
-/// Colours of words on a map: stick, partial slip, gross slip, lift-off.
+/// Colours of the words on a map: stick, partial slip, gross slip, lift-off.
 const REGIMES: [Rgb; WORDS] = [
     [69, 117, 180],
     [171, 217, 233],
@@ -47,8 +47,8 @@ const REGIMES: [Rgb; WORDS] = [
 ];
 const REGIME_GREYS: [u8; WORDS] = [110, 165, 210, 245];
 
-/// Dashes that tell grey lines apart, mm: those of states and other sources, then those of closed forms and of
-/// the unworn profile, which are drawn beside any of them.
+/// Dash patterns that tell grey lines apart, mm: first for states and other sources, then for closed forms and for the
+/// unworn profile, which are drawn beside them.
 const DASHES: [&[f64]; SERIES.len() + 2] = [
     &[],
     &[2.0, 0.8],
@@ -60,10 +60,10 @@ const DASHES: [&[f64]; SERIES.len() + 2] = [
     &[4.0, 0.8],
 ];
 
-/// Their greys.
+/// The grey of each pattern.
 const GREYS: [u8; DASHES.len()] = [0, 90, 130, 60, 110, 30, 100, 150];
 
-/// The place of a role among the greys.
+/// Returns the index of a role among the greys.
 fn rank(role: Role) -> usize {
     match role {
         Role::Shear | Role::Stick => 1,
@@ -76,7 +76,7 @@ fn rank(role: Role) -> usize {
 }
 
 impl Look {
-    /// The colour of a curve.
+    /// Returns the colour of a curve.
     pub fn color(&self, role: Role) -> Rgb {
         if matches!(role, Role::Border(_)) {
             return BLACK;
@@ -96,7 +96,7 @@ impl Look {
         }
     }
 
-    /// Dashes and gaps of a curve, mm.
+    /// Returns the dashes and gaps of a curve, mm.
     pub fn dashes(&self, role: Role, dashed: bool) -> &'static [f64] {
         match (self.style, dashed) {
             (_, _) if matches!(role, Role::Border(_)) => DASHES[rank(role)],
@@ -106,7 +106,7 @@ impl Look {
         }
     }
 
-    /// The colour of a word on a map.
+    /// Returns the colour of a word on a map.
     pub fn regime(&self, word: usize) -> Rgb {
         match self.style {
             Style::Color => REGIMES[word % WORDS],
@@ -114,9 +114,9 @@ impl Look {
         }
     }
 
-    /// The colour of a share of a map's range, 0 to 1.
+    /// Returns the colour at a share of a map's range, 0 to 1.
     pub fn mapped(&self, map: ColorMap, share: f64) -> Rgb {
-        // The number of distinct shades; neighbours that share one are drawn as one area.
+        // The number of distinct shades. Neighbours with the same shade are drawn as one area.
         const SHADES: f64 = 48.0;
         let share = ((share.clamp(0.0, 1.0) * SHADES).floor() + 0.5).min(SHADES - 0.5) / SHADES;
         match self.style {
@@ -130,7 +130,7 @@ impl Look {
 mod tests {
     use super::*;
 
-    /// Of the states of a figure each has its dashes, and what is drawn beside them has others.
+    /// Each state has different dashes, and the curves drawn beside them have others.
     #[test]
     fn greys_tell_states_apart_from_the_unworn_profile_and_the_limit() {
         let look = Look {

@@ -8,7 +8,7 @@ use super::ruler::{column, numeral, title};
 use crate::plot::ticks::Ruler;
 use crate::plot::{Axis, Map};
 
-/// What stands to the right of a map: the ticks of its colours, or its words.
+/// What is drawn to the right of a map: the ticks of its colours, or its words.
 pub(super) struct Key<'a> {
     map: &'a Map,
     ruler: Ruler,
@@ -23,7 +23,7 @@ impl<'a> Key<'a> {
         Self { map, ruler }
     }
 
-    /// The width of it all, mm.
+    /// Returns its whole width, mm.
     pub fn width(&self, font: f64) -> f64 {
         let labels = self.ruler.ticks.iter().map(|tick| numeral(&tick.label));
         let words = self.map.words.iter().map(|word| (*word).to_owned());
@@ -65,8 +65,8 @@ impl<'a> Key<'a> {
         canvas.text_upwards([edge, top + 0.5 * height], &title, font);
     }
 
-    /// Colours of the map, equal neighbours as one area. Each area also lies below the ones that are drawn after it,
-    /// but not below blank ones: where areas only touch, viewers show the paper between them.
+    /// Draws the map, equal neighbours as one area. Each area extends under the ones drawn after it, except where they
+    /// are blank: between areas that only touch, viewers let the paper show through.
     pub fn fill(&self, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, look: &Look) {
         let map = self.map;
         let range = map.range();

@@ -1,9 +1,9 @@
-//! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and what they show as CSV.
+//! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and their data as CSV.
 //!
-//! One idea per file: `canvas` (lines, areas and words in millimetres), `svg`, `png` and `pdf` (one
-//! writer each), `font`, `look` (colours and greys), `draw` (a chart on the canvas), `frame` and `map` (its parts),
-//! `study` (the charts of a sweep), `paper` (the figures of the paper). Charts, their ticks and units are those of the
-//! screen (`plot`).
+//! One idea per file: `canvas` (lines, areas and text in millimetres), `svg`, `png` and `pdf` (one writer each),
+//! `font`, `look` (colours and greys), `draw` (a chart on the canvas), `frame` and `map` (its parts), `study` (the
+//! charts of a sweep), `paper` (the figures of the paper). Charts, ticks and units are the same as on the screen
+//! (`plot`).
 
 use std::fmt::Write;
 use std::io;
@@ -34,28 +34,28 @@ use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::Refusal;
 use crate::scenario::escape::csv_line;
 
-/// The kinds of files, by what their names end in.
+/// The file formats, recognised by the extension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::EnumString)]
 #[strum(ascii_case_insensitive)]
 pub enum Format {
-    /// Vectors, words as words.
+    /// Vector graphics; text stays text.
     Svg,
     /// Pixels.
     Png,
-    /// Vectors, the font embedded.
+    /// Vector graphics with an embedded font.
     Pdf,
 }
 
 impl Format {
-    /// The format that a name ends in.
+    /// Returns the format for the extension of `path`.
     pub fn of(path: &Path) -> Option<Self> {
         path.extension()?.to_str()?.parse().ok()
     }
 
-    /// The whole file of a figure; `dpi` is for pixels.
+    /// Returns the whole file of a figure; only a PNG needs `dpi`.
     ///
     /// # Errors
-    /// If a PNG has no pixels, or too many.
+    /// If a PNG would have no pixels or too many.
     pub fn write(self, canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
         match self {
             Self::Svg => Ok(svg::write(canvas).into_bytes()),
@@ -68,7 +68,7 @@ impl Format {
 /// The columns of a figure's data.
 pub const DATA_COLUMNS: &str = "panel,curve,x,y,value,error";
 
-/// Charts on a sheet.
+/// A sheet with one or more charts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
     /// The title, for the file's metadata.
@@ -80,11 +80,11 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// Draws the sheet into `pictures`, on paper of a size in mm or the usual one, and writes its data into `tables`:
-    /// all of them or none. `dpi` is for pixels.
+    /// Draws the sheet into `pictures`, on paper of the given size in mm or the usual one, and writes its data into
+    /// `tables`; writes all of them or none. Only a PNG needs `dpi`.
     ///
     /// # Errors
-    /// Of the first file that cannot be made or written.
+    /// The error of the first file that cannot be made or written.
     pub fn save(
         &self,
         look: &Look,
@@ -94,7 +94,7 @@ impl Sheet {
         tables: &[Target],
     ) -> Result<(), WriteError> {
         let canvas = self.draw(size.unwrap_or_else(|| self.usual_size()), look);
-        // The data first: a kill in between leaves no picture with the data of an older one.
+        // Writes the data first, so that a kill in between leaves no new picture with old data.
         let data = self.csv().into_bytes();
         let mut files: Vec<(&Target, Vec<u8>)> = Vec::new();
         files.extend(tables.iter().map(|target| (target, data.clone())));
@@ -105,7 +105,7 @@ impl Sheet {
         write_all(&files)
     }
 
-    /// How many charts stand side by side.
+    /// Returns the number of charts side by side.
     fn columns(&self) -> usize {
         match self.charts.len() {
             0 | 1 => 1,
@@ -114,7 +114,7 @@ impl Sheet {
         }
     }
 
-    /// The size that fits the columns of a journal, mm.
+    /// Returns the size that fits the columns of a journal, mm.
     pub fn usual_size(&self) -> [f64; 2] {
         let maps = self.charts.iter().filter(|chart| chart.map.is_some());
         let lines = maps.map(|map| map.curves.len()).max().unwrap_or(0);
@@ -128,7 +128,7 @@ impl Sheet {
         }
     }
 
-    /// Draws all charts on paper of a size in mm; several are lettered.
+    /// Draws all charts on paper of a size in mm; several charts are lettered.
     pub fn draw(&self, size: [f64; 2], look: &Look) -> Canvas {
         let mut canvas = Canvas {
             size,
@@ -140,7 +140,7 @@ impl Sheet {
         let rows = self.charts.len().div_ceil(columns).max(1);
         let place = [size[0] / columns as f64, size[1] / rows as f64];
         let mut charts = self.charts.clone();
-        // Beside the names of other sources a curve alone has one, too.
+        // A single unnamed curve gets a name if other sources are drawn beside it.
         for chart in &mut charts {
             let is_ghost = |curve: &Curve| matches!(curve.role, Role::Ghost(_));
             let has_ghosts = chart.curves.iter().any(is_ghost);
@@ -155,7 +155,7 @@ impl Sheet {
                 chart.title = format!("({}) {}", letter(k), chart.title);
             }
         }
-        // Frames in a row end at one height, and those in a column begin at one place.
+        // Aligns the bottoms of frames in a row and the left edges of frames in a column.
         let lowest = |row: &[Chart]| {
             row.iter()
                 .map(|chart| chart.below(look))
@@ -178,7 +178,7 @@ impl Sheet {
         canvas
     }
 
-    /// The drawn data: one row per point of each curve and per point of each map.
+    /// Returns the drawn data: one row per point of each curve and of each map.
     pub fn csv(&self) -> String {
         let mut text = line("mdr-tui", env!("CARGO_PKG_VERSION"));
         text.extend(self.facts.iter().map(|(key, value)| line(key, value)));
@@ -217,7 +217,7 @@ impl Sheet {
     }
 }
 
-/// The letter of a chart.
+/// Returns the letter of a chart.
 fn letter(k: usize) -> char {
     char::from(b'a' + (k % 26) as u8)
 }

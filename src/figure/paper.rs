@@ -1,4 +1,4 @@
-//! The figures of Li, Forsbach & Benad (2019), point by point.
+//! The figures of Li, Forsbach & Benad (2019), computed at the same points.
 
 use super::Sheet;
 use crate::charts::{Run, profile, springs, stresses};
@@ -9,14 +9,14 @@ use crate::scenario::Refusal;
 use crate::simulation::Breakdown;
 use crate::studies::verify::{Problem, Task};
 
-/// N of the paper's figures.
+/// N in the paper's figures.
 pub const POINTS: usize = 100;
 
-/// Fig. 2: errors of methods A and B on a Hertzian contact, relative to theory, node by node: (a) 1D
-/// profile, (b) normal stress, (c) normal deformation.
+/// Fig. 2: relative errors of methods A and B on a Hertzian contact, node by node: (a) 1D profile, (b) normal stress,
+/// (c) normal deformation.
 ///
 /// # Errors
-/// If one of the methods stops.
+/// If one of the methods breaks down.
 pub fn errors(points: usize) -> Result<Sheet, Breakdown> {
     let titles = ["1D profile", "normal stress", "normal deformation"];
     let mut charts = titles.map(|title| {
@@ -48,16 +48,16 @@ pub fn errors(points: usize) -> Result<Sheet, Breakdown> {
     })
 }
 
-/// Fig. 3: (a) 3D profiles and (b) 1D profiles at all states, stresses at (c) the first and (d) the last.
+/// Fig. 3: (a) 3D profiles and (b) 1D profiles of all states, stresses of (c) the first and (d) the last.
 ///
 /// # Errors
-/// If the run has no data for it.
+/// If the run lacks the data for it.
 pub fn fretting(run: &Run) -> Result<Sheet, Refusal> {
     let mut charts = vec![
         profile::RECIPE.on_paper(run)?,
         springs::RECIPE.on_paper(run)?,
     ];
-    // A run without states has none of the others.
+    // Without states, the other charts are left out.
     let ends = [run.states.first(), run.states.last()];
     for state in ends.into_iter().flatten() {
         let one = Run {

@@ -1,5 +1,5 @@
-//! A figure as PDF: one page of the figure's size, vector lines, and the font embedded, so that words
-//! can be searched and copied.
+//! Writes a figure as PDF: one page of the figure's size, vector lines, and the embedded font, so that text can be
+//! searched and copied.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{CidFontType, FontFlags, LineJoinStyle, SystemInfo, UnicodeCmap};
@@ -8,28 +8,28 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 use super::canvas::{Canvas, Rgb, Shape};
 use super::font;
 
-/// Points of a millimetre.
+/// Points per millimetre.
 const POINTS: f64 = 72.0 / 25.4;
 
-/// What the font is called inside of the file.
+/// Names of the font inside the file.
 const BASE_FONT: Name<'static> = Name(b"NotoSans-Regular");
 const FONT: Name<'static> = Name(b"F1");
 const CMAP: Name<'static> = Name(b"Custom");
 
-/// Adobe-Identity-0: glyphs by their number.
+/// Adobe-Identity-0: glyphs are addressed by number.
 const IDENTITY: SystemInfo<'static> = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
 };
 
-/// How hard the font and the page are compressed: 0 to 10.
+/// Compression level of the font and the page, 0 to 10.
 const EFFORT: u8 = 6;
 
-/// The object of the font, which the page names.
+/// The font's object, to which the page refers.
 const FONT_OBJECT: Ref = Ref::new(6);
 
-/// The whole file.
+/// Returns the whole file.
 pub fn write(canvas: &Canvas) -> Vec<u8> {
     let [catalog, pages, page, contents, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let mut pdf = Pdf::new();
@@ -44,7 +44,7 @@ pub fn write(canvas: &Canvas) -> Vec<u8> {
     sheet.finish();
     let mut drawing = Content::new();
     let scale = POINTS as f32;
-    // Millimetres from the upper left corner; words are turned upright again.
+    // Millimetres from the upper left corner; text is flipped upright again.
     drawing.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
     for shape in &canvas.shapes {
         draw(shape, &mut drawing);
@@ -109,7 +109,7 @@ fn shares(ink: Rgb) -> [f32; 3] {
     ink.map(|part| f32::from(part) / 255.0)
 }
 
-/// Embeds the font, with the widths and the meanings of the glyphs that are used.
+/// Embeds the font, with the widths and Unicode values of the glyphs used.
 fn embed_font(pdf: &mut Pdf, canvas: &Canvas) {
     let [cid_font, described, to_unicode, file] = [7, 8, 9, 10].map(Ref::new);
     let texts = canvas.shapes.iter().filter_map(|shape| match shape {

@@ -1,4 +1,4 @@
-//! A figure as PNG, at a resolution that the file states; the caption's facts are in its text.
+//! Writes a figure as PNG, with its resolution in the file and the caption's facts as text.
 
 use std::io;
 
@@ -13,13 +13,13 @@ use super::font;
 
 const INCH: f64 = 25.4;
 
-/// The most pixels of an image: some 400 MB.
+/// Maximum number of pixels, some 400 MB.
 const MOST_PIXELS: f64 = 1e8;
 
-/// The whole file at `dpi` dots per inch.
+/// Returns the whole file at `dpi` dots per inch.
 ///
 /// # Errors
-/// If the image has no pixel or more than 1e8, or the encoder refuses the text.
+/// If the image has no pixels or more than 1e8, or the encoder rejects the text.
 pub fn write(canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
     let scale = dpi / INCH;
     let [width, height] = canvas.size.map(|length| (length * scale).round());
@@ -49,7 +49,7 @@ pub fn write(canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
     encoder.add_itxt_chunk("Title".into(), canvas.title.clone())?;
     encoder.add_itxt_chunk("Description".into(), canvas.caption())?;
     let mut writer = encoder.write_header()?;
-    // Nothing is transparent, so premultiplied colours are plain ones.
+    // Nothing is transparent, so premultiplied colours equal plain ones.
     writer.write_image_data(pixels.data())?;
     writer.finish()?;
     Ok(file)
@@ -81,7 +81,7 @@ fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
             let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(|v| v as f32);
             if let Some(area) = Rect::from_xywh(x, y, w, h) {
                 let mut paint = paint(*ink);
-                // Neighbouring areas of a map show no seam.
+                // Without antialiasing, neighbouring areas of a map show no seam.
                 paint.anti_alias = false;
                 pixels.fill_rect(area, &paint, to_pixels, None);
             }
@@ -113,7 +113,7 @@ fn paint([red, green, blue]: Rgb) -> Paint<'static> {
     paint
 }
 
-/// Makes a path of a glyph's outline.
+/// Makes a path from a glyph's outline.
 struct Pen(PathBuilder);
 
 impl OutlineBuilder for Pen {

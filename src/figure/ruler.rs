@@ -1,4 +1,4 @@
-//! The ticks of an axis on paper, and its words and numbers as print has them.
+//! The ticks of an axis on paper, with its title and numbers as printed.
 
 use crate::plot::axis::titled;
 use crate::plot::ticks::{Labels, Ruler};
@@ -6,27 +6,27 @@ use crate::plot::units::AxisUnit;
 use crate::plot::window::Window;
 use crate::plot::{Axis, Scale};
 
-/// The ratio of the ends of a logarithmic axis up to which its labels have one prefix instead of powers of ten.
+/// Logarithmic axes with a smaller ratio of their ends have one unit prefix instead of powers of ten.
 const ONE_PREFIX: f64 = 1.1e4;
 
-/// An axis with room for this many labels.
+/// Lays out an axis with room for this many labels.
 pub(super) fn ruler(axis: &Axis, bounds: [f64; 2], cells: f64, labels: Labels) -> Ruler {
     let cells = cells.clamp(2.0, 400.0) as u16;
     let window = Window::new(bounds, axis.scale, cells, 16);
     Ruler::new(window, unit_of(axis, bounds), labels)
 }
 
-/// An axis of this height, mm.
+/// Lays out an axis of this height, mm.
 pub(super) fn column(axis: &Axis, bounds: [f64; 2], height: f64, font: f64) -> Ruler {
     ruler(axis, bounds, height / (1.2 * font), Labels::Column)
 }
 
-/// What an axis shows, with the unit of its labels.
+/// Returns the title of an axis, with the unit of its labels.
 pub(super) fn title(axis: &Axis, unit: &AxisUnit) -> String {
     titled(&axis.label, &numeral(&unit.text), ['(', ')'])
 }
 
-/// The unit that an axis is labelled in; logarithmic ones over many decades keep that of the data.
+/// Returns the unit of an axis' labels; logarithmic axes over many decades keep the data's unit.
 fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
     let is_narrow = !axis.unit.is_empty() && bounds[1] / bounds[0] < ONE_PREFIX;
     match axis.scale {
@@ -38,7 +38,7 @@ fn unit_of(axis: &Axis, bounds: [f64; 2]) -> AxisUnit {
     }
 }
 
-/// A number, alone or before a unit, as print has it: a true minus sign, and 2e-8 as 2·10^−8.
+/// Formats a number, alone or before a unit, for print: with a true minus sign, and 2e-8 as 2·10^−8.
 pub(super) fn numeral(text: &str) -> String {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
     if number.parse::<f64>().is_err() {

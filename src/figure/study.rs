@@ -1,4 +1,4 @@
-//! Charts of a study's table: a map over two axes, curves over one, points of a sampled design.
+//! Charts of a sweep's table: a map over two axes, curves over one axis, or points of a sampled design.
 
 use std::iter;
 
@@ -7,67 +7,67 @@ use crate::math::scan::range;
 use crate::plot::colormap::ColorMap;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
-use crate::reading::Regime;
-use crate::scenario::{scalars, schema};
+use crate::reading::column::unit_of;
+use crate::reading::{Column, Regime};
+use crate::scenario::nearest::nearest;
+use crate::scenario::{printable, schema};
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{self, Design};
-use crate::traces::unit_of;
 
-/// The most charts of a sheet that nobody chose the columns of.
+/// Maximum number of charts by default.
 const MOST_CHARTS: usize = 4;
 
-/// Positive values whose ends have this ratio or a larger one are shown on a logarithmic scale.
+/// Positive values with at least this ratio of largest to smallest get a logarithmic scale.
 const DECADES: f64 = 100.0;
 
-/// How much of the data's extent is left free beside curves with symbols.
+/// Free space beside curves with symbols, relative to the data's extent.
 const MARGIN: f64 = 0.04;
 
-/// What interrupts a line.
+/// Interrupts a line.
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 /// The column of the words.
-const REGIME: &str = "regime";
+const REGIME: Column = Column::Regime;
 
 /// Quantities whose estimated error studies can record, and the column that holds it, relative to the quantity.
-const ERRORS: [(&str, &str); 5] = [
-    ("scar_depth_m", "estimated_error_deepest"),
-    ("wear_volume_m3", "estimated_error_volume"),
-    ("dissipated_energy_J", "estimated_error_energy"),
-    ("energy_per_cycle_J", "estimated_error_loop"),
-    ("contact_radius_m", "estimated_error_contact_radius"),
+const ERRORS: [(Column, Column); 5] = [
+    (Column::ScarDepth, Column::DeepestError),
+    (Column::WearVolume, Column::VolumeError),
+    (Column::DissipatedEnergy, Column::EnergyError),
+    (Column::EnergyPerCycle, Column::LoopError),
+    (Column::ContactRadius, Column::ContactRadiusError),
 ];
 
-/// The sheet of a study that is called `name`: a chart for each of `columns`, or for the first ones.
+/// Makes the sheet of the study called `name`: one chart for each of `columns`, or for the default ones.
 ///
 /// # Errors
-/// In one line, a column that the study does not have, or of which no point has a value.
+/// Names, in one line, a column that the study lacks or that has no values.
 pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, String> {
     let study = &slice.study;
-    let known: Vec<&str> = study.columns.iter().map(|column| column.name).collect();
-    let has_values = |column: &&str| {
+    let has_values = |column: &Column| {
         let mut points = slice.points();
-        points.any(|point| slice.field(point, column).is_some())
+        points.any(|point| slice.field(point, *column).is_some())
     };
-    let chosen: Vec<&str> = match columns {
-        [] => usual(slice, &known)
-            .into_iter()
-            .filter(has_values)
-            .collect(),
-        columns => columns.iter().map(String::as_str).collect(),
-    };
-    for column in &chosen {
-        if !known.contains(column) {
-            let known = known.join(", ");
-            return Err(format!("--column {column}: {name} has {known}"));
-        }
-        if !has_values(column) {
-            return Err(format!("--column {column}: no point of {name} has a value"));
-        }
+    let mut chosen = usual(slice);
+    chosen.retain(has_values);
+    if !columns.is_empty() {
+        let names = || study.columns.iter().map(|column| column.name());
+        let chosen_by = |column: &String| match names().position(|known| known == column) {
+            Some(at) if has_values(&study.columns[at]) => Ok(study.columns[at]),
+            Some(_) => Err(format!("--column {column}: no point of {name} has a value")),
+            None => {
+                let (column, known) = (printable(column), names().collect::<Vec<_>>().join(", "));
+                let near = nearest(&column, names());
+                let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+                Err(format!("--column {column}: {near}{name} has {known}"))
+            }
+        };
+        chosen = columns.iter().map(chosen_by).collect::<Result<_, _>>()?;
     }
     if chosen.is_empty() {
         return Err(format!("{name}: no point has a value to draw"));
     }
-    let charts = chosen.iter().map(|column| {
+    let charts = chosen.into_iter().map(|column| {
         let mut chart = chart(slice, column, [slice.borders(), slice.criteria()]);
         chart.curves.splice(0..0, regime_border(slice, column));
         chart
@@ -80,17 +80,17 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
 }
 
 /// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
-fn usual<'a>(slice: &Slice, known: &[&'a str]) -> Vec<&'a str> {
-    let named = known.iter().copied();
+fn usual(slice: &Slice) -> Vec<Column> {
+    let named = slice.study.columns.iter().copied();
     let regime = named.clone().filter(|name| *name == REGIME);
-    let plain = named.filter(|name| *name != REGIME && !name.starts_with("estimated_error"));
+    let plain = named.filter(|column| *column != REGIME && !Column::ERRORS.contains(column));
     match slice.y {
         Some(_) => plain.take(1).chain(regime).collect(),
         None => plain.take(MOST_CHARTS).collect(),
     }
 }
 
-/// What a caption needs.
+/// Returns the facts for a caption.
 fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     let study = &slice.study;
     let mut facts = vec![
@@ -113,14 +113,14 @@ fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
     facts
 }
 
-/// Numbers of the values of a study's axis; the places of words.
+/// Returns the positions of an axis' values: the numbers themselves, or the indices of words.
 fn places(axis: &sweep::Axis) -> Vec<f64> {
     let all = 0..axis.count();
     all.map(|place| axis.number(place).unwrap_or(place as f64))
         .collect()
 }
 
-/// An axis of a study in words, with its unit.
+/// Returns an axis of a study with its title and unit.
 pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
     let unit = slice.study.unit(axis);
     let label = schema::find(&axis.key).and_then(|known| known.label);
@@ -137,19 +137,18 @@ pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
 }
 
 /// A column of a study in words, with its unit; logarithmic where its `values` span decades.
-pub fn quantity(column: &str, values: &[f64]) -> Axis {
-    let label = scalars::find(column)
-        .map_or(column, |scalar| scalar.meaning)
-        .to_owned();
+pub fn quantity(name: &str, values: &[f64]) -> Axis {
+    let label =
+        Column::find(name).map_or_else(|| name.to_owned(), |column| column.meaning().to_owned());
     let shown = values.iter().copied().filter(|value| value.is_finite());
-    Axis::new(label, unit_of(column)).scale(match range(shown) {
+    Axis::new(label, unit_of(name)).scale(match range(shown) {
         Some([low, high]) if low > 0.0 && high / low >= DECADES => Scale::Log,
         _ => Scale::Linear,
     })
 }
 
 /// The values of a column at points; those of the regimes are the numbers of their words.
-fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> Vec<f64> {
+fn values(slice: &Slice, column: Column, points: impl Iterator<Item = usize>) -> Vec<f64> {
     let value = |point| match column {
         REGIME => slice.regime(point).map(|regime| f64::from(regime as u8)),
         _ => slice.number(point, column),
@@ -160,14 +159,14 @@ fn values(slice: &Slice, column: &str, points: impl Iterator<Item = usize>) -> V
 }
 
 /// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
-pub fn chart(slice: &Slice, column: &str, lines: [Vec<Line>; 2]) -> Chart {
+pub fn chart(slice: &Slice, column: Column, lines: [Vec<Line>; 2]) -> Chart {
     match slice.y() {
         Some(upwards) => map(slice, upwards, column, lines),
         None => points(slice, column),
     }
 }
 
-/// An axis of a map, its places, and the edges between them.
+/// Returns an axis of a map, its positions, and the edges between them.
 fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
     let (shown, places) = (paper_axis(slice, axis), places(axis));
     let edges = shown.edges(&places);
@@ -176,11 +175,11 @@ fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
     (shown.bounds(bounds), places, edges)
 }
 
-/// A column over two axes as colours, with a letter at the end of each line.
+/// Makes a chart of a column as colours over two axes, with a letter at the end of each line.
 fn map(
     slice: &Slice,
     upwards: &sweep::Axis,
-    column: &str,
+    column: Column,
     [borders, criteria]: [Vec<Line>; 2],
 ) -> Chart {
     let [(x, xs, _), (y, ys, _)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
@@ -189,7 +188,7 @@ fn map(
     let title = if is_regime { "running condition" } else { "" };
     let mut chart = Chart::new(title, x, y);
     chart.map = Some(Map {
-        quantity: quantity(column, if is_regime { &[] } else { &values }),
+        quantity: quantity(column.name(), if is_regime { &[] } else { &values }),
         values,
         colors: ColorMap::Sequential,
         words: match is_regime {
@@ -198,7 +197,7 @@ fn map(
         },
         places: [xs, ys],
     });
-    // The value of a word is its place.
+    // The value of a word is its index.
     let value = |axis: &sweep::Axis, place: f64| axis.value_at(place).unwrap_or(place);
     let spot = |[x, y]: [f64; 2]| (value(slice.x(), x), value(upwards, y));
     let criteria = criteria.into_iter().enumerate();
@@ -221,7 +220,7 @@ fn map(
 
 /// The edges of a map's cells between points of different regimes, with gaps; `None` without any, and where the
 /// `column` itself shows them.
-fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
+fn regime_border(slice: &Slice, column: Column) -> Option<Curve> {
     let upwards = slice.y().filter(|_| column != REGIME)?;
     let [(_, _, across), (_, _, up)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
     let [wide, high] = slice.size();
@@ -246,7 +245,7 @@ fn regime_border(slice: &Slice, column: &str) -> Option<Curve> {
 
 /// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
 /// one axis alone tells the points apart.
-fn points(slice: &Slice, column: &str) -> Chart {
+fn points(slice: &Slice, column: Column) -> Chart {
     let places = places(slice.x());
     let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);
     let mut order: Vec<usize> = (0..places.len()).collect();
@@ -256,13 +255,17 @@ fn points(slice: &Slice, column: &str) -> Chart {
     let shown = || order.iter().map(|&x| slice.point_at(x, 0));
     let ys = values(slice, column, shown());
     let of_column = ERRORS.iter().find(|(of, _)| *of == column);
-    let errors = of_column.map(|(_, error)| values(slice, error, shown()));
+    let errors = of_column.map(|(_, error)| values(slice, *error, shown()));
     let errors = errors.filter(|errors| errors.iter().any(|error| error.is_finite()));
     let bars = errors.map(|errors| {
         let both = ys.iter().zip(&errors);
         both.map(|(y, error)| (y * error).abs()).collect()
     });
-    let mut chart = Chart::new("", paper_axis(slice, slice.x()), quantity(column, &ys));
+    let mut chart = Chart::new(
+        "",
+        paper_axis(slice, slice.x()),
+        quantity(column.name(), &ys),
+    );
     chart.margin = MARGIN;
     let xs: Vec<f64> = order.iter().map(|&x| places[x]).collect();
     let curve = Curve::new("", xs, ys, Role::Profile);

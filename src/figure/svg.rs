@@ -1,11 +1,11 @@
-//! A figure as SVG: words stay words, so that an editor can change them; the font is named.
+//! Writes a figure as SVG. Text stays text, so that an editor can change it; the font is only named.
 
 use super::canvas::{Canvas, Shape};
 use super::font::FAMILY;
 use crate::plot::screen_svg::hex;
 use crate::scenario::escape::xml;
 
-/// The whole file.
+/// Returns the whole file.
 pub fn write(canvas: &Canvas) -> String {
     let [width, height] = canvas.size.map(length);
     let mut text = format!(
@@ -66,7 +66,7 @@ fn element(shape: &Shape) -> String {
     }
 }
 
-/// A resolution of one micrometre on paper is enough. Adding zero makes one of -0.
+/// Rounds to one micrometre, which is fine enough on paper. Adding zero turns -0 into 0.
 fn length(value: f64) -> String {
     let rounded = (1e3 * value).round() / 1e3;
     (rounded + 0.0).to_string()

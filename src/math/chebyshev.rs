@@ -15,32 +15,41 @@
 //! ```
 //!
 //! - **Stability**: along the negative real axis up to hρ = (w₀ + 1)/w₁, and within 14° of it where |hλ| is up to half
-//!   of that. The reach is 0.58 s² for few stages, as with the usual damping, and grows with 7 s for many.
-//! - **Cost**: s − 1 evaluations for y_{n+1}, one more for F_{n+1}, which the next step begins with.
+//!   of that. The reach is 0.58 s² for few stages, as with the usual damping, and grows like 7 s for many.
+//! - **Cost**: s − 1 evaluations for y_{n+1} and one more for F_{n+1}, which the next step reuses.
 
-/// w₀, in place of 1 + ε/s²: a damping that grows with the square of the stages, ε = 0.04 s².
+/// w₀, which replaces 1 + ε/s²: the damping grows with the square of the stages, ε = 0.04 s².
 ///
-/// The usual ε = 2/13 needs fewer stages, but where the contact's edge wanders it leaves noise: at the edge of the scar
-/// of `julia2022-partial-slip` 1.4e-2 of the depth at a tolerance of 1e-3, in place of 3e-4.
+/// The usual ε = 2/13 needs fewer stages, but leaves noise where the contact's edge wanders: at the edge of the scar of
+/// `julia2022-partial-slip` 1.4e-2 of the depth at a tolerance of 1e-3, instead of 3e-4.
 const W0: f64 = 1.04;
 
-/// The most stages that are asked for.
+/// Maximum number of stages.
 const MOST: usize = 2000;
 
-/// The fewest stages of a step.
+/// Minimum number of stages per step.
 pub const FEWEST_STAGES: usize = 2;
 
-/// The stages that a step needs to be stable where h times the spectral radius is `stiffness`.
+/// Returns the number of stages that keeps a step stable; `stiffness` is h times the spectral radius.
 pub fn stages_for(stiffness: f64) -> usize {
     let (mut one, mut two) = ([W0, 1.0, 0.0], [1.0, 0.0, 0.0]);
     for stages in FEWEST_STAGES..MOST {
         (one, two) = (next(one, two), one);
-        // As far as w₀ + w₁ z stays above −1.
+        // Stable while w₀ + w₁ z stays above −1.
         if (W0 + 1.0) * one[2] >= stiffness * one[1] {
             return stages;
         }
     }
     MOST
+}
+
+/// How stiff a step of so many stages may be.
+pub fn reach(stages: usize) -> f64 {
+    let (mut one, mut two) = ([W0, 1.0, 0.0], [1.0, 0.0, 0.0]);
+    for _ in FEWEST_STAGES..=stages {
+        (one, two) = (next(one, two), one);
+    }
+    (W0 + 1.0) * one[2] / one[1]
 }
 
 /// T, T′ and T″ of a degree at w₀ from those of the two before it.
@@ -52,8 +61,8 @@ fn next(one: [f64; 3], two: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// One step of length `h` (in units of the independent variable) from `y` with the slope `first` there: y_{n+1}.
-/// `slope` writes F into its second argument, as long as `y`; if it fails, so does the step.
+/// Takes one step of length `h` (in units of the independent variable) from `y`, where the slope is `first`, to
+/// y_{n+1}. `slope` writes F into its second argument, which is as long as `y`; if it fails, so does the step.
 pub fn step<E>(
     stages: usize,
     h: f64,
@@ -70,7 +79,7 @@ pub fn step<E>(
     for stage in stages.later() {
         slope(&next, &mut slopes)?;
         for i in 0..y.len() {
-            // What does not change stays the same, to the last bit.
+            // In this form a component that does not change stays exactly the same.
             let value = y[i]
                 + stage.mu * (next[i] - y[i])
                 + stage.nu * (before[i] - y[i])
@@ -82,7 +91,7 @@ pub fn step<E>(
     Ok(next)
 }
 
-/// The error that a step from `y` to `next` has made, component `i`.
+/// Estimates the error in one component of a step from `y` to `next`.
 pub fn error(h: f64, y: f64, next: f64, first: f64, last: f64) -> f64 {
     0.8 * (y - next) + 0.4 * h * (first + last)
 }
@@ -90,7 +99,7 @@ pub fn error(h: f64, y: f64, next: f64, first: f64, last: f64) -> f64 {
 /// The coefficients of a step.
 struct Stages {
     w1: f64,
-    /// T_j, T′_j and T″_j at w₀, from j = 0 to the number of stages.
+    /// T_j, T′_j and T″_j at w₀, for j from 0 to the number of stages.
     t: Vec<[f64; 3]>,
 }
 
@@ -104,7 +113,7 @@ struct Stage {
 impl Stages {
     fn new(stages: usize) -> Self {
         let mut t = vec![[1.0, 0.0, 0.0], [W0, 1.0, 0.0]];
-        // By their three-term recurrences.
+        // Filled by the three-term recurrences.
         for j in 2..=stages {
             let (one, two) = (t[j - 1], t[j - 2]);
             t.push(next(one, two));
@@ -118,12 +127,12 @@ impl Stages {
         kink / (slope * slope)
     }
 
-    /// μ̃₁.
+    /// Returns μ̃₁.
     fn first(&self) -> f64 {
         self.b(1) * self.w1
     }
 
-    /// From j = 2 on.
+    /// Returns the stages from j = 2 on.
     fn later(&self) -> impl Iterator<Item = Stage> {
         (2..self.t.len()).map(|j| {
             let mu_tilde = 2.0 * self.b(j) * self.w1 / self.b(j - 1);

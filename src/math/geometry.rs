@@ -1,15 +1,15 @@
-//! What a contact is from above: a disc under a shape of revolution, or a strip under a long cylinder.
+//! The shape of a contact from above: a disc under a body of revolution, or a strip under a long cylinder.
 //!
-//! Both have the same springs and the same Eq. (3). What differs is here and in [`line`](super::abel::line): two
-//! kernels, and how loads, works and depths add up.
+//! Both share the springs and Eq. (3). They differ here and in [`line`](super::abel::line): in two kernels, and in how
+//! loads, works and depths add up.
 //!
 //! # Formula
 //!
-//! | | round | line of the length L, plane strain |
+//! | | round | line of length L, plane strain |
 //! |---|---|---|
 //! | force of the springs | 2∫ q dx | L q(0) |
-//! | work of the springs on the slip e | 2∫ q e dx | L [(2/π) ∫ q (e − e(0)) dx/x + q(0) e(0)] |
-//! | volume of a depth δ | 2π∫ δ r dr | 2L ∫ δ dx |
+//! | work of the springs over the slip e | 2∫ q e dx | L [(2/π) ∫ q (e − e(0)) dx/x + q(0) e(0)] |
+//! | volume of the depth δ | 2π∫ δ r dr | 2L ∫ δ dx |
 //! | contact area | πa² | 2aL |
 
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -18,10 +18,40 @@ use super::abel::worn;
 use super::grid::RadialGrid;
 use super::quadrature::{line_weights, volume_of_revolution, weighted};
 
+/// Replaces words of round contacts by words of lines, in this order.
+const LINE_WORDS: [(&str, &str); 17] = [
+    (
+        "outer radius of the wear scar",
+        "half-width of the wear scar",
+    ),
+    ("outermost radius", "largest distance from the centre line"),
+    ("along the radius", "from the centre line outwards"),
+    ("the radius", "the distance from the centre line"),
+    ("radii", "half-widths"),
+    ("radius", "half-width"),
+    ("3D profile", "section"),
+    ("e outer ring slips", "e edges slip"),
+    ("RING SLIPS", "EDGES SLIP"),
+    (" in the ring", " in the strips"),
+    (" the ring", " the slip zone"),
+    ("the depth d", "d = P/(E*L)"),
+    ("depth d", "d = P/(E*L)"),
+    (
+        "indentation depth",
+        "load over E* and the length of the line",
+    ),
+    (
+        "exactly the sum of the spring forces",
+        "exactly what the spring at the centre carries",
+    ),
+    ("if the depth is held", "if forces are prescribed"),
+    ("if a force keeps pressing the indenter in", "in gross slip"),
+];
+
 /// The plan of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Geometry {
-    /// A disc: everything is a shape of revolution, r the distance from the axis.
+    /// A disc under a body of revolution; r is the distance from the axis.
     #[default]
     Round,
     /// A strip in plane strain: r is the distance from the centre line.
@@ -32,7 +62,7 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// The length of a line contact, m.
+    /// Returns the length of a line contact, m.
     pub fn length(self) -> Option<f64> {
         match self {
             Self::Round => None,
@@ -45,7 +75,7 @@ impl Geometry {
         self.length().is_some()
     }
 
-    /// By what the work of a spring at `x` (m) counts, beside dx.
+    /// Returns the weight of the work of a spring at `x` (m), in addition to dx.
     pub fn measure(self, x: f64) -> f64 {
         match self {
             Self::Round => 1.0,
@@ -53,7 +83,7 @@ impl Geometry {
         }
     }
 
-    /// The weights of the volume (m³) of a worn depth (m) at the nodes, m².
+    /// Returns the weights (m²) of the volume (m³) of a worn depth (m) at the nodes.
     pub fn volume_weights(self, grid: &RadialGrid) -> Vec<f64> {
         match self {
             Self::Round => worn::volume_weights(grid),
@@ -64,7 +94,7 @@ impl Geometry {
         }
     }
 
-    /// ∫ y dA over the contact of nodal values `ys` at `rs` (m) that are linear in r².
+    /// Integrates y over the contact area: nodal values `ys` at `rs` (m), linear in r².
     pub fn area_integral(self, rs: &[f64], ys: &[f64]) -> f64 {
         match self {
             Self::Round => volume_of_revolution(rs, ys),
@@ -72,7 +102,7 @@ impl Geometry {
         }
     }
 
-    /// The area of a contact of the radius or half-width `radius` (m), m².
+    /// Returns the area (m²) of a contact of radius or half-width `radius` (m).
     pub fn area(self, radius: f64) -> f64 {
         match self {
             Self::Round => PI * radius * radius,
@@ -80,18 +110,17 @@ impl Geometry {
         }
     }
 
-    /// A name of a, c or the like, which is a radius in a round contact.
+    /// A name or a text in the words of this geometry: what is a radius in a round contact is a half-width in a line.
     pub fn named(self, name: &str) -> String {
         match self {
             Self::Round => name.to_owned(),
-            Self::Line { .. } => name
-                .replace("radii", "half-widths")
-                .replace("radius", "half-width")
-                .replace("3D profile", "section"),
+            Self::Line { .. } => LINE_WORDS
+                .iter()
+                .fold(name.to_owned(), |name, (of, by)| name.replace(of, by)),
         }
     }
 
-    /// What a reader of forces and volumes must know; nothing of a round contact.
+    /// Tells what forces and volumes refer to; `None` for a round contact.
     pub fn remark(self) -> Option<String> {
         let length = self.length()?;
         Some(match length == 1.0 {

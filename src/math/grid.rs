@@ -1,28 +1,28 @@
-//! The radial grid, the only place where nodes are made.
+//! The radial grid; nodes are made nowhere else.
 //!
 //! One grid serves the radius r of the 3D contact and the coordinate x of the 1D contact (r_i =
-//! x_i, §2 of the paper). Node 0 is always r = 0 exactly and the last node is the edge of the
-//! domain exactly, so that no other module needs a special case there.
+//! x_i, §2 of the paper). Node 0 is exactly r = 0 and the last node is exactly the edge of the domain, so other modules
+//! need no special cases there.
 
 use std::sync::Arc;
 
 use super::invalid::{Invalid, positive};
 
-/// The fewest cells a grid may have.
+/// Minimum number of cells.
 pub const MIN_CELLS: usize = 4;
 
-/// The most cells a grid may have. Methods that have no form in O(N) take fewer: see
+/// Maximum number of cells. Methods without a form in O(N) take fewer: see
 /// [`AbelMethod::most_cells`](super::abel::AbelMethod::most_cells).
 pub const MAX_CELLS: usize = 100_000;
 
-/// The share of the cells of a graded grid that lie inside its border.
+/// Share of the cells of a graded grid that lie inside its border.
 const SHARE_INSIDE: f64 = 0.18;
 
-/// The exponent with which the cells of a graded grid shrink towards its border.
+/// Exponent with which the cells of a graded grid shrink towards its border.
 const GRADING: f64 = 1.5;
 
-/// The width below which no cell of a graded grid is meant to fall, in units of the radius:
-/// 1e-4 contact radii for a domain of 1.5 of them.
+/// Intended minimum width of a cell of a graded grid, in units of the radius: 1e-4 contact radii for a domain of 1.5
+/// contact radii.
 const NARROWEST: f64 = 1e-4 / 1.5;
 
 /// Nodes r₀ = 0 < r₁ < … < r_N = L, in metres or in any other unit of length. Clones share them.
@@ -34,7 +34,7 @@ pub struct RadialGrid {
 }
 
 impl RadialGrid {
-    /// N = `cells` cells of equal width from r = 0 to r = `radius`: the grid of the paper.
+    /// Makes N = `cells` cells of equal width from r = 0 to r = `radius`: the grid of the paper.
     pub fn uniform(cells: usize, radius: f64) -> Result<Self, Invalid> {
         Self::check(cells, radius)?;
         let nodes = (0..=cells)
@@ -43,8 +43,8 @@ impl RadialGrid {
         Ok(Self::from_nodes(nodes, None))
     }
 
-    /// N = `cells` cells from r = 0 to L = `radius` that shrink from both sides towards c = `border`,
-    /// on which a node stands exactly.
+    /// Makes N = `cells` cells from r = 0 to L = `radius` that shrink
+    /// from both sides towards a node at exactly c = `border`.
     ///
     /// # Formula
     ///
@@ -53,10 +53,10 @@ impl RadialGrid {
     /// outside  r = c + (L − c) (i/(N − n))^γ    i = 1 … N − n
     /// ```
     ///
-    /// 18 % of the cells lie inside, where nothing wears, at least two on either side, and γ = 3/2: the worn profile
-    /// rises like √(r − c) outside a permanent stick zone of radius c. On each side γ is lowered, to 1
-    /// at the least, where the cell next to c would fall below 1e-4/1.5 of L: narrower cells
-    /// magnify rounding and the uncertainty of c itself.
+    /// 18 % of the cells lie inside, where nothing wears, and at least two on either side. γ = 3/2, since the worn
+    /// profile rises like √(r − c) outside a permanent stick zone of radius c. On each side γ is lowered, to 1 at the
+    /// least, if the cell next to c would be narrower than 1e-4/1.5 of L: narrower cells magnify rounding and the
+    /// uncertainty of c itself.
     pub fn graded(cells: usize, border: f64, radius: f64) -> Result<Self, Invalid> {
         Self::check(cells, radius)?;
         positive("border", border)?;
@@ -70,10 +70,10 @@ impl RadialGrid {
         )
     }
 
-    /// N = `cells` cells from r = 0 to L = `radius`, `within` of them in the ring from c = `border` to a = `edge`,
-    /// where they shrink towards c; the others grow away from it on both sides. A node stands on c and on a.
+    /// Makes N = `cells` cells from r = 0 to L = `radius`, `within` of them in the ring from c = `border` to
+    /// a = `edge`, where they shrink towards c; the others grow away from the ring on both sides. c and a are nodes.
     ///
-    /// For rings of slip so thin that a grid [graded](Self::graded) by its cells alone would miss them.
+    /// Resolves rings of slip so thin that a [graded](Self::graded) grid of as many cells would miss them.
     pub fn ringed(
         cells: usize,
         [border, edge]: [f64; 2],
@@ -92,7 +92,7 @@ impl RadialGrid {
         }
         let inside = (cells - within).div_ceil(2);
         let outside = cells - within - inside;
-        // The cells next to the ring are about as wide as its own.
+        // Makes the cells next to the ring about as wide as its own.
         let cell = (edge - border) / within as f64;
         let power = |width: f64, n: usize| ((width / cell).ln() / (n as f64).ln()).max(1.0);
         Self::around(
@@ -105,8 +105,9 @@ impl RadialGrid {
         )
     }
 
-    /// Cells that shrink towards the `border` from inside, and towards the inner end of every piece outside of it. `inside`
-    /// has the number of cells and the exponent of their growth, each piece `outwards` its outer end before them.
+    /// Makes cells that shrink towards the `border` from inside, and towards the inner end of every piece outside it.
+    /// `inside` holds the number of cells and the exponent of their growth; each piece of `outwards` also its outer
+    /// end, first.
     fn around(
         border: f64,
         inside: (usize, f64),
@@ -126,7 +127,7 @@ impl RadialGrid {
         })
     }
 
-    /// As many cells out to another `radius` (m), each wider by as much. No node stands for a border.
+    /// Stretches all cells to end at another `radius` (m). No node counts as a border.
     pub fn widened(&self, radius: f64) -> Result<Self, Invalid> {
         Self::check(self.cells(), radius)?;
         let factor = radius / self.radius();
@@ -135,7 +136,7 @@ impl RadialGrid {
         Self::restored(nodes, None)
     }
 
-    /// The same nodes, none of which stands for a border.
+    /// Returns the same nodes, none of which counts as a border.
     #[must_use]
     pub fn without_border(&self) -> Self {
         Self {
@@ -144,7 +145,7 @@ impl RadialGrid {
         }
     }
 
-    /// The grid that once had these nodes and this [`border`](Self::border), to the last bit.
+    /// Restores the grid that had these nodes and this [`border`](Self::border), bit for bit.
     pub fn restored(nodes: Vec<f64>, border: Option<usize>) -> Result<Self, Invalid> {
         let refuse = |rule: &str| Invalid::new("nodes", format!("{} of them", nodes.len()), rule);
         let (Some(&first), Some(&radius)) = (nodes.first(), nodes.last()) else {
@@ -163,10 +164,10 @@ impl RadialGrid {
         Ok(Self::from_nodes(nodes, border))
     }
 
-    /// The same spacing with another number of cells, by linear interpolation of the nodes over their indices.
+    /// Returns the same spacing with another number of cells, by linear interpolation of the nodes over their indices.
     ///
     /// # Errors
-    /// More cells or fewer than a grid may have.
+    /// If a grid cannot have that many cells, or that few.
     pub fn resampled(&self, cells: usize) -> Result<Self, Invalid> {
         Self::check(cells, self.radius())?;
         let before = &self.nodes;
@@ -200,17 +201,17 @@ impl RadialGrid {
         positive("domain_radius", radius).map(|_| ())
     }
 
-    /// All nodes, r = 0 and the domain's edge included.
+    /// All nodes, including r = 0 and the domain's edge.
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
     }
 
-    /// The squares of all nodes, t = r²: the variable in which even profiles are smooth.
+    /// Squares of all nodes, t = r²: the variable in which even profiles are smooth.
     pub fn squares(&self) -> &[f64] {
         &self.squares
     }
 
-    /// The index of the node on the border towards which the cells shrink; none on a uniform grid.
+    /// Index of the node on the border towards which the cells shrink; `None` on a uniform grid.
     pub fn border(&self) -> Option<usize> {
         self.border
     }
@@ -220,7 +221,7 @@ impl RadialGrid {
         self.nodes.len()
     }
 
-    /// Never true: a grid has at least [`MIN_CELLS`] cells. Stands beside [`len`](Self::len) by custom.
+    /// Never true: a grid has at least [`MIN_CELLS`] cells. Accompanies [`len`](Self::len) by convention.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
@@ -230,8 +231,8 @@ impl RadialGrid {
         self.nodes.len() - 1
     }
 
-    /// The width of the cell around each node, half the distance between its neighbours; at the ends, that of the
-    /// cell there.
+    /// Returns the width of the cell around each node, half the distance between its neighbours; the end nodes take the
+    /// width of the end cells.
     pub fn widths(&self) -> impl Iterator<Item = f64> {
         let (nodes, end) = (&self.nodes, self.cells());
         (0..=end).map(move |j| match j {
@@ -246,16 +247,16 @@ impl RadialGrid {
         self.nodes[self.cells()]
     }
 
-    /// Interpolation of nodal `values` at `r`, constant beyond the domain's edge.
+    /// Interpolates nodal `values` at `r`; constant beyond the domain's edge.
     ///
-    /// Linear in r² between the nodes, since every profile here is even in r: exact for a constant
-    /// and for a paraboloid.
+    /// Linear in r² between the nodes, since every profile here
+    /// is even in r: exact for a constant and for a paraboloid.
     pub fn interpolate(&self, values: &[f64], r: f64) -> f64 {
         interpolate(&self.nodes, values, r)
     }
 }
 
-/// Nodal `values` at `r`, linear in r² between `nodes`, constant beyond the last one.
+/// Interpolates nodal `values` at `r`, linear in r² between `nodes`, constant beyond the last one.
 pub fn interpolate(nodes: &[f64], values: &[f64], r: f64) -> f64 {
     let upper = nodes.partition_point(|&node| node < r);
     if upper == 0 {
@@ -269,13 +270,13 @@ pub fn interpolate(nodes: &[f64], values: &[f64], r: f64) -> f64 {
     values[upper - 1] + weight * (values[upper] - values[upper - 1])
 }
 
-/// The ends of `cells` cells between two radii, each wider than the one before it by a `power` of its place.
+/// Returns the ends of `cells` cells between two radii; cell ends grow with a `power` of their index.
 fn growing([from, to]: [f64; 2], cells: usize, power: f64) -> impl Iterator<Item = f64> {
     let within = move |i: usize| from + (to - from) * (i as f64 / cells as f64).powf(power);
     (0..cells).map(within).chain([to])
 }
 
-/// The exponent that shrinks `cells` cells over `width` to no less than `narrowest`.
+/// Returns the exponent that shrinks `cells` cells over `width` to no less than `narrowest`.
 fn exponent(width: f64, cells: usize, narrowest: f64) -> f64 {
     ((width / narrowest).ln() / (cells as f64).ln()).clamp(1.0, GRADING)
 }

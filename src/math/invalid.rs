@@ -1,18 +1,18 @@
-//! A value that a constructor refuses: which one it was, and which rule it broke.
+//! A value that a constructor refuses: names the value and the rule it broke.
 
 use std::ops::RangeInclusive;
 
 use thiserror::Error;
 
-/// A refused value. The floors above add where it stood (a TOML path, an option of the command line).
+/// A refused value. Higher layers add its location (a TOML path, an option of the command line).
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{field} = {value}: {rule}")]
 pub struct Invalid {
-    /// Name of the value, as a scenario spells it.
+    /// Name of the value, as in scenarios.
     pub field: &'static str,
-    /// The value as it was given.
+    /// The value as given.
     pub value: String,
-    /// What would be right.
+    /// The rule it must satisfy.
     pub rule: String,
 }
 
@@ -49,11 +49,10 @@ fn checked(field: &'static str, value: f64, holds: bool, rule: &str) -> Result<f
     }
 }
 
-/// Passes two columns, each with its name, that make a function: a `number` of rows, all finite, the first column
-/// increasing.
+/// Passes two named columns that form a function: an allowed `number` of rows, all finite, the first column increasing.
 ///
 /// # Errors
-/// The column that does not, with its value.
+/// Names the offending column and its value.
 pub fn check_table(
     (x, xs): (&'static str, &[f64]),
     (y, ys): (&'static str, &[f64]),

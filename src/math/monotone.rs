@@ -1,13 +1,13 @@
-//! A cubic through given points that is monotone wherever the points are, with the Abel image of
-//! its slope in closed form.
+//! A cubic through given points that is monotone wherever the
+//! points are. The Abel image of its slope has a closed form.
 //!
 //! F. N. Fritsch, R. E. Carlson (1980), SIAM J. Numer. Anal. 17, 238–246, give the condition on the
-//! slopes; J. M. Hyman (1983), SIAM J. Sci. Stat. Comput. 4, 645–654, the limiter used here: slopes of
-//! the parabola through three points, cut to three times the smaller of the two secants. Where the
-//! points are smooth nothing is cut, so a straight line and a parabola are reproduced exactly.
+//! slopes; J. M. Hyman (1983), SIAM J. Sci. Stat. Comput. 4, 645–654, the limiter used here: slopes of the parabola
+//! through three points, cut to three times the smaller of the two secants. Smooth points are not limited, so a
+//! straight line and a parabola are reproduced exactly.
 //!
-//! Crates that interpolate evaluate only; Eq. (1) of the paper needs the cubics themselves, whose
-//! image is integrated exactly, segment by segment.
+//! Interpolation crates only evaluate; Eq. (1) of the paper needs the cubics themselves, whose image is integrated
+//! exactly, segment by segment.
 //!
 //! # Formula
 //!
@@ -29,8 +29,8 @@ pub struct Monotone {
 }
 
 impl Monotone {
-    /// Through `values` at strictly increasing `nodes`, of equal lengths, at least 2. `None` if they
-    /// are not.
+    /// Interpolates `values` at strictly increasing `nodes`. `None` unless the slices have equal lengths of at least 2
+    /// and the nodes increase.
     pub fn new(nodes: Vec<f64>, values: Vec<f64>) -> Option<Self> {
         let rises = nodes.windows(2).all(|pair| pair[0] < pair[1]);
         if nodes.len() < 2 || nodes.len() != values.len() || !rises {
@@ -44,17 +44,17 @@ impl Monotone {
         })
     }
 
-    /// Where the points lie.
+    /// Nodes of the curve.
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
     }
 
-    /// The values there.
+    /// Values at the nodes.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The value at `x`; beyond the last point, the straight line with the slope there.
+    /// Returns the value at `x`; beyond the last point, on the straight line with the slope there.
     pub fn at(&self, x: f64) -> f64 {
         let (k, last) = (self.segment(x), self.nodes.len() - 1);
         if x >= self.nodes[last] {
@@ -64,16 +64,16 @@ impl Monotone {
         let t = (x - self.nodes[k]) / width;
         let (left, right) = (self.slopes[k] * width, self.slopes[k + 1] * width);
         let rise = self.values[k + 1] - self.values[k];
-        // Hermite's form around the left point: nothing cancels near it.
+        // Expanded around the left point (Hermite), so that nothing cancels near it.
         self.values[k]
             + t * (left
                 + t * (3.0 * rise - 2.0 * left - right)
                 + t * t * (left + right - 2.0 * rise))
     }
 
-    /// x ∫₀ˣ f′(r)/√(x² − r²) dr, Eq. (1), for a curve whose first node is 0.
+    /// Returns x ∫₀ˣ f′(r)/√(x² − r²) dr, Eq. (1), for a curve whose first node is 0.
     ///
-    /// O(points inside x), two elementary functions a point.
+    /// Cost: O(points inside x), with two elementary functions per point.
     pub fn image(&self, x: f64) -> f64 {
         if x <= 0.0 {
             return 0.0;
@@ -100,7 +100,7 @@ impl Monotone {
         x * sum
     }
 
-    /// ∫₀ˣ r f′(r)/√(x² − r²) dr, Eq. (1L), for a curve whose first node is 0.
+    /// Returns ∫₀ˣ r f′(r)/√(x² − r²) dr, Eq. (1L), for a curve whose first node is 0.
     pub fn line_image(&self, x: f64) -> f64 {
         let moments = |r: f64| {
             let root = ((x - r) * (x + r)).max(0.0).sqrt();
@@ -118,8 +118,8 @@ impl Monotone {
         segments.sum()
     }
 
-    /// The outermost x at which the value is still `value`; beyond the last point by its slope,
-    /// infinite where that does not rise.
+    /// Returns the outermost x at which the curve equals `value`; beyond the last point by its slope, infinite if that
+    /// does not rise.
     pub fn last_at(&self, value: f64) -> f64 {
         let last = self.nodes.len() - 1;
         if self.values[last] <= value {
@@ -136,7 +136,7 @@ impl Monotone {
         root::first([self.nodes[k], self.nodes[k + 1]], |x| self.at(x) > value)
     }
 
-    /// f′ = A + Br + Cr² on segment `k`; constant beyond the last point.
+    /// Returns f′ = A + Br + Cr² on segment `k`; constant beyond the last point.
     fn derivative(&self, k: usize) -> (f64, f64, f64) {
         if k + 1 == self.nodes.len() {
             return (self.slopes[k], 0.0, 0.0);
@@ -153,14 +153,14 @@ impl Monotone {
         )
     }
 
-    /// The segment that holds `x`.
+    /// Returns the segment that contains `x`.
     fn segment(&self, x: f64) -> usize {
         let behind = self.nodes.partition_point(|&node| node <= x);
         behind.clamp(1, self.nodes.len() - 1) - 1
     }
 }
 
-/// Slopes of the parabola through three neighbours, limited so that the cubic stays monotone.
+/// Computes slopes of the parabola through three neighbours, limited so that the cubic stays monotone.
 fn slopes(nodes: &[f64], values: &[f64]) -> Vec<f64> {
     let widths: Vec<f64> = nodes.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let secants: Vec<f64> = values
@@ -179,7 +179,7 @@ fn slopes(nodes: &[f64], values: &[f64]) -> Vec<f64> {
         let most = 3.0 * before.abs().min(after.abs());
         slope.abs().min(most).copysign(before)
     };
-    // At an end the parabola through the first three points, no steeper than three secants.
+    // An end takes the parabola through its three points, no steeper than three secants.
     let end = |near: f64, next: f64, width: f64, beyond: f64| {
         let slope = near + width * (near - next) / (width + beyond);
         limited(slope, near, near)
@@ -212,7 +212,7 @@ mod tests {
         Monotone::new(nodes, values).expect("a curve")
     }
 
-    /// The largest relative error of the image of rⁿ, κₙxⁿ, on x from 0.3 to 1.9.
+    /// Returns the largest relative error of the image of rⁿ, κₙxⁿ, for x from 0.3 to 1.9.
     fn error(exponent: f64, kappa: f64, points: u32) -> f64 {
         let curve = of(|r| r.powf(exponent), points);
         (3..20)
@@ -231,7 +231,7 @@ mod tests {
         let parabola = of(|r| 3.0 * r * r, 9);
         assert!((parabola.at(1.234) - 3.0 * 1.234 * 1.234).abs() < 1e-13);
         assert!((parabola.last_at(3.0) - 1.0).abs() < 1e-13);
-        // Beyond the table: the slope at its end, 12.
+        // Beyond the table the slope stays at its end value, 12.
         assert!((parabola.at(3.0) - 24.0).abs() < 1e-12);
         assert!((parabola.last_at(24.0) - 3.0).abs() < 1e-12);
     }

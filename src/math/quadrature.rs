@@ -1,10 +1,10 @@
-//! Integrals of nodal values that stay in one dimension: no singular kernel, no physics.
+//! Integrates nodal values in one dimension: no singular kernel, no physics.
 
 use std::ops::Range;
 
 use super::vector::vectorized;
 
-/// ∫ y dx from x₀ to the last node, trapezoidal: exact for a piecewise linear y.
+/// Returns ∫ y dx from x₀ to the last node by the trapezoidal rule: exact for a piecewise linear y.
 pub fn trapezoid(xs: &[f64], ys: &[f64]) -> f64 {
     xs.windows(2)
         .zip(ys.windows(2))
@@ -12,13 +12,12 @@ pub fn trapezoid(xs: &[f64], ys: &[f64]) -> f64 {
         .sum()
 }
 
-/// Weights of ∫₀ᴸ y dx for nodal values y that are linear in x² between nodes: exact for a Hertzian
-/// line load.
+/// Returns weights of ∫₀ᴸ y dx for nodal values y that are linear in x² between nodes: exact for a Hertzian line load.
 pub fn line_weights(xs: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; xs.len()];
     for (k, cell) in xs.windows(2).enumerate() {
         let [a, b] = [cell[0], cell[1]];
-        // ∫ₐᵇ (x² − a²)/(b² − a²) dx: the share of the right node.
+        // ∫ₐᵇ (x² − a²)/(b² − a²) dx: the right node's share.
         let right = (b - a) * (2.0 * a + b) / (3.0 * (a + b));
         weights[k] += (b - a) - right;
         weights[k + 1] += right;
@@ -26,35 +25,35 @@ pub fn line_weights(xs: &[f64]) -> Vec<f64> {
     weights
 }
 
-/// ∫ₐᵇ y dx by three points of Gauss: exact for polynomials up to degree five.
+/// Returns ∫ₐᵇ y dx by three-point Gauss quadrature: exact for polynomials up to degree five.
 pub fn gauss(a: f64, b: f64, y: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     let off = 0.6_f64.sqrt() * half;
     half / 9.0 * (5.0 * (y(middle - off) + y(middle + off)) + 8.0 * y(middle))
 }
 
-/// The pieces of [`gauss_in_pieces`].
+/// Number of pieces in [`gauss_in_pieces`].
 const PIECES: u32 = 64;
 
-/// ∫ y dx over an interval by [`gauss`] in 64 equal pieces.
+/// Returns ∫ y dx over an interval by [`gauss`] in 64 equal pieces.
 pub fn gauss_in_pieces([from, to]: [f64; 2], y: impl Fn(f64) -> f64) -> f64 {
     let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(PIECES);
     (0..PIECES).map(|i| gauss(at(i), at(i + 1), &y)).sum()
 }
 
-/// Weights of ∫ y z m dx in each cell, y and z linear in x² there, m(x) a measure.
+/// Weights of ∫ y z m dx in each cell, with y and z linear in x² and a measure m(x).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProductWeights {
-    /// Of the product of the inner values.
+    /// Weight of the product of the inner values.
     inner: Vec<f64>,
-    /// Of each of the two products of an inner and an outer value.
+    /// Weight of either product of an inner and an outer value.
     mixed: Vec<f64>,
-    /// Of the product of the outer values.
+    /// Weight of the product of the outer values.
     outer: Vec<f64>,
 }
 
 impl ProductWeights {
-    /// For values at the nodes `xs` and a smooth `measure`, which may be infinite at 0 if y or z vanishes there.
+    /// Computes the weights at the nodes `xs`. The smooth `measure` may be infinite at 0 if y or z vanishes there.
     pub fn new(xs: &[f64], measure: impl Fn(f64) -> f64) -> Self {
         let each = |weight: fn(f64) -> f64| {
             let cells = xs.windows(2).map(|cell| {
@@ -72,9 +71,9 @@ impl ProductWeights {
         }
     }
 
-    /// ∫ y (|z| − `rigid`) m dx over some `cells` of nodal y and z, z of one sign in each.
+    /// Returns ∫ y (|z| − `rigid`) m dx over some `cells` of nodal y and z; z has one sign in each.
     ///
-    /// Eight sums, as in [`weighted`].
+    /// Keeps eight sums, as in [`weighted`].
     pub fn integral(&self, cells: Range<usize>, y: &[f64], z: &[f64], rigid: f64) -> f64 {
         const EIGHT: usize = 8;
         let behind = cells.start + 1..cells.end + 1;
@@ -107,9 +106,9 @@ impl ProductWeights {
     }
 }
 
-/// The scalar product of weights and values, as many of the one as of the other.
+/// Returns the scalar product of weights and values, slices of equal length.
 ///
-/// Eight sums, so that no addition waits for the one before.
+/// Keeps eight sums, so that no addition waits for the previous one.
 pub fn weighted(weights: &[f64], values: &[f64]) -> f64 {
     weighted_each(
         weights,
@@ -119,7 +118,7 @@ pub fn weighted(weights: &[f64], values: &[f64]) -> f64 {
     )
 }
 
-/// The scalar product of weights and of what `of` makes of values, as many of the one as of the other.
+/// Returns the scalar product of weights and `of(value)`, slices of equal length.
 #[inline(always)]
 pub fn weighted_each(weights: &[f64], values: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     debug_assert_eq!(weights.len(), values.len());
@@ -129,7 +128,7 @@ pub fn weighted_each(weights: &[f64], values: &[f64], of: impl Fn(f64) -> f64) -
     )
 }
 
-/// The same where only the first `count` values are not zero: to the last bit.
+/// As [`weighted`] where only the first `count` values are not zero; equal bit for bit.
 pub fn weighted_first(weights: &[f64], values: &[f64], count: usize) -> f64 {
     let end = count.next_multiple_of(8).min(values.len());
     weighted(&weights[..end], &values[..end])
@@ -150,7 +149,7 @@ fn eight_sums(weights: &[f64], values: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     sums.iter().sum::<f64>() + last
 }
 
-/// 2π ∫ y r dr: the volume under a surface of revolution whose height is piecewise linear in r².
+/// Returns 2π ∫ y r dr, the volume under a surface of revolution whose height is piecewise linear in r².
 pub fn volume_of_revolution(rs: &[f64], ys: &[f64]) -> f64 {
     let twice = rs
         .windows(2)
@@ -180,7 +179,7 @@ mod tests {
         assert!((volume_of_revolution(&nodes, &cap) - exact).abs() < 1e-15);
     }
 
-    /// ∫ (1 − x²)² dx over any part of its cells, whatever the sign of a factor.
+    /// Integrates (1 − x²)² over any range of cells, whatever the sign of a factor.
     #[test]
     fn a_product_is_integrated_over_the_cells_that_are_asked_for() {
         let nodes: Vec<f64> = (0..=40).map(|i| f64::from(i) / 40.0).collect();

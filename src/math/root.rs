@@ -1,7 +1,7 @@
-//! A root of a monotone function: by [`newton`] where its slope is known, such as the load that a depth carries, solved
-//! for the depth; by values alone if [`bracketed`]; or [to the last bit](first), where speed does not matter.
+//! Finds the root of a monotone function: by [`newton`] if its slope is known (the depth that carries a load), by
+//! values alone with [`bracketed`], or exactly with [`first`] where speed does not matter.
 
-/// The most evaluations a solve may take; a smooth monotone function needs about ten.
+/// Maximum number of evaluations per solve; a smooth monotone function needs about ten.
 const MAX_EVALUATIONS: usize = 200;
 
 /// Finds x in [`low`, `high`] with `function(x)` = 0, given that the signs at the ends differ.
@@ -31,7 +31,7 @@ pub fn bracketed(
     if at_a.signum() == at_b.signum() {
         return None;
     }
-    // Which end stayed in the last evaluation; its value is halved when it stays twice.
+    // The end kept in the last evaluation; its value is halved if it is kept twice.
     let mut kept_a = None;
     for _ in 0..MAX_EVALUATIONS {
         if (b - a).abs() <= tolerance {
@@ -70,10 +70,10 @@ pub fn bracketed(
     Some(if at_a.abs() < at_b.abs() { a } else { b })
 }
 
-/// Finds x between `low` and `high` with `function(x)` = 0 by Newton's method from `near`, given that the function rises,
-/// and is negative at `low`. It returns its value and its slope; the slope may be rough.
+/// Finds x between `low` and `high` with `function(x)` = 0 by Newton's method from `near`. The function rises and is
+/// negative at `low`; it returns its value and its slope, which may be rough.
 ///
-/// A step that leaves the bracket is halved instead. Stops when a step is no longer than `tolerance` or the function is
+/// If a step leaves the bracket, bisects instead. Stops when a step is no longer than `tolerance` or the function is
 /// exactly zero. Returns `None` when the function is negative at `high` or a value is not finite.
 pub fn newton(
     mut function: impl FnMut(f64) -> [f64; 2],
@@ -111,7 +111,7 @@ pub fn newton(
     Some(x)
 }
 
-/// The first number in an interval from which on `beyond` holds, by halving; its upper end if that is nowhere.
+/// Returns the first number in an interval from which on `beyond` holds, by bisection; the upper end if there is none.
 pub fn first([mut low, mut high]: [f64; 2], beyond: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (low + high);
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn finds_the_depth_of_a_hertzian_load() {
-        // F = d^{3/2}: steep, kinked at zero, as a contact is.
+        // F = d^{3/2} is steep and has a kink at zero, like a contact.
         let mut evaluations = 0;
         let depth = bracketed(
             |d| {

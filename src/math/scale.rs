@@ -2,24 +2,24 @@
 
 use serde::Deserialize;
 
-/// How values spread along an axis, of a plot or of a study, where `linear` and `log` name them.
+/// How values spread along an axis of a plot or a study; scenarios name them `linear` and `log`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
-    /// Equal differences, equal distances.
+    /// Equal differences take equal distances.
     #[default]
     Linear,
-    /// Equal ratios, equal distances; values that are not positive are gaps.
+    /// Equal ratios take equal distances; values that are not positive leave gaps.
     Log,
 }
 
 impl Scale {
-    /// Whether a value lies anywhere along an axis.
+    /// Whether an axis can show the value.
     pub fn has(self, value: f64) -> bool {
         value.is_finite() && (self == Self::Linear || value > 0.0)
     }
 
-    /// A value as it is spread along an axis.
+    /// Maps a value to its position along an axis.
     pub fn spread(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
@@ -27,7 +27,7 @@ impl Scale {
         }
     }
 
-    /// The value that is spread to `spread`.
+    /// Maps a position along an axis back to its value.
     pub fn unspread(self, spread: f64) -> f64 {
         match self {
             Self::Linear => spread,

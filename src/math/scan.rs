@@ -1,10 +1,10 @@
-//! Scans along a row of nodal values.
+//! Searches and reductions over a row of nodal values.
 
 use std::ops::Range;
 
-/// The largest of `values`, or 0 where none is above it; what is not a number is passed over.
+/// Returns the largest of `values`, or 0 if none is positive; skips NaN.
 ///
-/// Eight maxima side by side, so that no comparison waits for the one before.
+/// Keeps eight maxima, so that no comparison waits for the previous one.
 #[inline(always)]
 pub fn largest(values: &[f64]) -> f64 {
     let larger = |a: f64, b: f64| if b > a { b } else { a };
@@ -18,15 +18,15 @@ pub fn largest(values: &[f64]) -> f64 {
     maxima.iter().chain(rest).copied().fold(0.0, larger)
 }
 
-/// The smallest and the largest of `values`; `None` of none.
+/// Returns the smallest and the largest of `values`; `None` if there are none.
 pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     let ends = values.into_iter().map(|value| [value; 2]);
     ends.reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
 }
 
-/// How many of `values` from the first one on have a property: up to the first that has not.
+/// Counts how many of `values` have a property before the first that does not.
 ///
-/// Eight at a time, without a branch between them.
+/// Tests eight at a time, without a branch between them.
 #[inline(always)]
 pub fn leading<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
     let (eights, _) = values.as_chunks::<8>();
@@ -39,7 +39,7 @@ pub fn leading<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
             .count()
 }
 
-/// How many of `values` from the last one back have a property.
+/// Counts how many of `values` have a property after the last that does not.
 #[inline(always)]
 pub fn trailing<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
     let (_, eights) = values.as_rchunks::<8>();
@@ -49,7 +49,7 @@ pub fn trailing<T>(values: &[T], has: impl Fn(&T) -> bool) -> usize {
     whole + rest.take_while(|value| has(value)).count()
 }
 
-/// Where a row changes its `kind`: the first index behind each change.
+/// Finds where a row changes its `kind`: the first index behind each change.
 pub fn changes<T, K: PartialEq>(
     values: &[T],
     kind: impl Fn(&T) -> K,
@@ -62,8 +62,8 @@ pub fn changes<T, K: PartialEq>(
     })
 }
 
-/// |f″| at the points `x` by second differences; at the first and the last point that of their neighbours. 0 for fewer
-/// than three points.
+/// Returns |f″| at the points `x` by second differences; the end points take their neighbours' values. 0 for fewer than
+/// three points.
 pub fn second_differences(x: &[f64], f: &[f64]) -> Vec<f64> {
     if x.len() < 3 {
         return vec![0.0; x.len()];
@@ -75,15 +75,15 @@ pub fn second_differences(x: &[f64], f: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The smallest range outside which `values` are zero.
+/// Returns the smallest range outside which `values` are zero.
 #[inline(always)]
 pub fn support(values: &[f64]) -> Range<usize> {
     let end = values.len() - trailing(values, |&value| value == 0.0);
     leading(&values[..end], |&value| value == 0.0)..end
 }
 
-/// The ordinate at `x` of the line through points: at a point, or linearly interpolated between the first two
-/// neighbouring points that have `x` between them. `None` in gaps, where a point is not finite, and outside.
+/// Returns the ordinate at `x` of the line through points, linearly interpolated in the first segment that contains
+/// `x`. `None` in gaps, where a point is not finite, and outside.
 pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
     let mut previous: Option<(f64, f64)> = None;
     for (&x1, &y1) in xs.iter().zip(ys) {
@@ -102,8 +102,8 @@ pub fn value_at(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
     None
 }
 
-/// How far an axis must reach for sizes with weights: to the largest, but no further than half again what 95 % of
-/// the weight stays below. A size that is singular in a small place does not flatten all others. Sizes of zero do not count.
+/// Returns how far an axis must reach for weighted sizes: to the largest, but at most to 1.5 times the size below which
+/// 95 % of the weight lies. A local singularity then does not flatten everything else. Sizes of zero do not count.
 pub fn robust_top(sizes: impl Iterator<Item = [f64; 2]>) -> f64 {
     let is_there = |[size, weight]: &[f64; 2]| *size > 0.0 && size.is_finite() && *weight > 0.0;
     let mut sizes: Vec<[f64; 2]> = sizes.filter(is_there).collect();
@@ -119,16 +119,16 @@ pub fn robust_top(sizes: impl Iterator<Item = [f64; 2]>) -> f64 {
     largest.min(1.5 * quantile.map_or(largest, |[size, _]| *size))
 }
 
-/// Fewer sizes than these tell nothing of their distribution.
+/// Minimum number of sizes for a meaningful distribution.
 const FEW: usize = 20;
 
-/// The element `places` after the one that is `now`, wrapping around at the ends.
+/// Returns the element `places` after `now`, wrapping around at the ends.
 pub fn shifted<T: Copy + PartialEq>(all: &[T], now: T, places: isize) -> T {
     let at = all.iter().position(|one| *one == now).unwrap_or(0) as isize;
     all[(at + places).rem_euclid(all.len() as isize) as usize]
 }
 
-/// The root of the mean square; 0 of nothing.
+/// Returns the root mean square; 0 if there are no values.
 pub fn rms(values: &[f64]) -> f64 {
     let squares: f64 = values.iter().map(|value| value * value).sum();
     (squares / values.len().max(1) as f64).sqrt()

@@ -1,12 +1,11 @@
-//! A linear operator on nodal values, stored in panels of rows with the zeros around their entries left out.
+//! A linear operator on nodal values, stored in panels of rows without most of the zeros around their entries.
 //!
-//! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks
-//! outwards. A panel is sixteen rows over the columns that any of them has. The sums of a panel stay in the registers of
-//! the processor's vector unit while one pass goes through its entries, and the pass covers only the
-//! columns where the input is not zero (within the contact, outside the stick zone). Cost: at most N²/2 multiply-adds.
+//! The Abel transforms are triangular, or nearly so: g(x) and w(r) look inwards, p(r) looks outwards. A panel is
+//! sixteen rows over the columns that any of them uses. Its sums stay in vector registers during one pass over its
+//! entries, and the pass covers only the columns where the input is not zero (within the contact, outside the stick
+//! zone). Cost: at most N²/2 multiply-adds.
 //!
-//! The last digits differ between CPUs with and without fused multiply-add; on one machine they are
-//! always the same.
+//! The last digits differ between CPUs with and without fused multiply-add, but never between runs on one machine.
 
 use std::ops::Range;
 
@@ -15,7 +14,7 @@ use nalgebra::DMatrix;
 use super::scan::support;
 use super::vector::{Fusing, with_widest};
 
-/// Rows of a panel.
+/// Rows per panel.
 const ROWS: usize = 16;
 
 /// A square matrix whose rows each hold their entries in one run.
@@ -23,25 +22,25 @@ const ROWS: usize = 16;
 pub struct Skyline {
     size: usize,
     panels: Vec<Run>,
-    /// The panels' entries, column by column, zero where a row has none.
+    /// Entries of the panels, column by column, zero where a row has none.
     entries: Vec<Column>,
 }
 
-/// The entries of a panel in one column: no vector of them straddles two cache lines.
+/// Entries of a panel in one column, aligned so that no vector straddles two cache lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 struct Column([f64; ROWS]);
 
-/// The columns of a panel; possibly none.
+/// The columns of a panel, possibly empty.
 #[derive(Debug, Clone, PartialEq)]
 struct Run {
     columns: Range<usize>,
-    /// Its first column in the entries.
+    /// Index of its first column in the entries.
     start: usize,
 }
 
 impl Run {
-    /// Where the entries of those of its `columns` are that lie within `input`, and which ones these are.
+    /// Returns the part of its `columns` within `input`: where their entries are, and which columns these are.
     fn within(&self, input: &Range<usize>) -> (Range<usize>, Range<usize>) {
         let first = input.start.clamp(self.columns.start, self.columns.end);
         let end = self.columns.end.min(input.end).max(first);
@@ -50,10 +49,10 @@ impl Run {
     }
 }
 
-/// The sums of a panel's rows over `columns`, each times its value.
+/// Sums `columns` times their values, for each row of a panel.
 #[inline(always)]
 fn sum_columns(fusing: Fusing, columns: &[Column], values: &[f64]) -> [f64; ROWS] {
-    // Two sums a row: the processor need not wait for the last addition.
+    // Two sums per row, so that the processor need not wait for the last addition.
     let mut sums = [[0.0; ROWS]; 2];
     let (fours, rest) = columns.as_chunks::<4>();
     let (fours_of_values, rest_values) = values.as_chunks::<4>();
@@ -73,7 +72,7 @@ fn sum_columns(fusing: Fusing, columns: &[Column], values: &[f64]) -> [f64; ROWS
 }
 
 impl Skyline {
-    /// Packs a square dense matrix; of a panel's columns of zeros, those at its ends go.
+    /// Packs a square dense matrix; drops the columns of zeros at both ends of a panel.
     pub fn pack(dense: &DMatrix<f64>) -> Self {
         let size = dense.nrows();
         let (mut panels, mut entries) = (Vec::new(), Vec::new());
@@ -96,9 +95,8 @@ impl Skyline {
         }
     }
 
-    /// Writes the product with `input`, of the operator's size, into `output`, which may have room for the first rows only:
-    /// the rows of the panel that has the row `first`, and those after it; returns the first of them. Whatever they held
-    /// before is overwritten.
+    /// Writes the product with `input`, of the operator's size, into `output`, from the panel that contains the row
+    /// `first` on; returns the first row written. `output` may cover the first rows only, and is overwritten.
     pub fn apply_from(&self, first: usize, input: &[f64], output: &mut [f64]) -> usize {
         debug_assert_eq!(input.len(), self.size);
         debug_assert!(output.len() <= self.size);
@@ -113,7 +111,7 @@ impl Skyline {
         panel * ROWS
     }
 
-    /// Computes the rows of the panels from `first` on; tells whether all their sums are finite.
+    /// Computes the rows of the panels from `first` on; returns whether all their sums are finite.
     #[inline(always)]
     fn multiply(&self, fusing: Fusing, first: usize, input: &[f64], output: &mut [f64]) -> bool {
         let support = support(input);
@@ -133,8 +131,8 @@ impl Skyline {
         output.iter().fold(true, |all, sum| all & sum.is_finite())
     }
 
-    /// Zero times a value that is not finite is no zero: it is passed on to the rows that have an entry
-    /// for it, and not to all rows of their panels. Such a step fails: this need not be quick.
+    /// Zero times a value that is not finite is not zero. This passes such values on to the rows that have an entry for
+    /// them, not to all rows of their panels. The step then fails, so this need not be quick.
     fn apply_not_finite(&self, input: &[f64], output: &mut [f64]) {
         for (row, output) in output.iter_mut().enumerate() {
             let seen = self.row(row).filter(|(_, entry)| *entry != 0.0);
@@ -150,10 +148,10 @@ impl Skyline {
     }
 }
 
-/// What tests ask of an operator.
+/// Access for tests.
 #[cfg(test)]
 impl Skyline {
-    /// The operator as a dense matrix.
+    /// Returns the operator as a dense matrix.
     pub fn to_dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.size, self.size);
         for row in 0..self.size {
@@ -183,7 +181,7 @@ mod tests {
         assert_eq!(output, [1.0, 32.0, 540.0]);
     }
 
-    /// Against nalgebra, over shapes that leave a rest in every way.
+    /// Compares with nalgebra, over sizes that leave every kind of remainder.
     #[test]
     fn it_is_the_product_with_the_matrix() {
         for size in [1, 2, 3, 4, 5, 7, 8, 17, 64, 101] {
@@ -216,7 +214,7 @@ mod tests {
         assert!(output[1].is_nan() && output[2].is_nan());
     }
 
-    /// Inputs that end within a panel's columns, beside them, and that are not there.
+    /// Inputs that end within a panel's columns, inputs beside them, and empty inputs.
     #[test]
     fn what_lies_outside_the_input_is_passed_over() {
         let dense = DMatrix::from_fn(45, 45, |i, j| {

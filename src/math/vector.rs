@@ -2,10 +2,10 @@
 
 use multiversion::{multiversion, target::target_cfg_f};
 
-/// Runs `pass`, compiled for the common instruction sets, with the widest that this processor has.
+/// Runs `pass`, compiled for the common instruction sets, with the widest that this CPU supports.
 ///
-/// Only what is inlined gains by it: the closure, and what it calls, should be `#[inline(always)]`. The results
-/// are the same to the last bit on all of them: the compiler fuses no multiplication with an addition.
+/// Only inlined code gains: the closure and its callees should be `#[inline(always)]`. Results are the same bit for bit
+/// on all CPUs, since the compiler never fuses a multiplication with an addition.
 #[inline(always)]
 pub fn vectorized<R>(pass: impl FnOnce() -> R) -> R {
     with_widest(
@@ -14,7 +14,7 @@ pub fn vectorized<R>(pass: impl FnOnce() -> R) -> R {
     )
 }
 
-/// The same for a `pass` that fuses multiplications with additions by itself; it is told whether the processor does.
+/// As [`vectorized`], for a `pass` that fuses multiplications with additions itself; passes whether FMA is available.
 #[multiversion(targets("x86_64+avx2+fma+bmi1+bmi2"))]
 pub fn with_widest<R>(pass: impl FnOnce(Fusing) -> R) -> R {
     pass(Fusing(target_cfg_f!(any(
@@ -23,14 +23,14 @@ pub fn with_widest<R>(pass: impl FnOnce(Fusing) -> R) -> R {
     ))))
 }
 
-/// Whether the processor multiplies and adds with one rounding. Without it, doing so would take a hundred times as long.
+/// Whether the CPU has fused multiply-add. Emulating it would take a hundred times as long.
 #[derive(Debug, Clone, Copy)]
 pub struct Fusing(bool);
 
 impl Fusing {
-    /// a b + c of every lane.
+    /// Returns a b + c in every lane.
     ///
-    /// By index: tests are not optimised across units of code, where each iterator would be a call.
+    /// Loops by index: tests are not optimised across codegen units, where each iterator would be a call.
     #[inline(always)]
     pub fn multiply_add<const LANES: usize>(
         self,
@@ -49,7 +49,7 @@ impl Fusing {
     }
 }
 
-/// Writes what `of` makes of each pair of values into `out`, as many of the one as of the others.
+/// Writes `of(a, b)` of each pair into `out`; all slices have equal lengths.
 #[inline(always)]
 pub fn write_each(out: &mut [f64], a: &[f64], b: &[f64], of: impl Fn(f64, f64) -> f64) {
     vectorized(
@@ -62,7 +62,7 @@ pub fn write_each(out: &mut [f64], a: &[f64], b: &[f64], of: impl Fn(f64, f64) -
     );
 }
 
-/// Adds `more` to `values`, as many of the one as of the other.
+/// Adds `more` to `values`, slices of equal length.
 pub fn add_to(values: &mut [f64], more: &[f64]) {
     vectorized(
         #[inline(always)]

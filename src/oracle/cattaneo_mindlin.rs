@@ -1,13 +1,13 @@
 //! The paraboloid in partial slip at fixed depth: stick radius, force, stress, slip.
 //!
-//! Sources: Cattaneo (1938), Mindlin (1949); Popov & Heß (2015), ch. 5. This file holds the first
-//! loading; [`super::fretting_loop`] the loop, its energy and its wear. With κ = G*/(μE*):
+//! Sources: Cattaneo (1938), Mindlin (1949); Popov & Heß (2015), ch. 5. This file covers first loading,
+//! [`super::fretting_loop`] the loop, its energy and its wear. With κ = G*/(μE*):
 //! - c² = R(d − κU), gross slip from U_s = d/κ; F_x = μF_z[1 − (1 − U/U_s)^{3/2}];
 //! - τ(r) = μ[p(r; a) − p(r; c)];
 //! - s(r) = (μE*/(πG*R))[(r²−2c²) acos(c/r) + c√(r²−c²)] for c < r < a;
 //!
-//! The differences (a − c, sin y − y cos y, 1 − (1−ε)^{3/2}) are formed without cancellation, so
-//! that amplitudes of 1e-9 d and less keep their digits.
+//! The differences (a − c, sin y − y cos y, 1 − (1−ε)^{3/2}) are computed without cancellation, so that amplitudes of
+//! 1e-9 d and less keep their digits.
 
 use super::special::{angle_beyond, leg, positive_part};
 use std::f64::consts::PI;
@@ -45,7 +45,7 @@ impl CattaneoMindlin {
         self.mu * self.e_star * positive_part(self.depth) / self.g_star
     }
 
-    /// True where no point sticks: U ≥ U_s > 0, or any motion without friction.
+    /// True if no point sticks: U ≥ U_s > 0, or any motion without friction.
     pub fn is_gross_slip(&self) -> bool {
         self.amplitude > 0.0 && self.amplitude >= self.gross_slip_displacement()
     }
@@ -104,8 +104,8 @@ impl CattaneoMindlin {
         2.0 * self.g_star * u / (PI * (leg(a, r) + leg(c, r)))
     }
 
-    /// s(r), m, at displacement U of the first loading: 0 for r ≤ c; in gross slip
-    /// U − U_s + μE*r²/(2G*R); NaN for r > a, where nothing touches.
+    /// s(r), m, at displacement U of the first loading: 0 for r ≤ c; in gross
+    /// slip U − U_s + μE*r²/(2G*R); NaN for r > a, outside the contact.
     pub fn slip(&self, r: f64) -> f64 {
         let (a, c) = (self.contact_radius(), self.stick_radius());
         let lambda = self.mu * self.e_star / self.g_star;

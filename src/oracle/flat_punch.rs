@@ -18,7 +18,7 @@ pub struct FlatPunch {
     pub g_star: f64,
     /// μ, dimensionless.
     pub mu: f64,
-    /// a, m: the punch's radius, and the contact's.
+    /// a, m: the radius of punch and contact.
     pub radius: f64,
     /// d, m; no contact for d ≤ 0.
     pub depth: f64,
@@ -71,7 +71,7 @@ impl FlatPunch {
         self.g_star * displacement.clamp(-limit, limit) / (PI * leg(self.radius, r))
     }
 
-    /// Energy a settled cycle of amplitude U ≥ 0, J: 4μF_z(U − U_s), 0 for U ≤ U_s.
+    /// E_d of a steady-state cycle of amplitude U ≥ 0, J: 4μF_z(U − U_s), 0 for U ≤ U_s.
     pub fn energy_per_cycle(&self, amplitude: f64) -> f64 {
         let sliding = (amplitude - self.gross_slip_displacement()).max(0.0);
         4.0 * self.mu * self.force() * sliding

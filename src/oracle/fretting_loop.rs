@@ -11,7 +11,7 @@
 
 use super::cattaneo_mindlin::CattaneoMindlin;
 
-/// The part of a closed tangential cycle −U … U to which a displacement belongs.
+/// The branch of a closed tangential cycle −U … U on which a displacement lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Branch {
     /// The first loading, from 0 towards ±U.
@@ -22,7 +22,7 @@ pub enum Branch {
     Reloading,
 }
 
-/// Masing's rule: the branch of a loop from the odd first-loading curve.
+/// Applies Masing's rule: derives a branch of the loop from the odd first-loading curve.
 ///
 /// Unloading: h(U) − 2h((U−u)/2); reloading: −h(U) + 2h((U+u)/2). `first` must be the curve for
 /// non-negative displacements; the unit is the curve's. NaN for |u| > U.
@@ -39,12 +39,12 @@ pub fn masing(first: impl Fn(f64) -> f64, amplitude: f64, branch: Branch, u: f64
 }
 
 impl CattaneoMindlin {
-    /// F_x, N, at displacement u of the settled loop −U … U by Masing's rule; NaN for |u| > U.
+    /// F_x, N, at displacement u of the steady-state loop −U … U by Masing's rule; NaN for |u| > U.
     pub fn loop_force(&self, branch: Branch, u: f64) -> f64 {
         masing(|x| self.first_loading_force(x), self.amplitude, branch, u)
     }
 
-    /// τ(r), Pa, at displacement u of the settled loop, by Masing's rule; NaN for |u| > U.
+    /// τ(r), Pa, at displacement u of the steady-state loop, by Masing's rule; NaN for |u| > U.
     pub fn loop_shear(&self, branch: Branch, u: f64, r: f64) -> f64 {
         masing(
             |x| self.first_loading_shear(x, r),
@@ -54,7 +54,7 @@ impl CattaneoMindlin {
         )
     }
 
-    /// E_d, J: frictional work of a settled cycle −U … U.
+    /// E_d, J: frictional work of a steady-state cycle −U … U.
     pub fn energy_per_cycle(&self) -> f64 {
         if self.is_gross_slip() {
             let beyond = self.amplitude - 0.8 * self.gross_slip_displacement();
@@ -69,7 +69,7 @@ impl CattaneoMindlin {
         factor * ring.powi(3) * (a * a + 3.0 * a * c + c * c)
     }
 
-    /// Δf(r) = 4μk p(r) s(r), m: wear a settled cycle on the frozen profile, k in 1/Pa; 0 outside.
+    /// Δf(r) = 4μk p(r) s(r), m: wear per steady-state cycle on the frozen profile, k in 1/Pa; 0 outside.
     pub fn wear_per_cycle(&self, wear_coefficient: f64, r: f64) -> f64 {
         if r >= self.contact_radius() {
             return 0.0;
@@ -77,7 +77,7 @@ impl CattaneoMindlin {
         4.0 * self.mu * wear_coefficient * self.pressure(r) * self.slip(r)
     }
 
-    /// V = k·E_d, m³: worn volume of a settled cycle on the frozen profile.
+    /// V = k·E_d, m³: worn volume per steady-state cycle on the frozen profile.
     pub fn worn_volume_per_cycle(&self, wear_coefficient: f64) -> f64 {
         wear_coefficient * self.energy_per_cycle()
     }
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn masing_follows_one_elastic_slider() {
-        // One spring with stiffness 1 and limit 1, in steps, against the rule.
+        // Steps one spring of stiffness 1 and limit 1, and compares it with the rule.
         let first = |u: f64| u.min(1.0);
         let (amplitude, steps) = (1.7, 1700);
         let step = amplitude / f64::from(steps);
@@ -147,7 +147,7 @@ mod tests {
             close(m.energy_per_cycle(), 2.0 * half, 1e-10, "area");
             let (k, a, c) = (1e-12, m.contact_radius(), m.stick_radius());
             let ring = |r: f64| 2.0 * PI * r * m.wear_per_cycle(k, r);
-            // r = c + (a−c)(1−t²) takes the root at a away.
+            // r = c + (a−c)(1−t²) removes the root at a.
             let l = a - c;
             let volume = integrate(|t| ring(c + l * (1.0 - t * t)) * 2.0 * l * t, 0.0, 1.0);
             close(m.worn_volume_per_cycle(k), volume, 1e-9, "V = k E_d");

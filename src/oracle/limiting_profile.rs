@@ -31,8 +31,8 @@ pub struct LimitingProfile {
 }
 
 impl LimitingProfile {
-    /// The limit under a held normal force N (and held tangential force amplitude, so that c stays
-    /// where it was): d∞ = N/(2E*c) + c²/(3R), m. The force in N; needs c > 0.
+    /// Returns the limit under a held normal force N (and a held tangential force amplitude, so that c stays constant):
+    /// d∞ = N/(2E*c) + c²/(3R), m. The force in N; needs c > 0.
     pub fn under_force(e_star: f64, radius: f64, force: f64, stick_radius: f64) -> Self {
         let c = stick_radius;
         Self {
@@ -50,11 +50,11 @@ impl LimitingProfile {
 
     fn is_valid(&self) -> bool {
         let c = self.stick_radius;
-        // One rounding of c = √(Rd) may not push it out.
+        // Tolerates a rounded c = √(Rd).
         c >= 0.0 && c * c <= self.contact_square() * (1.0 + 4.0 * f64::EPSILON)
     }
 
-    /// b, m: the outer edge of the worn ring, beyond which nothing ever touches.
+    /// b, m: the outer edge of the worn ring; nothing beyond it ever touches.
     pub fn outer_radius(&self) -> f64 {
         if !self.is_valid() {
             return f64::NAN;
@@ -76,7 +76,7 @@ impl LimitingProfile {
         r * r / (2.0 * self.radius)
     }
 
-    /// f∞(r) − f₀(r), m: the depth worn away, for c < r < b; 0 elsewhere.
+    /// f∞(r) − f₀(r), m: the worn depth for c < r < b; 0 elsewhere.
     pub fn worn_depth(&self, r: f64) -> f64 {
         let b = self.outer_radius();
         if b.is_nan() {
@@ -157,7 +157,7 @@ impl LimitingProfile {
         let step = positive_part(self.contact_square() - c * c);
         let hertz = 2.0 * root;
         let factor = self.e_star / (PI * self.radius);
-        // A step of a rounding's size is no step.
+        // A step as small as rounding counts as none.
         if step <= 4.0 * f64::EPSILON * c * c {
             return factor * hertz;
         }
@@ -211,7 +211,7 @@ mod tests {
                 let inner = integrate(|t| (r * t.sin()).powi(2) / 0.01, 0.0, step);
                 let f = 2.0 / PI * (inner + l.depth * (FRAC_PI_2 - step));
                 close(l.profile(r), f, 1e-12, "f∞");
-                // As printed in the literature.
+                // As published.
                 let (s, root) = ((c / r).asin(), (r * r - c * c).sqrt());
                 let f = (r * r * s - c * root) / (PI * 0.01) + 1e-6 * (1.0 - 2.0 / PI * s);
                 close(l.profile(r), f, 1e-12, "f∞ as published");
@@ -227,7 +227,7 @@ mod tests {
             assert!(l.ring_wear(b) < 1e-15 * l.depth);
             assert!(l.worn_depth(b - 1e-3 * (b - c)) > 0.0);
             assert_eq!(l.worn_depth(b), 0.0);
-            // The formula past b would fill, not wear.
+            // Beyond b the formula would add material.
             let past = b + 1e-3 * (b - c);
             let f = 2e-8 - past * past;
             assert!(f * angle_beyond(c, past) < c * leg(past, c));
@@ -246,7 +246,7 @@ mod tests {
             );
             for r in [1.05 * b, 1.6 * b] {
                 assert!(l.mdr_profile(r) > l.depth);
-                // t = sin φ; x = r sin φ with √-kink at b taken out by φ = φ_b + s².
+                // t = sin φ; x = r sin φ, with φ = φ_b + s² to remove the square root at b.
                 let (inner, outer) = ((c / r).asin(), (b / r).asin());
                 let parabola = integrate(|t| (r * t.sin()).powi(2) / 0.01, 0.0, inner);
                 let flat = l.depth * (outer - inner);
@@ -263,7 +263,7 @@ mod tests {
         for l in FRACTIONS.map(limit) {
             let c = l.stick_radius;
             let ring = |t: f64| 2.0 * PI * c * t.sin() * l.pressure(c * t.sin()) * c * t.cos();
-            // In t the ring is smooth, but c sin t rounds to c: the last sliver is one rectangle.
+            // In t the ring is smooth, but c sin t rounds to c: the last sliver becomes one rectangle.
             let (sliver, end) = (1e-4, FRAC_PI_2 - 1e-4);
             let sum = integrate(ring, 0.0, end) + sliver * ring(end);
             close(sum, l.force(), 1e-10, "F∞");
@@ -284,7 +284,7 @@ mod tests {
     fn worn_volume_against_its_integral() {
         for l in FRACTIONS.map(limit) {
             let (c, b) = (l.stick_radius, l.outer_radius());
-            // r = c + (b−c)t² takes the root at c away.
+            // r = c + (b−c)t² removes the root at c.
             let ring = |t: f64| {
                 let r = c + (b - c) * t * t;
                 2.0 * PI * r * l.ring_wear(r) * 2.0 * (b - c) * t

@@ -1,5 +1,5 @@
 //! A cylinder on a flat, f = r²/2R, in plane strain: Hertz, partial slip, its wear to the limit, gross slip. All loads,
-//! works and volumes are per length of the line.
+//! works and volumes are per unit length of the line.
 //!
 //! Flamant's w′ = −(2/πE*) ⨍ p/(x − ξ) dξ for the sum of both surfaces, normal and tangential alike. With
 //! m = Q/(μP), c² = a²(1 − m) and s = √(x² − c²):
@@ -14,10 +14,11 @@
 //!   p = (E*/2R)√(c² − x²) + (E*/4R)(a² − c²)/√(c² − x²).
 //! - Gross slip: the pressure becomes P/2b; up to a half-width b, V = 2b³/3R − a²b/2R.
 
+use super::fretting_loop::{Branch, masing};
 use super::special::bisect;
 use std::f64::consts::PI;
 
-/// A cylinder under a load that is held.
+/// A cylinder under a held load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     /// E*, Pa.
@@ -36,7 +37,7 @@ impl Cylinder {
         (4.0 * self.load * self.radius / (PI * self.e_star)).sqrt()
     }
 
-    /// p of a half-width `a` at x, Pa.
+    /// p at x for the half-width `a`, Pa.
     pub fn pressure(&self, a: f64, x: f64) -> f64 {
         0.5 * self.e_star / self.radius * (a * a - x * x).max(0.0).sqrt()
     }
@@ -57,6 +58,11 @@ impl Cylinder {
         self.friction * (self.pressure(self.half_width(), x) - self.pressure(c, x))
     }
 
+    /// τ at a force (N/m) of the settled loop of an `amplitude` below μP, by Masing's rule; NaN for |Q| beyond it.
+    pub fn loop_shear(&self, branch: Branch, [force, amplitude]: [f64; 2], x: f64) -> f64 {
+        masing(|force| self.shear(force, x), amplitude, branch, force)
+    }
+
     /// The slip on first loading to Q at x up to a, m.
     pub fn slip(&self, force: f64, x: f64) -> f64 {
         let c = self.stick_half_width(force);
@@ -65,7 +71,7 @@ impl Cylinder {
         0.5 * self.friction / self.radius * (x * root - c * c * (x / c).acosh())
     }
 
-    /// E_d of a cycle with the amplitude Q, J/m.
+    /// E_d per cycle of amplitude Q, J/m.
     pub fn energy_per_cycle(&self, amplitude: f64) -> f64 {
         let m = self.share(amplitude);
         // At m = 1 the last term is 0.
@@ -78,8 +84,8 @@ impl Cylinder {
         scale * (2.0 * m - m * m + log)
     }
 
-    /// The displacement on first loading to Q against a point at the depth `gauge`, m; with μP in the place of Q, that from
-    /// which all slips.
+    /// The displacement on first loading to Q against a point at
+    /// depth `gauge`, m; with Q = μP it is the onset of gross slip.
     pub fn shift(&self, force: f64, gauge: f64) -> f64 {
         let stuck = |a: f64| {
             let load = PI * self.e_star * a * a / (4.0 * self.radius);
@@ -93,7 +99,7 @@ impl Cylinder {
         self.friction * (stuck(self.half_width()) - stuck(self.stick_half_width(force)))
     }
 
-    /// b, m: where the scar ends that a permanent stick zone of half-width c leaves.
+    /// b, m: the end of the scar around a permanent stick zone of half-width c.
     pub fn scar_half_width(&self, c: f64) -> f64 {
         let ratio = (self.half_width() / c).powi(2);
         let theta = bisect(0.0, 20.0, |theta| {
@@ -143,7 +149,7 @@ mod tests {
         load: 0.7,
     };
 
-    /// Loads, volumes and work by quadrature of what stands beside them.
+    /// Checks loads, volumes and work by quadrature of the other closed forms.
     #[test]
     fn the_forms_agree_with_each_other() {
         let a = CYLINDER.half_width();
@@ -154,7 +160,12 @@ mod tests {
             let c = CYLINDER.stick_half_width(force);
             let carried = 2.0 * integrate(|x| CYLINDER.shear(force, x), 0.0, a);
             assert!((carried / force - 1.0).abs() < 1e-7, "{carried} {force}");
-            // Each stroke slips by twice that of half the force; 4μp s a cycle.
+            for branch in [Branch::Unloading, Branch::Reloading] {
+                let shear = |x| CYLINDER.loop_shear(branch, [0.4 * force, force], x);
+                let carried = 2.0 * integrate(shear, 0.0, a) / force;
+                assert!((carried - 0.4).abs() < 1e-6, "{branch:?} {carried}");
+            }
+            // Each stroke slips by twice what half the force does: 4μp s per cycle.
             let work = |x: f64| {
                 let s = CYLINDER.slip(force, x);
                 4.0 * CYLINDER.friction * CYLINDER.pressure(a, x) * s

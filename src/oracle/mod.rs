@@ -14,24 +14,17 @@
 //! | [`fretting_loop`] | its loop, energy and wear per cycle; Masing's rule |
 //! | [`partial_slip`] | the same for any one-dimensional profile, by quadrature |
 //! | [`limiting_profile`] | what is left of a paraboloid after endless fretting |
-//! | [`dual_oscillation`] | permanent stick under normal and tangential oscillation |
 //! | [`line_contact`] | a cylinder on a flat: Hertz, partial slip, limit, gross slip |
-//! | [`half_space`] | stresses inside: Hertz in closed form, any traction by its point forces |
-//! | [`abel_pairs`], [`pair_catalogue`] | analytic pairs of the transforms (1), (2), (3) |
-//! | [`special`], [`quadrature`] | gamma, erf, Dawson, Bessel, bisection; the adaptive integral |
+//! | [`special`], [`quadrature`] | gamma, κ, bisection; the adaptive integral |
 //!
 //! Arguments outside a function's domain give NaN, never a panic; each item says so where it
 //! can happen.
 
-pub mod abel_pairs;
 pub mod cattaneo_mindlin;
-pub mod dual_oscillation;
 pub mod flat_punch;
 pub mod fretting_loop;
-pub mod half_space;
 pub mod limiting_profile;
 pub mod line_contact;
-pub mod pair_catalogue;
 pub mod partial_slip;
 pub mod power_law;
 pub mod quadrature;

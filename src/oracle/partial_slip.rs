@@ -53,7 +53,7 @@ impl<G: Fn(f64) -> f64> PartialSlip<G> {
         self.yield_displacement(0.0)
     }
 
-    /// c, m: the root of y(c) = U by bisection to the last digit; a for U = 0, 0 for U ≥ U_s.
+    /// c, m: the root of y(c) = U by bisection to machine precision; a for U = 0, 0 for U ≥ U_s.
     pub fn stick_radius(&self) -> f64 {
         if self.amplitude == 0.0 {
             return self.contact_radius;
@@ -97,7 +97,7 @@ impl<G: Fn(f64) -> f64> PartialSlip<G> {
         2.0 / PI * integrate(lag, start, FRAC_PI_2)
     }
 
-    /// E_d, J: the energy of a settled cycle −U … U.
+    /// E_d, J: energy of a steady-state cycle −U … U.
     pub fn energy_per_cycle(&self) -> f64 {
         let loss = |x: f64| {
             let y = self.yield_displacement(x);
@@ -111,7 +111,7 @@ impl<G: Fn(f64) -> f64> PartialSlip<G> {
 mod tests {
     use super::*;
 
-    /// A cone: everything has a closed form of its own.
+    /// A cone, which has closed forms for everything.
     fn cone(amplitude: f64) -> PartialSlip<impl Fn(f64) -> f64> {
         PartialSlip {
             e_star: 2.0e11,

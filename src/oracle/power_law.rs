@@ -6,10 +6,9 @@
 //! - g(x) = κₙ A xⁿ, d = κₙ A aⁿ, F = 2n/(n+1) E* d a,
 //! - p(r) = (E*/π) κₙ n A ∫ᵣᵃ x^(n−1)/√(x²−r²) dx, w(r) = (2/π) ∫₀^min(r,a) (d − g)/√(r²−x²) dx.
 //!
-//! For integer n both integrals close by I_m = [a^(m−1) √(a²−r²) + (m−1) r² I_(m−2)]/m from
-//! I₀ = acosh(a/r), I₁ = √(a²−r²), and its mirror for w; for other n they are integrated numerically
-//! after x = r cosh v, x = r sin φ. At r = 0 the pressure is finite for n > 1 and +∞ for n ≤ 1 (it
-//! is so in truth). At r = a it is 0.
+//! For integer n both integrals have closed forms by I_m = [a^(m−1) √(a²−r²) + (m−1) r² I_(m−2)]/m from
+//! I₀ = acosh(a/r), I₁ = √(a²−r²), and its mirror image for w; for other n they are integrated numerically after
+//! x = r cosh v, x = r sin φ. At r = 0 the pressure is finite for n > 1 and truly infinite for n ≤ 1. At r = a it is 0.
 
 use super::quadrature::integrate;
 use super::special::{acosh_ratio, kappa, leg, positive_part};
@@ -113,8 +112,8 @@ impl PowerLaw {
         if a <= 0.0 {
             return 0.0;
         }
-        // d asin(a/r) − κA ∫₀ᵃ xⁿ/√(r²−x²) dx; far away both agree to all digits but (a/r)³ of
-        // them, so there the integral is of the difference itself.
+        // d asin(a/r) − κA ∫₀ᵃ xⁿ/√(r²−x²) dx. Far away the two terms agree to all digits but (a/r)³ of them, so the
+        // difference itself is integrated there.
         if n.fract() == 0.0 && n <= 64.0 && r < 4.0 * a {
             let integral = displacement_integral(n, a, r);
             2.0 / PI * (depth * (a / r).asin() - self.kappa() * self.coefficient * integral)
@@ -127,7 +126,7 @@ impl PowerLaw {
 
 /// I_m = ∫ᵣᵃ x^m/√(x²−r²) dx for m > −1, 0 ≤ r < a; unit m^m.
 ///
-/// Closed for integer m, else numeric; +∞ at r = 0 for m ≤ 0.
+/// In closed form for integer m, else by quadrature; +∞ at r = 0 for m ≤ 0.
 pub fn pressure_integral(m: f64, a: f64, r: f64) -> f64 {
     if r == 0.0 {
         return if m > 0.0 {
@@ -154,7 +153,7 @@ pub fn pressure_integral(m: f64, a: f64, r: f64) -> f64 {
 
 /// J_m = ∫₀ᵃ x^m/√(r²−x²) dx for m > −1, 0 ≤ a ≤ r; unit m^m.
 ///
-/// Closed for integer m, else numeric.
+/// In closed form for integer m, else by quadrature.
 pub fn displacement_integral(m: f64, a: f64, r: f64) -> f64 {
     let angle = if r > 0.0 { (a / r).asin() } else { FRAC_PI_2 };
     if m < 0.0 || m.fract() != 0.0 || m > 64.0 {

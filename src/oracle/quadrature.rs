@@ -1,10 +1,9 @@
 //! An adaptive integral for smooth integrands: Gauss–Kronrod 7–15 with interval halving.
 //!
 //! Source: A. S. Kronrod (1965); nodes and weights as in QUADPACK's `qk15` (Piessens et al. 1983).
-//! Degree of exactness 23 (the even rule of 15 nodes). An interval is accepted when its rule and
-//! the sum of the rules on its halves agree to 1e-14 of the integral of |f|; at most 48 halvings,
-//! so that an integrable end-point singularity still ends (with less accuracy: substitute it away
-//! before calling). No end point is ever evaluated.
+//! Degree of exactness 23 (the even rule of 15 nodes). An interval is accepted when its rule and the sum of the rules
+//! on its halves agree to 1e-14 of the integral of |f|. At most 48 halvings, so that an integrable end-point
+//! singularity terminates (less accurately: substitute it away first). End points are never evaluated.
 
 /// Nodes on [0, 1) of the 15-point Kronrod rule, from the outermost to the centre.
 const NODES: [f64; 8] = [
@@ -47,7 +46,7 @@ pub fn integrate(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     halve(&f, [a, b], whole, RELATIVE * size, HALVINGS)
 }
 
-/// One 15-point rule: (∫ f, ∫ |f|).
+/// Applies the 15-point rule once: (∫ f, ∫ |f|).
 fn rule(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     let centre = f(middle);

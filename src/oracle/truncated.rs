@@ -5,8 +5,8 @@
 //!
 //! The pressure is an incomplete elliptic integral. With m = max(r, b), l = min(r, b) and
 //! x² = m² + (m²−l²) sinh² v, (3) becomes p = (E*/π) ∫ g′(x)√(x²−b²)/x dv, whose integrand is smooth;
-//! it is integrated numerically. p is finite on the axis, +∞ (logarithmic) at the rim r = b, and 0
-//! at the contact edge. b = 0 is the plain shape.
+//! it is integrated numerically. p is finite on the axis, +∞ (logarithmic) at the rim r = b, and 0 at the contact edge.
+//! b = 0 is the whole paraboloid.
 
 use super::power_law::PowerLaw;
 use super::quadrature::integrate;
@@ -36,7 +36,7 @@ impl TruncatedParaboloid {
         x.abs() / self.radius * leg(x.abs(), self.tip_radius)
     }
 
-    /// d = (a/R)√(a²−b²), m, for a ≥ b; NaN for a < b, which no load gives.
+    /// d = (a/R)√(a²−b²), m, for a ≥ b; NaN for a < b, which no load produces.
     pub fn depth(&self, contact_radius: f64) -> f64 {
         if contact_radius < self.tip_radius {
             return f64::NAN;
@@ -111,7 +111,7 @@ mod tests {
         );
     }
 
-    /// ∫₀ᵃ f dr with the logarithmic rim b taken out by r = b(1 ∓ t³) steps.
+    /// Returns ∫₀ᵃ f dr; the steps r = b(1 ∓ t³) remove the logarithm at the rim b.
     fn across_rim(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
         let inner = |t: f64| f(b * (1.0 - t.powi(3))) * 3.0 * b * t * t;
         let outer = |t: f64| f(b + (a - b) * t.powi(3)) * 3.0 * (a - b) * t * t;
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn forces_are_the_sum_of_the_springs_and_of_the_pressure() {
         let area = |g: &dyn Fn(f64) -> f64| {
-            // x = b + (a − b)t² takes the root at b away.
+            // x = b + (a − b)t² removes the root at b.
             let (b, l) = (5e-5, A - 5e-5);
             let outer = |t: f64| (g(A) - g(b + l * t * t)) * 2.0 * l * t;
             2.0 * E * (g(A) * b + integrate(outer, 0.0, 1.0))
@@ -152,7 +152,7 @@ mod tests {
     fn pressure_is_equation_3_by_secants() {
         let b = 5e-5f64;
         let ball = |x: f64| (2.0 * x * x - b * b) / (0.01 * (x * x - b * b).sqrt());
-        // x = m/cos t: dx/√(x²−m²) = dt/cos t, with the other root left as it is.
+        // x = m/cos t: dx/√(x²−m²) = dt/cos t, leaving the other root.
         let by_secant = |slope: &dyn Fn(f64) -> f64, r: f64| {
             let m = r.max(b);
             let integrand = |t: f64| {
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn depth_inverts_and_limits_hold() {
-        // Just above the tip d rises like √(a−b), so that a's last digit costs half of d's.
+        // Just above the tip d rises like √(a−b), so the last digit of a costs half of the digits of d.
         for (d, tolerance) in [(1e-12, 1e-4), (1e-8, 1e-11), (1e-6, 1e-14), (1e-2, 1e-14)] {
             close(
                 BALL.depth(BALL.contact_radius(d)),

@@ -6,7 +6,7 @@ use super::step::Step;
 use super::units::{AxisUnit, axis_unit};
 pub use crate::math::scale::Scale;
 
-/// The least number that is shown in the unit of what an axis is expected to reach.
+/// Values smaller than this in the unit of the expected value get a unit that suits themselves.
 const LEAST: f64 = 1e-3;
 
 /// What an axis shows.
@@ -18,14 +18,14 @@ pub struct Axis {
     pub unit: &'static str,
     /// The values at the two ends, in `unit`; `None` takes them from the data.
     pub bounds: Option<[f64; 2]>,
-    /// A value that is within bounds from the data.
+    /// A value that bounds from the data always include.
     pub holds: Option<f64>,
-    /// What it is expected to reach, in the data's unit; 0 where that is not known. It tells the unit before the data
+    /// The value that the data are expected to reach, in their unit; 0 if unknown. It decides the unit before the data
     /// do.
     pub expects: f64,
     /// Linear or logarithmic.
     pub scale: Scale,
-    /// Whether bounds from the data are as far on both sides of zero, on a screen.
+    /// Whether bounds from the data are symmetric about zero, on a screen.
     pub is_symmetric: bool,
     /// Whether the ordinate grows downwards, on paper.
     pub downwards: bool,
@@ -48,21 +48,21 @@ impl Axis {
         self
     }
 
-    /// The same axis, which holds zero: volumes and radii grow from there.
+    /// The same axis, always including zero, for volumes and radii that grow from there.
     #[must_use]
     pub fn from_zero(mut self) -> Self {
         self.holds = Some(0.0);
         self
     }
 
-    /// The same axis, which is expected to reach `value`.
+    /// The same axis, expected to reach `value`.
     #[must_use]
     pub fn expecting(mut self, value: f64) -> Self {
         self.expects = value;
         self
     }
 
-    /// The same axis, which takes its bounds from the data.
+    /// The same axis with bounds taken from the data.
     #[must_use]
     pub fn unbounded(self) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl Axis {
         }
     }
 
-    /// The unit to label a range with: that of what is expected, unless the numbers would be too small in it.
+    /// Returns the unit to label a range with: the expected value's, unless the numbers would be too small in it.
     pub fn unit_for(&self, [low, high]: [f64; 2]) -> AxisUnit {
         let most = low.abs().max(high.abs());
         let expected = axis_unit(self.expects.max(most), self.unit);
@@ -87,12 +87,12 @@ impl Axis {
         Axis { scale, ..self }
     }
 
-    /// The label with the unit of the data, as in `r (m)`.
+    /// Returns the label with the unit of the data, as in `r (m)`.
     pub fn in_data_units(&self) -> String {
         titled(&self.label, self.unit, ['(', ')'])
     }
 
-    /// Values halfway between neighbouring `places`, and as far beyond the first and the last one.
+    /// Returns the values halfway between neighbouring `places`, and as far beyond the first and the last one.
     pub fn edges(&self, places: &[f64]) -> Vec<f64> {
         let at = places.iter().map(|&place| self.scale.spread(place));
         let at: Vec<f64> = at.collect();
@@ -108,18 +108,17 @@ impl Axis {
         middles.map(|edge| self.scale.unspread(edge)).collect()
     }
 
-    /// `bounds` with this share of their distance more on either side.
+    /// Extends `bounds` by `share` of their distance on either side.
     pub fn with_margin(&self, [low, high]: [f64; 2], share: f64) -> [f64; 2] {
         let [low, high] = [low, high].map(|bound| self.scale.spread(bound));
         let more = share * (high - low);
         [low - more, high + more].map(|bound| self.scale.unspread(bound))
     }
 
-    /// The bounds to draw with: the given ones where they make sense, else those of the
-    /// `data`, rounded outwards to the tick grid if `round` asks for it. Always finite,
-    /// increasing, and positive on a log axis.
+    /// Returns the bounds to draw with: the given ones if they make sense, else the bounds of the `data`, rounded
+    /// outwards to the tick grid if `round` is set. They are always finite, increasing, and positive on a log axis.
     pub fn resolve(&self, data: Option<[f64; 2]>, round: bool) -> [f64; 2] {
-        // Zeros alone do not tell a size.
+        // Zeros alone say nothing about the size.
         let ends = self.bounds.filter(|ends| *ends != [0.0, 0.0]);
         let ends = ends.filter(|ends| ends.iter().all(|end| self.scale.has(*end)));
         match (ends, data, self.scale) {
@@ -139,7 +138,7 @@ impl Axis {
     }
 }
 
-/// A quantity with its unit between brackets, `p [MPa]`; either may be empty.
+/// Formats a quantity with its unit in brackets, `p [MPa]`; either may be empty.
 pub fn titled(label: &str, unit: &str, [open, close]: [char; 2]) -> String {
     match (label, unit) {
         (label, "") => label.to_owned(),
@@ -148,7 +147,7 @@ pub fn titled(label: &str, unit: &str, [open, close]: [char; 2]) -> String {
     }
 }
 
-/// `lo..hi` opened to a tenth around its middle if it is narrower than `least` of its size.
+/// Widens `lo..hi` by a tenth of its size to both sides if it is narrower than `least` times its size.
 fn widened(lo: f64, hi: f64, least: f64) -> [f64; 2] {
     let [lo, hi] = [lo.min(hi), lo.max(hi)].map(|v| v.clamp(-1e300, 1e300));
     let size = lo.abs().max(hi.abs());
@@ -162,9 +161,8 @@ fn widened(lo: f64, hi: f64, least: f64) -> [f64; 2] {
     }
 }
 
-/// `min..max` rounded outwards to the 1-2-5 grid with 4 to 10 steps across the data, so
-/// that the view does not jump with every frame. Data that are all equal are set in the
-/// middle; without finite data, 0 to 1.
+/// Rounds `min..max` outwards to the 1-2-5 grid with 4 to 10 steps across the data, so that the view does not jump in
+/// every frame. If all data are equal, they lie in the middle; without finite data, returns 0 to 1.
 pub fn nice_bounds(min: f64, max: f64) -> [f64; 2] {
     if !(min.is_finite() && max.is_finite()) {
         return [0.0, 1.0];
@@ -176,9 +174,9 @@ pub fn nice_bounds(min: f64, max: f64) -> [f64; 2] {
     [step.multiple(first), step.multiple(last)]
 }
 
-/// Bounds for a live run, in the data's unit: `previous` as long as the data (`data_min`
-/// to `data_max`) stay inside and fill at least half of it, else new [`nice_bounds`], with
-/// some room in the direction the data went.
+/// Returns bounds for a live run, in the data's unit. Keeps `previous` as long as the data (`data_min` to `data_max`)
+/// stay inside and fill at least half of it, else returns new [`nice_bounds`] with some room in the direction in which
+/// the data went.
 pub fn sticky_bounds(previous: Option<[f64; 2]>, data_min: f64, data_max: f64) -> [f64; 2] {
     let Some([lo, hi]) = previous.filter(|[lo, hi]| hi - lo > 0.0 && (hi - lo).is_finite()) else {
         return nice_bounds(data_min, data_max);
@@ -197,14 +195,14 @@ pub fn sticky_bounds(previous: Option<[f64; 2]>, data_min: f64, data_max: f64) -
     let room = (max - min) * if below && above { 0.125 } else { 0.25 };
     let lower = if below && !flat { min - room } else { min };
     let upper = if above && !flat { max + room } else { max };
-    // Room must not open a negative side that the data do not have, nor a positive one.
+    // Extra room must not add a side of zero on which there are no data.
     nice_bounds(
         if min >= 0.0 { lower.max(0.0) } else { lower },
         if max <= 0.0 { upper.min(0.0) } else { upper },
     )
 }
 
-/// Bounds of a log axis for positive data: full decades if `round`, at most 18 of them.
+/// Returns bounds of a log axis for positive data: full decades if `round` is set, at most 18 of them.
 fn log_bounds(min: f64, max: f64, round: bool) -> [f64; 2] {
     let hi = max.clamp(1e-299, 1e299);
     let lo = min.clamp(hi * 1e-18, hi).max(1e-300);

@@ -1,5 +1,5 @@
-//! One chart: axes, curves and what belongs to them. It owns its data, whatever it was made from; the terminal
-//! ([`super::Plot`]) and the paper (`figure`) both draw it.
+//! One chart: axes, curves and what belongs to them. It owns its data. The terminal ([`super::Plot`]) and the paper
+//! figures (`figure`) both draw it.
 
 use super::axis::Axis;
 use super::map::Map;
@@ -8,7 +8,7 @@ use super::theme::Role;
 use crate::math::scan::{range, value_at};
 use crate::reading::Zone;
 
-/// The dashes of curves of other sources in a terminal, by their number.
+/// Dash patterns of other sources' curves in a terminal, by index.
 const GHOSTS: [Stroke; 4] = [
     Stroke::Dotted,
     Stroke::DashDotted,
@@ -16,31 +16,30 @@ const GHOSTS: [Stroke; 4] = [
     Stroke::Dashed,
 ];
 
-/// A line through points; where one is not finite, or not positive on a logarithmic axis, is a gap.
+/// A line through points, with gaps at points that are not finite, or not positive on a logarithmic axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Curve {
-    /// The name in the legend; an empty name stays out of it.
+    /// The name in the legend; a curve without a name is not listed.
     pub name: String,
     /// Abscissae, in the x axis' unit.
     pub xs: Vec<f64>,
-    /// Ordinates, in the y axis' unit; the longer of the two is cut.
+    /// Ordinates, in the y axis' unit; if `xs` and `ys` differ in length, the longer is cut.
     pub ys: Vec<f64>,
-    /// What it stands for, which decides its colour.
+    /// What it represents, which decides its colour.
     pub role: Role,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// Ordinates of the other side of the shaded area, in a terminal; empty where nothing is shaded.
+    /// Ordinates of the other edge of the shaded area, in a terminal; empty without shading.
     pub fill: Vec<f64>,
-    /// The values that its points stand for, where it is drawn magnified; empty where these are the ordinates.
+    /// The true values of a curve that is drawn magnified; empty if these are the ordinates.
     pub true_values: Vec<f64>,
-    /// Standard errors of the ordinates; empty where they are not known.
+    /// Standard errors of the ordinates; empty if unknown.
     pub errors: Vec<f64>,
-    /// Whether its points are measured: on paper each has a symbol.
+    /// Whether its points are measured; on paper each then has a symbol.
     pub has_symbols: bool,
     /// Whether a line joins its points on paper.
     pub has_line: bool,
-    /// Whether it is a closed form beside the run's own curves, which alone decide what the axes of a live
-    /// chart hold.
+    /// Whether it is a closed form beside the run's own curves, which alone decide the range of a live chart's axes.
     pub is_theory: bool,
 }
 
@@ -81,7 +80,7 @@ impl Curve {
         Self { fill, ..self }
     }
 
-    /// The same curve, drawn magnified `times`: the name says so, and a cursor reads `values`.
+    /// The same curve as drawn magnified `times`: the name says so, and a cursor reads `values`.
     #[must_use]
     pub fn magnified(mut self, times: f64, values: impl Into<Vec<f64>>) -> Self {
         if times != 1.0 {
@@ -91,7 +90,7 @@ impl Curve {
         self
     }
 
-    /// Changes its ordinates, error bars included.
+    /// Applies `scale` to its ordinates and their errors.
     pub fn scale(&mut self, scale: impl Fn(f64) -> f64) {
         let values = self.ys.iter_mut().chain(&mut self.errors);
         values.for_each(|value| *value = scale(*value));
@@ -104,7 +103,7 @@ impl Curve {
         self
     }
 
-    /// The same as points, with standard errors if these are known.
+    /// The same curve as separate points, with standard errors if they are known.
     #[must_use]
     pub fn scattered(mut self, errors: impl Into<Vec<f64>>) -> Self {
         (self.has_symbols, self.has_line) = (true, false);
@@ -112,8 +111,8 @@ impl Curve {
         self
     }
 
-    /// The value that the curve stands for at `x`: at a point of it, or linearly interpolated between the first
-    /// two neighbouring points that have `x` between them. `None` in gaps and outside.
+    /// Returns the value at `x`: at a point of the curve, or interpolated linearly between the first two neighbouring
+    /// points with `x` between them. `None` in gaps and outside.
     pub fn value_at(&self, x: f64) -> Option<f64> {
         let values = match self.true_values.is_empty() {
             true => &self.ys,
@@ -122,7 +121,7 @@ impl Curve {
         value_at(&self.xs, values, x)
     }
 
-    /// All values that the curve stands for at `x`, in the order of its points: a loop has two at most places.
+    /// Returns all values at `x`, in the order of the points; a loop has two almost everywhere.
     pub fn values_at(&self, x: f64) -> impl Iterator<Item = f64> {
         let values = match self.true_values.is_empty() {
             true => &self.ys,
@@ -135,24 +134,24 @@ impl Curve {
         })
     }
 
-    /// The largest finite ordinate, 0 without a positive one; error bars count.
+    /// Returns the largest finite ordinate, error bars included; 0 if none is positive.
     pub fn highest(&self) -> f64 {
         let values = self.points().chain(self.bars()).map(|(_, y)| y);
         values.filter(|y| y.is_finite()).fold(0.0, f64::max)
     }
 
-    /// The points of the curve, gaps included.
+    /// Returns the points of the curve, including gaps.
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
 
-    /// The ends of the error bars, a gap after each bar.
+    /// Returns the ends of the error bars, with a gap after each bar.
     pub fn bars(&self) -> impl Iterator<Item = (f64, f64)> {
         let points = self.points().zip(&self.errors);
         points.flat_map(|((x, y), error)| [(x, y - error), (x, y + error), (f64::NAN, f64::NAN)])
     }
 
-    /// How its line is interrupted in a terminal.
+    /// Returns its dash pattern in a terminal.
     pub(super) fn stroke(&self) -> Stroke {
         match self.role {
             Role::Ghost(k) => GHOSTS[k % GHOSTS.len()],
@@ -165,26 +164,26 @@ impl Curve {
 /// A thin dotted vertical line with a short label above it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Where, in the x axis' unit.
+    /// Its place, in the x axis' unit.
     pub x: f64,
     /// A letter or two, as in `a`.
     pub label: &'static str,
-    /// What it stands for.
+    /// What it represents.
     pub role: Role,
 }
 
-/// One place with a sign of its own, over the curves.
+/// A single marked point, drawn over the curves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// x and y, in the units of the axes.
     pub at: [f64; 2],
     /// The sign, as in `▶`.
     pub sign: char,
-    /// What it stands for.
+    /// What it represents.
     pub role: Role,
 }
 
-/// One chart. All data are in plain units (m, Pa); whoever draws it chooses the prefixes.
+/// One chart. All data are in plain units (m, Pa); the renderer chooses the prefixes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Chart {
     /// What it shows.
@@ -193,14 +192,14 @@ pub struct Chart {
     pub x: Axis,
     /// The ordinate.
     pub y: Axis,
-    /// The curves, in drawing order: later ones win the colour of a shared cell.
+    /// The curves, in drawing order; where two share a cell, the later one sets its colour.
     pub curves: Vec<Curve>,
-    /// Single places, in a terminal.
+    /// Single marked points, in a terminal.
     pub points: Vec<Point>,
-    /// The zones of the band under the plot area, each from one x to another, in a terminal; none without a band.
+    /// The zones of the band below the plot area, each from one x to another, in a terminal; empty without a band.
     ///
-    /// Cells take the zone at their middle; a zone narrower than a cell still gets one. Of overlapping zones the last
-    /// is seen.
+    /// Cells show the zone at their middle; a zone narrower than a cell still gets one. Where zones overlap, the last
+    /// one is visible.
     pub band: Vec<([f64; 2], Zone)>,
     /// Vertical dotted lines.
     pub marks: Vec<Mark>,
@@ -208,7 +207,7 @@ pub struct Chart {
     pub note: String,
     /// The map below the curves, on paper.
     pub map: Option<Map>,
-    /// The share of the data's extent that stays free at both ends of the abscissa, on paper.
+    /// Free space at both ends of the abscissa on paper, relative to the data's extent.
     pub margin: f64,
     /// A smaller chart in the upper left corner, on paper.
     pub inset: Option<Box<Chart>>,
@@ -239,14 +238,14 @@ impl Chart {
         self
     }
 
-    /// The curves that the legend names.
+    /// Returns the curves that the legend lists.
     pub fn named(&self) -> impl Iterator<Item = &Curve> {
         self.curves.iter().filter(|curve| !curve.name.is_empty())
     }
 
-    /// The ranges of abscissae and ordinates that will be seen: those of points and error bars with a place on
-    /// both axes, and within x bounds that are given; of the places of a map, and of what the axes always hold. Curves
-    /// that are not `counted` are left out.
+    /// Returns the visible ranges of abscissae and ordinates. They cover points and error bars with a position on both
+    /// axes and within the given x bounds, the places of a map, and the values that the axes always include. Curves for
+    /// which `counted` is false are left out.
     pub fn extent(&self, counted: impl Fn(&Curve) -> bool) -> [Option<[f64; 2]>; 2] {
         let limits = self.x.bounds.map(|[a, b]| [a.min(b), a.max(b)]);
         let seen = |x: f64| limits.is_none_or(|[lo, hi]| x >= lo && x <= hi);

@@ -5,7 +5,7 @@ use ratatui::style::Color;
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
 
-/// The colours of a terminal that have names, by their numbers, and what they look like where that is not known.
+/// The terminal's named colours, by number, with their usual RGB values for when the real ones are unknown.
 pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::Black, [0, 0, 0]),
     (Color::Red, [0xcd, 0x31, 0x31]),
@@ -24,6 +24,16 @@ pub(crate) const NAMED: [(Color, Rgb); 16] = [
     (Color::LightCyan, [0x29, 0xb8, 0xdb]),
     (Color::White, [0xff, 0xff, 0xff]),
 ];
+
+/// What a terminal of 256 colours shows for an index: the named ones, a cube of 6×6×6, then 24 greys.
+pub fn indexed(index: u8) -> Rgb {
+    match index {
+        0..=15 => NAMED[usize::from(index)].1,
+        16..=231 => [36, 6, 1]
+            .map(|place| [0, 95, 135, 175, 215, 255][usize::from((index - 16) / place % 6)]),
+        232.. => [8 + 10 * (index - 232); 3],
+    }
+}
 
 /// Which colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +68,14 @@ const DIVERGING: [Rgb; 7] = [
     [178, 24, 43],
 ];
 
+/// The colour at a share of the way, 0 to 1, through `stops` at equal distances.
+pub(super) fn between(stops: &[Rgb], share: f64) -> Rgb {
+    let last = stops.len() - 1;
+    let at = share.clamp(0.0, 1.0) * last as f64;
+    let before = (at as usize).min(last - 1);
+    mixed(stops[before], stops[before + 1], at - before as f64)
+}
+
 /// The colour at a `share` of the way from one to another.
 pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
     [0, 1, 2].map(|k| {
@@ -67,19 +85,15 @@ pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
 }
 
 impl ColorMap {
-    /// The colour at a share of the range, 0 to 1.
+    /// Returns the colour at a share of the range, 0 to 1.
     pub fn color(self, share: f64) -> Rgb {
-        let stops: &[Rgb] = match self {
-            Self::Sequential => &SEQUENTIAL,
-            Self::Diverging => &DIVERGING,
-        };
-        let last = stops.len() - 1;
-        let at = share.clamp(0.0, 1.0) * last as f64;
-        let before = (at as usize).min(last - 1);
-        mixed(stops[before], stops[before + 1], at - before as f64)
+        match self {
+            Self::Sequential => between(&SEQUENTIAL, share),
+            Self::Diverging => between(&DIVERGING, share),
+        }
     }
 
-    /// The range of colours for values from `low` up to `high`: colours of both signs have white at zero.
+    /// Returns the range of colours for values from `low` to `high`; diverging colours have white at zero.
     pub fn range(self, [low, high]: [f64; 2]) -> [f64; 2] {
         let size = low.abs().max(high.abs());
         match self {

@@ -1,11 +1,11 @@
-//! How exactly the widget draws: each value on its dot.
+//! Tests how exactly the widget draws: each value on its dot.
 
 use super::Curve;
 use super::tests::{axes, draw, shown};
 use super::theme::Role;
 
-/// Dots of a Braille rendering as (column, row), counted from the bottom left of the plot
-/// area, and the area's size in dots.
+/// Returns the dots of a Braille rendering as (column, row), counted from the bottom left of the plot area, and the
+/// area's size in dots.
 fn braille_dots(lines: &[String]) -> (Vec<(usize, usize)>, (usize, usize)) {
     let lines: Vec<Vec<char>> = lines.iter().map(|line| line.chars().collect()).collect();
     let line_row = lines.iter().position(|line| line.contains(&'└'));
@@ -42,8 +42,8 @@ fn braille_dots(lines: &[String]) -> (Vec<(usize, usize)>, (usize, usize)) {
 
 #[test]
 fn a_value_lands_on_the_nearest_dot() {
-    // On one side of zero, whose line would be dots of its own; and from no tick, where the upper end
-    // moves so that ticks are the same number of rows apart.
+    // The values lie on one side of zero, since a zero line would add dots; and the lower end is on no tick, since the
+    // upper end would otherwise move to space the ticks evenly.
     let (x_bounds, y_bounds) = ([2.0e-6, 5.0e-6], [0.1234, 3.3]);
     for (width, height) in [(20, 9), (40, 12), (80, 20), (133, 45)] {
         for i in 0..200 {

@@ -10,13 +10,13 @@ use super::theme::Role;
 use super::units::{AxisUnit, format_number, format_value};
 use super::{Axis, Plot, Scale};
 
-/// Significant digits of a reading.
+/// Significant digits of a value in the legend.
 const DIGITS: usize = 4;
 
-/// Names longer than this are cut, in cells.
+/// Maximum length of a name, in cells; longer names are cut.
 const LONGEST_NAME: usize = 24;
 
-/// One line: what is left-aligned, what is right-aligned, and how it looks.
+/// One line: its left-aligned and right-aligned text, and its style.
 #[derive(Debug, Clone)]
 struct Line {
     left: String,
@@ -24,20 +24,20 @@ struct Line {
     style: Style,
 }
 
-/// Lines in their place.
+/// Lines with their position.
 #[derive(Debug, Clone)]
 pub(super) struct Legend {
     lines: Vec<Line>,
-    /// The place on the screen.
+    /// The area on the screen.
     pub(super) area: Rect,
-    /// The dots of curves under it.
+    /// The number of dots of curves that it covers.
     pub(super) covered: u32,
 }
 
 impl Legend {
-    /// The legend of a plot whose curves are those of `raster`: with readings in the axes' `units` if there is a
-    /// cursor and they fit, as bare numbers rather than over a curve, else names only. `None` if nothing fits or
-    /// there is nothing to say.
+    /// Places the legend of a plot whose curves are drawn in `raster`. With a cursor it shows the values there if they
+    /// fit, with `units` or, if that covers fewer curve dots, as bare numbers; otherwise only names. `None` if nothing
+    /// fits or there is nothing to show.
     pub(super) fn arrange(plot: &Plot<'_>, units: [&AxisUnit; 2], raster: &Raster) -> Option<Self> {
         let placed = |x, is_full| Self::place(lines(plot, units, x, is_full), raster);
         let cursor = plot.cursor.filter(|x| x.is_finite());
@@ -47,15 +47,15 @@ impl Legend {
         least.or_else(|| placed(None, false))
     }
 
-    /// The lines where they cover the fewest dots: in a corner, the top right one first, or in the place nearest to
-    /// the top right where no curve is. `None` if they take more than half of the width or of the height.
+    /// Places the lines where they cover the fewest dots: in a corner, preferably the top right, or else in the free
+    /// place nearest to it. `None` if they take more than half of the width or the height.
     fn place(lines: Vec<Line>, raster: &Raster) -> Option<Self> {
         let (area, height) = (raster.area, lines.len() as u16);
         let width = lines.iter().map(Line::width).max().unwrap_or(0);
         if width == 0 || width > area.width / 2 || lines.len() > usize::from(area.height / 2) {
             return None;
         }
-        // A blank to the left keeps the swatch from looking like a piece of a curve.
+        // A blank on the left keeps the swatch from looking like a piece of a curve.
         let covered = |&(x, y): &(u16, u16)| {
             raster.dots_in(Rect::new(x.saturating_sub(1), y, width + 1, height))
         };
@@ -99,8 +99,8 @@ impl Line {
     }
 }
 
-/// The reading at `x` itself, and a line for each curve that has a name, with its value there if there is an `x`: in
-/// full with unit and prefix, else as a bare number in the axis' unit.
+/// Returns a line for `x` and one for each named curve. If there is an `x`, a curve's line has its value there: with
+/// unit and prefix if `is_full`, else as a bare number in the axis' unit.
 fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) -> Vec<Line> {
     let (theme, chart, [x_unit, y_unit]) = (plot.theme, plot.chart, units);
     let header = x.map(|x| Line {
@@ -127,8 +127,8 @@ fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) 
     header.into_iter().chain(curves).collect()
 }
 
-/// A reading in the unit its axis is labelled in; in one of its own where the axis has none
-/// for it (log axes, powers of ten, values far below the axis' range).
+/// Formats a value in the unit of the axis' labels, or in a suitable one if that does not work (log axes, powers of
+/// ten, values far below the axis' range).
 fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit) -> String {
     let scaled = value / unit.factor;
     let power = unit.text.starts_with(|c: char| c.is_ascii_digit());
@@ -140,8 +140,8 @@ fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit) -> String {
     text.trim_end().to_owned()
 }
 
-/// The cursor's readings in one short line, for a plot too small for a legend: its place
-/// and as many values of curves as fit `width`, in the axes' `units`.
+/// Returns the values at the cursor in one short line, for a plot too small for a legend: x and as many curve values as
+/// fit into `width`, in the axes' `units`.
 pub(super) fn short_reading(
     plot: &Plot<'_>,
     [x_unit, y_unit]: [&AxisUnit; 2],
@@ -160,7 +160,7 @@ pub(super) fn short_reading(
     line.contains(' ').then_some(line)
 }
 
-/// The width of a text in cells.
+/// Returns the width of a text in cells.
 pub(super) fn cells(text: &str) -> u16 {
     Span::raw(text).width().min(usize::from(u16::MAX)) as u16
 }

@@ -1,21 +1,21 @@
-//! Values over two axes as colours.
+//! Values over two axes, drawn as colours.
 
 use ratatui::style::Color;
 
 use super::axis::{Axis, Scale};
-use super::colormap::ColorMap;
+use super::colormap::{ColorMap, indexed};
 use super::shades::{self, SHADES};
-use super::theme::{Role, Theme};
+use super::theme::{Look, Role, Theme};
 use crate::math::scan::range;
 
-/// How many words a map can tell apart.
+/// Maximum number of words that a map can distinguish.
 pub const WORDS: usize = 4;
 
-/// Characters from low to high, in a terminal without colours: the lowest value is told from a blank.
+/// Characters from low to high, in a terminal without colours; even the lowest value differs from a blank.
 pub const SIGNS: [char; SHADES] = ['.', ':', '-', '=', '+', 'c', 'o', 'x', '*', '%', '#', '@'];
 
-/// The characters and roles of words in a terminal. Of running conditions, stick and slip have the colours that they
-/// have in all panels, and any kind of colour vision tells the one between them from both.
+/// The characters and roles of words in a terminal. For running conditions, stick and slip have the same colours as in
+/// all panels, and people with any kind of colour vision can tell the third colour from both.
 pub const SWATCHES: [(char, Role); WORDS] = [
     ('s', Role::Stick),
     ('~', Role::Pressure),
@@ -26,21 +26,20 @@ pub const SWATCHES: [(char, Role); WORDS] = [
 /// Values on a grid of places, as colours; NaN stays blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
-    /// The quantity and its unit; bounds that are given end the colours.
+    /// The quantity and its unit; the colours end at its bounds, if given.
     pub quantity: Axis,
     /// The abscissae and the ordinates of the grid, monotonic.
     pub places: [Vec<f64>; 2],
-    /// The values, abscissa by abscissa for each ordinate.
+    /// The values, row by row: all abscissae for the first ordinate, then for the next.
     pub values: Vec<f64>,
     /// The colours.
     pub colors: ColorMap,
-    /// The words that the values are the numbers of, from 0 on, at most [`WORDS`];
-    /// empty where the values are quantities.
+    /// The words for the values 0, 1, …, at most [`WORDS`]; empty if the values are quantities.
     pub words: Vec<&'static str>,
 }
 
 impl Map {
-    /// The values at the ends of the colours.
+    /// Returns the values at the ends of the colours.
     pub fn range(&self) -> [f64; 2] {
         if let Some([low, high]) = self.quantity.bounds.filter(|[low, high]| low < high) {
             return [low, high];
@@ -55,34 +54,42 @@ impl Map {
         }
     }
 
-    /// Where a quantity's value lies between the ends of the colours, 0 to 1.
+    /// Returns where a quantity's value lies between the ends of the colours, 0 to 1.
     pub fn share(&self, value: f64, range: [f64; 2]) -> f64 {
         let scale = self.quantity.scale;
         let [low, high] = range.map(|end| scale.spread(end));
         (scale.spread(value) - low) / (high - low)
     }
 
-    /// The colour of a value in a terminal, and the character that stands for it without colours.
+    /// Returns the colour of a value in a terminal, and the character that replaces it without colours.
     pub(super) fn look(&self, value: f64, range: [f64; 2], theme: &Theme) -> (Option<Color>, char) {
         if !self.quantity.scale.has(value) {
             return (None, ' ');
         }
         if self.words.is_empty() {
-            let shade = shades::shade(self.share(value, range), [0.0, 1.0]);
-            return (shades::color(theme, self.colors, shade), SIGNS[shade]);
+            let share = self.share(value, range).clamp(0.0, 1.0);
+            return (
+                shades::color(theme, self.colors, share),
+                shades::sign(SIGNS, share),
+            );
         }
         let (sign, role) = SWATCHES[value as usize % WORDS];
         (theme.style(role).fg, sign)
     }
 }
 
-/// The colour of signs on a ground: the dark blues of the cube, with which maps begin, hide what is black.
+/// The colour of signs on a ground: white on the dark blues with which maps begin, black on what is bright.
 pub(super) fn ink_on(ground: Color) -> Color {
-    match ground {
-        Color::Indexed(16..=28) => Color::Indexed(231),
-        Color::Blue => Color::White,
-        Color::Reset => Color::Reset,
-        _ => Color::Black,
+    let rgb = match ground {
+        Color::Reset => return Color::Reset,
+        Color::Blue => return Color::White,
+        Color::Indexed(index) => indexed(index),
+        Color::Rgb(red, green, blue) => [red, green, blue],
+        _ => return Color::Black,
+    };
+    match Look::on(rgb) {
+        Look::Light => Color::Black,
+        _ => Color::Indexed(231),
     }
 }
 
@@ -90,9 +97,9 @@ pub(super) fn ink_on(ground: Color) -> Color {
 mod tests {
     use super::*;
     use crate::plot::Marker;
-    use crate::plot::theme::{Depth, Look};
+    use crate::plot::theme::Depth;
 
-    /// G. Machado et al. (2009): what a deuteranope sees of linear red, green and blue.
+    /// What a deuteranope sees of linear red, green and blue (G. Machado et al. 2009).
     const DEUTERANOPE: [[f64; 3]; 3] = [
         [0.367322, 0.860646, -0.227968],
         [0.280085, 0.672501, 0.047413],
@@ -114,7 +121,7 @@ mod tests {
                 });
                 DEUTERANOPE.map(|row| (0..3).map(|k| row[k] * linear[k]).sum::<f64>())
             };
-            // Lift-off has no sign, the others have one each.
+            // Lift-off has no character; each of the others has one.
             for (a, b, least) in [
                 (0, 1, 0.3),
                 (1, 2, 0.5),
@@ -132,10 +139,13 @@ mod tests {
 
     #[test]
     fn signs_are_seen_on_both_ends_of_the_colours() {
-        let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
-        let ground = |shade| shades::color(&theme, ColorMap::Sequential, shade).expect("a colour");
-        let inks = [0, 2, 7, SHADES - 1].map(|shade| ink_on(ground(shade)));
-        let [white, black] = [Color::Indexed(231), Color::Black];
-        assert_eq!(inks, [white, white, black, black]);
+        let theme = Theme::new(Look::Dark, Marker::Braille);
+        for depth in [Depth::Indexed, Depth::True] {
+            let theme = theme.with_depth(depth);
+            let ground = |share| shades::color(&theme, ColorMap::Sequential, share);
+            let inks = [0.0, 0.2, 0.6, 1.0].map(|share| ink_on(ground(share).expect("a colour")));
+            let [white, black] = [Color::Indexed(231), Color::Black];
+            assert_eq!(inks, [white, white, black, black], "{depth:?}");
+        }
     }
 }

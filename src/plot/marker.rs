@@ -1,9 +1,9 @@
-//! Characters that dots are made of.
+//! Characters that curves are drawn with.
 
 use clap::ValueEnum;
 use ratatui::symbols::braille::BRAILLE;
 
-/// The character of a dot.
+/// How dots are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Marker {
@@ -20,7 +20,7 @@ pub enum Marker {
 }
 
 impl Marker {
-    /// Dots in a cell, across and down.
+    /// Returns the number of dots per cell, across and down.
     pub fn dots(self) -> (u16, u16) {
         match self {
             Marker::Braille => (2, 4),
@@ -29,7 +29,7 @@ impl Marker {
         }
     }
 
-    /// The character of a cell with these dots of curves.
+    /// Returns the character of a cell with these curve dots.
     pub fn glyph(self, dots: u8) -> char {
         match (self, dots) {
             (Marker::Braille, _) => BRAILLE[usize::from(dots)],
@@ -41,7 +41,7 @@ impl Marker {
         }
     }
 
-    /// The character of a cell with these dots of the layer below.
+    /// Returns the character of a cell with these dots of the layer below.
     pub(super) fn under_glyph(self, kind: Under, dots: u8) -> char {
         match (self, kind) {
             (Marker::Braille, _) => BRAILLE[usize::from(dots)],
@@ -58,12 +58,12 @@ impl Marker {
     }
 }
 
-/// The layer under the curves.
+/// The kinds of drawing in the layer below the curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Under {
     /// The area between a curve and its base.
     Fill,
-    /// The line of zero.
+    /// The zero line.
     Zero,
     /// A vertical mark.
     Mark,

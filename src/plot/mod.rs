@@ -1,4 +1,4 @@
-//! Charts, and how a terminal draws one: a pure function of chart, look and area.
+//! Charts, and how a terminal draws one: a pure function of the chart, the look and the area.
 //!
 //! ```text
 //! p [GPa]                   c      a    note r [µm] →   titles, mark labels, note
@@ -17,10 +17,9 @@
 //! screen or on paper), `marker`, `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `words` (titles
 //! and labels), `widget` (the layout above), `screen_svg` (a screen as a picture).
 //!
-//! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y
-//! is not finite, or not positive on a log axis, are gaps. Where a curve leaves bounds that were given
-//! through the top, `▲` stands there. No area and no data make it
-//! panic; below 12 by 4 cells only the curves are drawn.
+//! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y is not finite, or not
+//! positive on a log axis, are gaps. Where a curve leaves given bounds through the top, `▲` marks the place. No area
+//! and no data make it panic; below 12 by 4 cells only the curves are drawn.
 
 pub mod axis;
 pub mod chart;
@@ -53,7 +52,7 @@ pub use marker::Marker;
 use ratatui::layout::Rect;
 use theme::Theme;
 
-/// The widget: a chart, the look of the terminal, and perhaps a cursor. See the [module](self) for its parts.
+/// The widget: a chart, the look of the terminal, and optionally a cursor. See the [module](self) for its parts.
 #[derive(Debug, Clone, Copy)]
 pub struct Plot<'a> {
     chart: &'a Chart,
@@ -73,15 +72,15 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// The free part of the rule above the plot, in which the abscissa is named.
+    /// Sets the free part of the rule above the plot, in which the abscissa's title goes.
     #[must_use]
     pub fn rule(mut self, rule: Rect) -> Self {
         self.rule = Some(rule);
         self
     }
 
-    /// A vertical line at this x (in the x axis' unit), and in the legend each curve's
-    /// value there, linearly interpolated between its neighbouring points.
+    /// Adds a vertical line at this x (in the x axis' unit), and each curve's value there to the legend, interpolated
+    /// linearly between neighbouring points.
     #[must_use]
     pub fn cursor(self, cursor: Option<f64>) -> Self {
         Plot { cursor, ..self }

@@ -1,13 +1,11 @@
 //! The sub-cell raster: dots smaller than a terminal cell.
 //!
-//! Curves are drawn as exact straight segments between the positions of their points,
-//! clipped to the raster before a dot is set, so that a far point costs no more than a near
-//! one. Points that share a column of dots are drawn as that column's range, which keeps
-//! every peak however many points there are. Below the curves lies a second, weaker layer
-//! (fills, rules); it gives way in every cell that a curve touches, so that no dot of it
-//! can be mistaken for the curve's.
+//! Curves are drawn as exact straight segments between their points, clipped to the raster before any dot is set, so
+//! that a far point costs no more than a near one. Points that share a column of dots are drawn as that column's range,
+//! which keeps every peak however many points there are. Below the curves lies a second, weaker layer (fills, rules).
+//! It is hidden in every cell that a curve touches, so that none of its dots can be mistaken for the curve's.
 //!
-//! Dots are counted from the left and from the bottom, dot `i` being centred on position `i`.
+//! Dots are counted from the left and from the bottom; the centre of dot `i` is at position `i`.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{self, Rect};
@@ -19,10 +17,10 @@ use super::stroke::{Stroke, draws};
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
-    /// Dots of curves and of the layer below, a bit each; bit `x + across * y`, y downwards.
+    /// Dots of curves and of the layer below, one bit each: bit `x + across * y`, y downwards.
     curve: u8,
     under: u8,
-    /// The looks of the curve (upper, lower half) and of the layer below.
+    /// Styles of the curve (upper, lower half) and of the layer below.
     ink: [Style; 2],
     under_ink: Style,
     kind: Option<Under>,
@@ -35,7 +33,7 @@ pub(super) type Position = Option<[f64; 2]>;
 #[derive(Debug)]
 pub(super) struct Raster {
     marker: Marker,
-    /// The cells of the screen that it lies on.
+    /// The area of the screen that it covers.
     pub(super) area: Rect,
     cells: Vec<Cell>,
 }
@@ -50,7 +48,7 @@ impl Raster {
         }
     }
 
-    /// Draws the line through `points`, in a style without a background.
+    /// Draws the line through `points`; the style must not have a background.
     pub(super) fn line(
         &mut self,
         points: impl Iterator<Item = Position>,
@@ -69,7 +67,7 @@ impl Raster {
             });
         };
         let mut previous: Position = None;
-        // The lowest and the highest of the last points, which share a column of dots.
+        // The lowest and the highest of the last points that share a column of dots.
         let mut range: Option<[[f64; 2]; 2]> = None;
         for point in points.chain([None]) {
             if let (Some([x, y]), Some([low, high])) = (point, &mut range)
@@ -90,14 +88,14 @@ impl Raster {
         }
     }
 
-    /// Fills between `points` and the position of the base under each with a loose pattern.
+    /// Fills the area between `points` and the base under each with a loose pattern.
     pub(super) fn fill(
         &mut self,
         points: impl Iterator<Item = (Position, Option<f64>)>,
         style: Style,
     ) {
         let style = style.add_modifier(Modifier::DIM);
-        // The dots at and between two positions.
+        // The range of dots from one position to another.
         let dots = |from: f64, to: f64, size: f64| {
             from.max(0.0) as usize..(to.min(size - 1.0) + 1.0).max(0.0) as usize
         };
@@ -125,7 +123,7 @@ impl Raster {
         }
     }
 
-    /// A faint line along dot row `row`.
+    /// Draws a faint line along dot row `row`.
     pub(super) fn zero_line(&mut self, row: usize, style: Style) {
         let every = if self.marker == Marker::Braille { 2 } else { 1 };
         for column in (0..self.size()[0] as usize).step_by(every) {
@@ -133,9 +131,8 @@ impl Raster {
         }
     }
 
-    /// A line along dot column `column`: dotted for a mark, full for the cursor. A mark moves with the
-    /// contact all the time, so two of three cells of it stay empty: the top one has dots, next to the
-    /// mark's label.
+    /// Draws a line along dot column `column`: dotted for a mark, full for the cursor. A mark moves with the contact
+    /// all the time, so only every third cell of it has dots, beginning at the top next to its label.
     pub(super) fn vertical(&mut self, column: usize, kind: Under, style: Style) {
         let is_sparse = self.marker == Marker::Braille && kind == Under::Mark;
         let down = usize::from(self.marker.dots().1);
@@ -147,14 +144,14 @@ impl Raster {
         }
     }
 
-    /// How many curve dots lie in a rectangle of the screen.
+    /// Returns the number of curve dots in a rectangle of the screen.
     pub(super) fn dots_in(&self, area: Rect) -> u32 {
         let places = self.area.intersection(area).positions();
         let cells = places.filter_map(|place| self.cells.get(self.index(place)));
         cells.map(|cell| cell.curve.count_ones()).sum()
     }
 
-    /// Whether a rectangle of the screen lies on the raster, and no curve in it.
+    /// Whether a rectangle of the screen lies on the raster and contains no curve.
     pub(super) fn is_free(&self, spot: Rect) -> bool {
         self.area.intersection(spot) == spot && self.dots_in(spot) == 0
     }
@@ -178,20 +175,20 @@ impl Raster {
         }
     }
 
-    /// The number of a cell by its place on the screen.
+    /// Returns the index of a cell from its place on the screen.
     fn index(&self, place: layout::Position) -> usize {
         let [column, row] = [place.x - self.area.x, place.y - self.area.y].map(usize::from);
         row * usize::from(self.area.width) + column
     }
 
-    /// Width and height in dots.
+    /// Returns the width and height in dots.
     fn size(&self) -> [f64; 2] {
         let (across, down) = self.marker.dots();
         let width = f64::from(self.area.width) * f64::from(across);
         [width, f64::from(self.area.height) * f64::from(down)]
     }
 
-    /// Sets a dot of a curve; between two dashes only the layer below gives way.
+    /// Sets a dot of a curve. A dot in a gap between dashes only hides the layer below.
     fn set(&mut self, column: usize, row: usize, style: Style, drawn: bool) {
         let ((across, _), marker) = (self.marker.dots(), self.marker);
         if let Some((cell, bit)) = self.locate(column, row) {
@@ -219,7 +216,7 @@ impl Raster {
         }
     }
 
-    /// The cell that holds a dot, and the dot's bit in it; `None` outside.
+    /// Returns the cell that holds a dot, and the dot's bit in it; `None` outside.
     fn locate(&mut self, column: usize, row: usize) -> Option<(&mut Cell, u16)> {
         let (across, down) = self.marker.dots();
         let (across, down) = (usize::from(across), usize::from(down));
@@ -233,17 +230,17 @@ impl Raster {
         Some((self.cells.get_mut(index)?, bit as u16))
     }
 
-    /// The character of a cell and its style; `None` if it is empty.
+    /// Returns the character of a cell and its style; `None` if it is empty.
     fn look(&self, cell: &Cell) -> Option<(char, Style)> {
         if cell.curve == 0 {
             let glyph = self.marker.under_glyph(cell.kind?, cell.under);
             return Some((glyph, cell.under_ink));
         }
         let [upper, lower] = cell.ink;
-        // A foreground that can also serve as a background.
+        // A foreground that can also be used as a background.
         let colour = |style: Style| style.fg.filter(|&colour| colour != Color::Reset);
         let style = match (self.marker, cell.curve, colour(upper), colour(lower)) {
-            // One glyph, two colours: the lower half shows the background.
+            // One character with two colours: the lower half shows the background.
             (Marker::HalfBlock, 3, Some(a), Some(b)) if a != b => {
                 return Some(('▀', upper.bg(b)));
             }

@@ -1,8 +1,8 @@
-//! Where the raster puts its dots.
+//! Tests where the raster puts its dots.
 
 use super::*;
 
-/// Every dot of the first layer as (column, row) from the bottom left.
+/// Returns every dot of the curve layer as (column, row) from the bottom left.
 fn dots(raster: &Raster) -> Vec<(usize, usize)> {
     let (across, down) = raster.marker.dots();
     let (across, down) = (usize::from(across), usize::from(down));
@@ -63,7 +63,7 @@ fn dots_stay_within_half_a_dot_of_the_line() {
                 let (x, y) = at(t);
                 (x - column as f64).abs().max((y - row as f64).abs())
             };
-            // The distance along a straight line is convex: halve towards its least.
+            // The distance along a straight line is convex, so ternary search finds its minimum.
             let (mut start, mut end) = (0.0, 1.0);
             for _ in 0..90 {
                 let third = (end - start) / 3.0;

@@ -1,7 +1,7 @@
-//! A screen of characters as an SVG picture, with its colours.
+//! A character screen as an SVG picture, in colour.
 //!
-//! Letters are text, stretched to their cells so that they line up in any monospaced font. Braille
-//! dots, blocks and rules are drawn as shapes, because fonts differ too much there.
+//! Letters become text, stretched to their cells so that they line up in any monospaced font. Braille dots, blocks and
+//! rules become shapes, because fonts differ too much there.
 
 use std::fmt::Write;
 
@@ -10,10 +10,10 @@ use ratatui::style::{Color, Modifier};
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
-use super::colormap::{NAMED, Rgb, mixed};
+use super::colormap::{NAMED, Rgb, indexed, mixed};
 use crate::scenario::escape;
 
-/// What the terminal's own colours look like.
+/// The terminal's own foreground and background colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ground {
     /// The background.
@@ -28,37 +28,29 @@ impl Ground {
         back: [0x14, 0x18, 0x1f],
         fore: [0xd6, 0xdb, 0xe3],
     };
-    /// A light one.
+    /// A light terminal.
     pub const LIGHT: Self = Self {
         back: [0xff, 0xff, 0xff],
         fore: [0x24, 0x29, 0x2f],
     };
 }
 
-/// A cell's width and height, and the size of its letters, in pixels.
+/// The width and height of a cell, and the font size, in pixels.
 const CELL: (f64, f64) = (9.0, 18.0);
 const LETTERS: f64 = 15.0;
 
-/// Around the screen, pixels.
+/// Margin around the screen, pixels.
 const MARGIN: f64 = 8.0;
 
-/// How much of what is dim is its own colour; the rest is that of its background.
+/// The share of the text's colour in dim text; the rest is background.
 const DIM: f64 = 0.55;
 
-/// The colour that a terminal shows; `own` where it is the terminal's.
+/// Returns the RGB value of a terminal colour; `own` for the terminal's default.
 fn shown(color: Color, own: Rgb) -> Rgb {
     let named = || NAMED.iter().find(|(name, _)| *name == color);
     match color {
         Color::Rgb(r, g, b) => [r, g, b],
-        Color::Indexed(index @ 0..=15) => NAMED[usize::from(index)].1,
-        Color::Indexed(index @ 16..=231) => {
-            let at = index - 16;
-            [at / 36, at / 6 % 6, at % 6].map(|level| match level {
-                0 => 0,
-                level => 55 + 40 * level,
-            })
-        }
-        Color::Indexed(grey) => [8 + 10 * (grey - 232); 3],
+        Color::Indexed(index) => indexed(index),
         _ => named().map_or(own, |(_, rgb)| *rgb),
     }
 }
@@ -85,7 +77,7 @@ impl Look {
     }
 }
 
-/// Arms of a rule's sign from the middle of its cell: left, right, up, down.
+/// Returns which arms a box-drawing character has: left, right, up, down.
 fn arms(sign: char) -> Option<[bool; 4]> {
     let arms = match sign {
         '─' => "lr",
@@ -103,12 +95,12 @@ fn arms(sign: char) -> Option<[bool; 4]> {
     Some(['l', 'r', 'u', 'd'].map(|arm| arms.contains(arm)))
 }
 
-/// Paths that are drawn alike: how, and their data.
+/// Paths grouped by style: the SVG attributes and the path data.
 #[derive(Debug, Default)]
 struct Drawing(Vec<(String, String)>);
 
 impl Drawing {
-    /// The data of what is drawn in this way.
+    /// Returns the path data for this style.
     fn of(&mut self, how: String) -> &mut String {
         let at = self.0.iter().position(|(known, _)| *known == how);
         let at = at.unwrap_or_else(|| {
@@ -127,7 +119,7 @@ impl Drawing {
         self.of(format!("stroke=\"{}\" stroke-width={width}", hex(color)))
     }
 
-    /// Draws the sign of a cell at a place; false if it is a letter.
+    /// Draws a cell's character as a shape; returns false if it is text.
     fn sign(&mut self, sign: char, look: Look, (x, y): (f64, f64)) -> bool {
         let ((w, h), color) = (CELL, look.fore);
         if let Some(bits) = BRAILLE.iter().position(|&dots| dots == sign) {
@@ -171,12 +163,12 @@ impl Drawing {
     }
 }
 
-/// A colour as SVG has it.
+/// Returns a colour in SVG notation.
 pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// A run of letters of one look, from a place of its baseline on.
+/// A run of letters in one style, starting at a point on its baseline.
 struct Run {
     look: Look,
     at: (f64, f64),
@@ -200,7 +192,7 @@ impl Run {
     }
 }
 
-/// The whole picture of a screen on a terminal of such colours.
+/// Returns the picture of a screen on a terminal with the given colours.
 pub fn picture(buffer: &Buffer, ground: Ground) -> String {
     let (w, h) = CELL;
     let width = f64::from(buffer.area.width) * w + 2.0 * MARGIN;
@@ -225,7 +217,7 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
             if look.back != ground.back {
                 backs.area(look.back, (x, y), h);
             }
-            // A wide character covers the cell behind it.
+            // A wide character also covers the next cell.
             if covered > 0 {
                 covered -= 1;
                 continue;
@@ -237,7 +229,7 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
                 is_open = false;
                 continue;
             }
-            // One blank goes on with the run before it; two, and signs that are drawn, end it.
+            // A single blank continues a run; two blanks or a shape end it.
             let is_blank = symbol == " ";
             match runs.last_mut().filter(|_| is_open) {
                 Some(run) if is_blank && !run.text.ends_with(' ') => run.text.push(' '),

@@ -1,11 +1,11 @@
 //! Straight segments on a grid of dots.
 //!
-//! A segment is clipped to the grid before it is walked (Liang and Barsky 1984), so that
-//! the walk is never longer than the grid is wide or high.
+//! A segment is clipped to the grid before it is walked (Liang and Barsky 1984), so that the walk is never longer than
+//! the grid is wide or high.
 
-/// Visits the dots nearest to the line from `a` to `b` on a grid of `size` dots, dot `i`
-/// being centred on position `i`: one a column where the line is shallow, one per row where it
-/// is steep. `visit` gets column, row, and whether the line is steep.
+/// Visits the dots nearest to the line from `a` to `b` on a grid of `size` dots, the centre of dot `i` being at
+/// position `i`: one per column if the line is shallow, one per row if it is steep. `visit` gets the column, the row,
+/// and whether the line is steep.
 pub(super) fn walk(
     a: [f64; 2],
     b: [f64; 2],
@@ -36,8 +36,8 @@ pub(super) fn walk(
     }
 }
 
-/// The part of the line from `from` to `to` within `low` and `high` (Liang and Barsky). Ends that lie inside
-/// stay as they are to the last bit.
+/// Returns the part of the line from `from` to `to` within `low` and `high` (Liang and Barsky). Ends that lie inside
+/// stay exactly the same.
 pub fn clip(from: [f64; 2], to: [f64; 2], low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for k in 0..2 {

@@ -1,61 +1,84 @@
-//! Values as shades: colours of the terminal, or signs where it has none.
+//! Values as shades: colours of the terminal, or characters if it has none.
 
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 
-use super::colormap::{ColorMap, NAMED};
+use super::colormap::{ColorMap, NAMED, between, indexed};
 use super::theme::{Depth, Look, Theme};
 
-/// How many there are: few, so that only the lines between them change from frame to frame.
+/// The number of shades of 256 colours and of signs: few, so that only the lines between them change from frame to
+/// frame.
 pub const SHADES: usize = 12;
+
+/// The number of shades where a terminal mixes its colours. More look the same, and take more bytes a frame.
+const FINE_SHADES: f64 = 36.0;
 
 /// Signs from low to high: of values that begin with nothing.
 pub const SIGNS: [char; SHADES] = [' ', ' ', '.', '.', ':', '-', '=', '+', '*', '#', '%', '@'];
 
-/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest:
-/// blues, so that the colours of stick, slip and wear stand out, and any kind of colour vision tells them apart.
-/// On a light background they begin at the other end.
+/// The shades of values that begin at zero, among the colours of a terminal, from the darkest to the brightest. They
+/// are blues, so that the colours of stick, slip and wear stand out and people with any kind of colour vision can tell
+/// them apart. On a light background their order is reversed.
 const SEQUENTIAL: [u8; SHADES] = [17, 18, 24, 25, 31, 32, 38, 74, 80, 116, 152, 195];
 
-/// The shades of values of both signs on a dark background: brighter with the size, and grey at zero, where white
+/// The shades of values of both signs on a dark background: brighter for larger sizes, and grey at zero, where white
 /// would be the brightest of all.
 const DIVERGING: [u8; SHADES] = [117, 75, 33, 26, 24, 237, 237, 88, 124, 160, 203, 217];
 
-/// The same on a light background: those nearest to the colours of [`ColorMap::Diverging`].
+/// The same on a light background: the colours nearest to [`ColorMap::Diverging`].
 const DIVERGING_ON_LIGHT: [u8; SHADES] = [67, 68, 110, 152, 254, 255, 255, 224, 223, 216, 167, 131];
 
-/// Shades of terminals that have sixteen colours, by the colours' numbers: neighbours share one.
+/// Shades for terminals with sixteen colours, by number; some neighbours share one.
 const SIXTEEN: [u8; SHADES] = [4, 4, 12, 12, 6, 6, 14, 2, 10, 10, 3, 11];
 const SIXTEEN_DIVERGING: [u8; SHADES] = [4, 4, 12, 12, 14, 7, 7, 11, 9, 9, 1, 1];
 
-/// Whether blocks and colours can be drawn.
+/// Whether the terminal can show blocks and colours.
 pub fn has_blocks(theme: &Theme) -> bool {
     theme.colored() && !theme.ascii()
 }
 
-/// The shade of a value between `low` and `high`, from 0.
-pub fn shade(value: f64, [low, high]: [f64; 2]) -> usize {
-    let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+/// The share of the range from `low` to `high` below a value, 0 to 1.
+pub fn share(value: f64, [low, high]: [f64; 2]) -> f64 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+/// Which of the shades a share of the range has.
+pub fn shade(share: f64) -> usize {
     ((share * SHADES as f64) as usize).min(SHADES - 1)
 }
 
-/// The colour of a shade; `None` where the terminal has none.
-pub fn color(theme: &Theme, map: ColorMap, shade: usize) -> Option<Color> {
-    let is_light = theme.look == Look::Light;
-    let number = match (theme.depth, map) {
-        (Depth::Sixteen, ColorMap::Sequential) => SIXTEEN[shade],
-        (Depth::Sixteen, ColorMap::Diverging) => SIXTEEN_DIVERGING[shade],
-        (_, ColorMap::Sequential) if is_light => SEQUENTIAL[SHADES - 1 - shade],
-        (_, ColorMap::Sequential) => SEQUENTIAL[shade],
-        (_, ColorMap::Diverging) if is_light => DIVERGING_ON_LIGHT[shade],
-        (_, ColorMap::Diverging) => DIVERGING[shade],
+/// The colour at a share of the range; `None` where the terminal has none.
+pub fn color(theme: &Theme, map: ColorMap, share: f64) -> Option<Color> {
+    let mut shades = match (theme.depth, theme.look, map) {
+        (Depth::Sixteen, _, ColorMap::Sequential) => SIXTEEN,
+        (Depth::Sixteen, _, ColorMap::Diverging) => SIXTEEN_DIVERGING,
+        (_, _, ColorMap::Sequential) => SEQUENTIAL,
+        (_, Look::Light, ColorMap::Diverging) => DIVERGING_ON_LIGHT,
+        (_, _, ColorMap::Diverging) => DIVERGING,
     };
+    if (theme.look, map) == (Look::Light, ColorMap::Sequential) && theme.depth != Depth::Sixteen {
+        shades.reverse();
+    }
+    let number = shades[shade(share)];
     let color = match theme.depth {
         Depth::Sixteen => NAMED[usize::from(number)].0,
         Depth::Indexed => Color::Indexed(number),
+        Depth::True => {
+            let share = (share * FINE_SHADES).floor() / (FINE_SHADES - 1.0);
+            let [red, green, blue] = match (theme.look, map) {
+                (Look::Light, ColorMap::Diverging) => map.color(share),
+                _ => between(&shades.map(indexed), share),
+            };
+            Color::Rgb(red, green, blue)
+        }
     };
     has_blocks(theme).then_some(color)
+}
+
+/// The sign that stands for a share of the range.
+pub fn sign(signs: [char; SHADES], share: f64) -> char {
+    signs[shade(share)]
 }
 
 /// All shades for a key between its ends, or the `signs` that stand for them where there are no colours.
@@ -65,15 +88,16 @@ pub fn key(
     signs: [char; SHADES],
     [from, to]: [String; 2],
 ) -> Line<'static> {
-    let shades = (0..SHADES).map(|shade| match color(theme, map, shade) {
+    let middles = (0..SHADES).map(|shade| (shade as f64 + 0.5) / SHADES as f64);
+    let shades = middles.map(|share| match color(theme, map, share) {
         Some(color) => Span::styled(" ", Style::new().bg(color)),
-        None => Span::raw(signs[shade].to_string()),
+        None => Span::raw(sign(signs, share).to_string()),
     });
     let from = std::iter::once(Span::raw(from));
     from.chain(shades).chain([Span::raw(to)]).collect()
 }
 
-/// Colours the upper and the lower half of a cell; what has no colour stays as it is.
+/// Colours the upper and the lower half of a cell; a half without a colour stays unchanged.
 pub fn paint_halves(cell: &mut Cell, halves: [Option<Color>; 2]) {
     match halves {
         [None, None] => return,
@@ -88,21 +112,12 @@ mod tests {
     use super::*;
     use crate::plot::Marker;
 
-    /// What a terminal of 256 colours shows: a cube of 6×6×6 colours, then 24 greys.
-    fn rgb(index: u8) -> [u8; 3] {
-        match index {
-            232.. => [8 + 10 * (index - 232); 3],
-            _ => [36, 6, 1]
-                .map(|place| [0, 95, 135, 175, 215, 255][usize::from((index - 16) / place % 6)]),
-        }
-    }
-
     #[test]
     fn shades_on_light_are_the_nearest_to_the_colours_of_the_map() {
         for (shade, &index) in DIVERGING_ON_LIGHT.iter().enumerate() {
             let wanted = ColorMap::Diverging.color((shade as f64 + 0.5) / SHADES as f64);
             let distance = |index: u8| -> u32 {
-                let parts = rgb(index).into_iter().zip(wanted);
+                let parts = indexed(index).into_iter().zip(wanted);
                 parts.map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
             };
             let nearest = (16..=255).map(distance).min();
@@ -112,19 +127,41 @@ mod tests {
 
     #[test]
     fn shades_fill_the_range() {
-        assert_eq!(shade(-1.0, [0.0, 1.0]), 0);
-        assert_eq!(shade(0.5, [0.0, 1.0]), SHADES / 2);
-        assert_eq!(shade(1.0, [0.0, 1.0]), SHADES - 1);
-        assert_eq!(shade(0.0, [0.0, 0.0]), 0);
+        let shade_of = |value, range| shade(share(value, range));
+        assert_eq!(shade_of(-1.0, [0.0, 1.0]), 0);
+        assert_eq!(shade_of(0.5, [0.0, 1.0]), SHADES / 2);
+        assert_eq!(shade_of(1.0, [0.0, 1.0]), SHADES - 1);
+        assert_eq!(shade_of(0.0, [0.0, 0.0]), 0);
         for map in [ColorMap::Sequential, ColorMap::Diverging] {
             for look in [Look::Dark, Look::Light] {
                 let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
-                let mut told: Vec<_> = (0..SHADES).map(|k| color(&theme, map, k)).collect();
+                let share = |shade: usize| (shade as f64 + 0.5) / SHADES as f64;
+                let shades = (0..SHADES).map(|shade| color(&theme, map, share(shade)));
+                let mut told: Vec<_> = shades.collect();
                 told.dedup();
-                // The two beside zero of a diverging map share their grey.
+                // The two shades beside zero in a diverging map share a grey.
                 let shared = usize::from(map == ColorMap::Diverging);
                 assert_eq!(told.len(), SHADES - shared, "{told:?}");
             }
+        }
+    }
+
+    #[test]
+    fn mixed_colours_flow_between_those_of_256() {
+        for look in [Look::Dark, Look::Light] {
+            let theme = Theme::new(look, Marker::Braille).with_depth(Depth::True);
+            let shares = (0..1000).map(|k| f64::from(k) / 999.0);
+            let shown = |share| color(&theme, ColorMap::Sequential, share);
+            let mut told: Vec<_> = shares.map(shown).collect();
+            let [Some(&Some(Color::Rgb(r, g, b))), Some(&Some(last))] = [told.first(), told.last()]
+            else {
+                panic!("no mixed colours");
+            };
+            let ends = [SEQUENTIAL[0], SEQUENTIAL[SHADES - 1]].map(indexed);
+            assert!(ends.contains(&[r, g, b]), "{:?}", told[0]);
+            assert_ne!(told[0], Some(last));
+            told.dedup();
+            assert_eq!(told.len(), FINE_SHADES as usize);
         }
     }
 }

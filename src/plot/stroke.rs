@@ -1,4 +1,4 @@
-//! How a line is interrupted: curves of one colour are told apart by it.
+//! Dash patterns, which tell curves of one colour apart.
 
 use super::marker::Marker;
 
@@ -12,17 +12,17 @@ pub enum Stroke {
     Dashed,
     /// Dots.
     Dotted,
-    /// A dash and a dot by turns.
+    /// A dash and a dot alternately.
     DashDotted,
-    /// Dashes twice as long.
+    /// Dashes of twice the length.
     LongDashed,
 }
 
-/// Lengths in dots, drawn and left out by turns.
+/// Lengths in dots, alternately drawn and left out.
 type Runs = &'static [usize];
 
 impl Stroke {
-    /// The pattern along a line, across and down.
+    /// Returns the pattern along a line, across and down.
     pub(super) fn runs(self, marker: Marker) -> [Runs; 2] {
         use Marker::{Ascii, Braille, Dot, HalfBlock};
         match (self, marker) {
@@ -38,7 +38,7 @@ impl Stroke {
         }
     }
 
-    /// The sign that stands for it in a legend.
+    /// Returns the character that shows it in a legend.
     pub(super) fn swatch(self) -> char {
         match self {
             Self::Solid => '─',

@@ -1,4 +1,4 @@
-//! The whole widget: what it draws, and that nothing makes it panic.
+//! Tests of the whole widget: what it draws, and that nothing makes it panic.
 
 use super::theme::{Look, Role};
 use super::*;
@@ -15,7 +15,7 @@ const MARKERS: [Marker; 4] = [
     Marker::Ascii,
 ];
 
-/// A chart in the look of a test, at a cursor.
+/// A chart, its theme and the cursor.
 pub(super) struct Shown(Chart, Theme, Option<f64>);
 
 impl Shown {
@@ -103,7 +103,7 @@ fn snapshot_40x12() {
         "  0       50       100     150",
     ];
     assert_eq!(draw(&ascii, 30, 9), expected);
-    // In a rule with room for it the name of the abscissa takes no place of the labels of marks.
+    // If the rule has room for the abscissa's title, the title takes no space from the labels of marks.
     let Shown(chart, theme, _) = ascii;
     let mut buf = Buffer::empty(Rect::new(0, 0, 30, 10));
     let plot = Plot::new(&chart, &theme).rule(Rect::new(20, 0, 10, 1));
@@ -143,7 +143,7 @@ fn coloured_bands_are_strips_and_mono_bands_are_letters() {
     chart.band = vec![([0.0, 0.5], Zone::Stick), ([0.7, 0.7001], Zone::Open)];
     let plot = Shown(chart, Theme::new(Look::Dark, Marker::Braille), None);
     let lines = draw(&plot, 40, 12);
-    // Eighteen cells, and the zone's name in them; the other is too narrow for its own.
+    // Eighteen cells, with the zone's name in them; the other zone is too narrow for its name.
     assert!(lines[9].contains("▀ stick ▀"), "{}", lines[9]);
     assert_eq!(lines[9].matches('▀').count(), 18 - " stick ".len());
     assert_eq!(lines[9].matches('.').count(), 1);
@@ -186,7 +186,7 @@ fn ascii_is_ascii() {
     }
 }
 
-/// Ordinates and abscissae that have made plots fail.
+/// Ordinates and abscissae that once made plots fail.
 fn nasty() -> Vec<(Vec<f64>, Vec<f64>)> {
     let (nan, inf) = (f64::NAN, f64::INFINITY);
     vec![
@@ -321,7 +321,7 @@ fn values_between_points() {
     assert_eq!(back.value_at(1.0), Some(0.0));
 }
 
-/// Each place of a map fills its cells, whichever way its axes run, in any area.
+/// Each place of a map fills its cells, in whichever direction the axes run, in any area.
 #[test]
 fn a_map_shows_each_place() {
     let map = |xs: [f64; 2], ys: [f64; 2]| {

@@ -1,11 +1,10 @@
 //! Colours: one per quantity, the same in every panel.
 //!
-//! Explanatory text (titles, ticks, names, keys) has the terminal's default foreground: one of the
-//! bright colours may be the background, as "bright black" is in Solarized. Rules and frames are
-//! dim. Quantities have the colours of M. Okabe and K. Ito (2008), which people with any kind of
-//! colour vision tell apart, some darker on a light background, as the nearest of the cube that every
-//! terminal of 256 colours has: its names are half as long on the wire as red, green and blue. A
-//! terminal of sixteen colours gets the plain ones, which its user has chosen.
+//! Explanatory text (titles, ticks, names, keys) has the terminal's default foreground, because one of the bright
+//! colours may be the background, as "bright black" is in Solarized. Rules and frames are dim. Quantities have the
+//! colours of M. Okabe and K. Ito (2008), which people with any kind of colour vision can tell apart; some are darker
+//! on a light background. They are rounded to the cube of every 256-colour terminal, whose codes are half as long on
+//! the wire as red, green and blue. A terminal of sixteen colours gets the plain ones, as its user has chosen them.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
@@ -15,8 +14,7 @@ use super::units::to_ascii;
 use crate::math::scan::shifted;
 use crate::reading::Zone;
 
-/// Quantities and parts of the screen that have a style of their own: the same quantity has the same colour in
-/// every chart.
+/// Quantities and parts of the screen with a style. The same quantity has the same colour in every chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Role {
     /// The unworn profile, and past states.
@@ -41,7 +39,7 @@ pub enum Role {
     Stick,
     /// The slip zone.
     Slip,
-    /// What is not in contact.
+    /// Anything that is not in contact.
     Open,
     /// Axes, labels, explanations: the terminal's own foreground.
     #[default]
@@ -60,7 +58,7 @@ pub enum Role {
     Alarm,
 }
 
-/// The colour of a zone, and the letter that stands for it where there are no colours.
+/// Returns the role that colours a zone, and the letter that replaces it without colours.
 pub fn look_of(zone: Zone) -> (Role, char) {
     match zone {
         Zone::Stick => (Role::Stick, 's'),
@@ -69,7 +67,7 @@ pub fn look_of(zone: Zone) -> (Role, char) {
     }
 }
 
-/// Which colours.
+/// The choice of colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, strum::Display, serde::Deserialize)]
 #[strum(serialize_all = "lowercase")]
 #[serde(rename_all = "lowercase")]
@@ -83,9 +81,9 @@ pub enum Look {
 }
 
 impl Look {
-    /// The one for a background of this red, green and blue.
+    /// Returns the look for a background of this red, green and blue.
     pub fn on(background: [u8; 3]) -> Self {
-        // Against a luminance of 0.18, black and white have the same contrast.
+        // At a luminance of 0.18, black and white text have the same contrast.
         if luminance(background) > 0.18 {
             Self::Light
         } else {
@@ -93,13 +91,13 @@ impl Look {
         }
     }
 
-    /// The look after this one.
+    /// Returns the next look.
     pub fn next(self) -> Self {
         shifted(Self::value_variants(), self, 1)
     }
 }
 
-/// The relative luminance of a colour of sRGB, 0 to 1.
+/// Returns the relative luminance of an sRGB colour, 0 to 1.
 fn luminance(color: [u8; 3]) -> f64 {
     let [red, green, blue] = color.map(|value| match f64::from(value) / 255.0 {
         share if share <= 0.04045 => share / 12.92,
@@ -113,15 +111,19 @@ fn luminance(color: [u8; 3]) -> f64 {
 pub enum Depth {
     /// The sixteen that its user has chosen.
     Sixteen,
-    /// The cube of 256, or more.
+    /// The cube of 256.
     Indexed,
+    /// All of red, green and blue: the shades of maps and stresses flow into each other.
+    True,
 }
 
 impl Depth {
-    /// Reads the variables COLORTERM and TERM.
+    /// Determines the number of colours from COLORTERM and TERM.
     pub fn of(colorterm: &str, term: &str) -> Self {
         let is_true = matches!(colorterm, "truecolor" | "24bit") || term.ends_with("-direct");
-        if is_true || term.contains("256color") {
+        if is_true {
+            Self::True
+        } else if term.contains("256color") {
             Self::Indexed
         } else {
             Self::Sixteen
@@ -132,21 +134,21 @@ impl Depth {
 /// The look in this terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
-    /// Which colours.
+    /// The choice of colours.
     pub look: Look,
     /// How many of them.
     pub depth: Depth,
     /// How curves are drawn.
     pub marker: Marker,
-    /// Whether the terminal is asked for its background, and the look follows: nobody has chosen one.
+    /// Whether no look was chosen, so that it follows the background that the terminal reports.
     pub follows_background: bool,
 }
 
 /// A colour of the cube of 256, for a dark and for a light background.
 pub type Pair = [u8; 2];
 
-/// The palette after Okabe and Ito. On white their yellow and their sky blue are too pale for a line;
-/// their orange and purple are darkened.
+/// The palette of Okabe and Ito. On white, their yellow and sky blue are too pale for a line; their orange and purple
+/// are darkened.
 const ORANGE: Pair = [178, 130];
 const SKY: Pair = [74, 25];
 const GREEN: Pair = [36, 29];
@@ -165,20 +167,20 @@ impl Theme {
         }
     }
 
-    /// The same in as many colours as the terminal has.
+    /// The same theme with as many colours as the terminal has.
     #[must_use]
     pub fn with_depth(self, depth: Depth) -> Self {
         Self { depth, ..self }
     }
 
-    /// Takes the look for the background that the terminal has reported, unless one was chosen.
+    /// Adapts the look to the background that the terminal has reported, unless a look was chosen.
     pub fn follow(&mut self, background: [u8; 3]) {
         if self.follows_background {
             self.look = Look::on(background);
         }
     }
 
-    /// Whether colours tell things apart.
+    /// Whether colours distinguish things.
     pub fn colored(&self) -> bool {
         self.look != Look::Mono
     }
@@ -188,8 +190,7 @@ impl Theme {
         self.marker == Marker::Ascii
     }
 
-    /// A text from outside as this terminal can show it: no control characters, and ASCII where it
-    /// must be.
+    /// Returns a text as this terminal can show it: without control characters, and in ASCII if necessary.
     pub fn printable(&self, text: &str) -> String {
         let text = text.replace(char::is_control, " ");
         match self.ascii() {
@@ -198,20 +199,20 @@ impl Theme {
         }
     }
 
-    /// The colour of the cube of 256 for the terminal's background; `None` where there are only sixteen.
+    /// Returns a colour of the 256-colour cube for the terminal's background; `None` if there are only sixteen.
     pub fn indexed(&self, [dark, light]: Pair) -> Option<Color> {
         let number = if self.look == Look::Light {
             light
         } else {
             dark
         };
-        (self.depth == Depth::Indexed).then_some(Color::Indexed(number))
+        (self.depth != Depth::Sixteen).then_some(Color::Indexed(number))
     }
 
-    /// The style of a role.
+    /// Returns the style of a role.
     pub fn style(&self, role: Role) -> Style {
         let plain = Style::new();
-        // Only plain colours of the sixteen: in some palettes the bright ones are greys.
+        // Uses only plain colours of the sixteen: in some palettes the bright ones are greys.
         let with = |pair: Pair, dark: Color, light: Color| match self.look {
             Look::Mono => plain,
             Look::Dark => plain.fg(self.indexed(pair).unwrap_or(dark)),
@@ -239,7 +240,7 @@ impl Theme {
 mod tests {
     use super::*;
 
-    const DEPTHS: [Depth; 2] = [Depth::Sixteen, Depth::Indexed];
+    const DEPTHS: [Depth; 3] = [Depth::Sixteen, Depth::Indexed, Depth::True];
 
     #[test]
     fn no_two_curves_of_a_plot_share_a_colour() {
@@ -301,7 +302,7 @@ mod tests {
         }
     }
 
-    /// WCAG's contrast of a line: 3 against each background that a theme is for.
+    /// WCAG's contrast for a line: at least 3 against each background that a theme is for.
     #[test]
     fn colours_stand_out_on_their_backgrounds() {
         const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
@@ -315,7 +316,7 @@ mod tests {
                 (0, [[0, 0, 0], [0x00, 0x2b, 0x36]]),
                 (1, [[0xff; 3], [0xfd, 0xf6, 0xe3]]),
             ] {
-                // The cube begins behind the sixteen.
+                // The cube begins after the sixteen named colours.
                 let place = usize::from(pair[at]) - 16;
                 let color = [place / 36, place / 6 % 6, place % 6].map(|level| LEVELS[level]);
                 for ground in grounds {
@@ -333,8 +334,8 @@ mod tests {
             ("", "xterm", Depth::Sixteen),
             ("", "linux", Depth::Sixteen),
             ("", "tmux-256color", Depth::Indexed),
-            ("truecolor", "xterm", Depth::Indexed),
-            ("24bit", "xterm", Depth::Indexed),
+            ("truecolor", "xterm", Depth::True),
+            ("24bit", "xterm-256color", Depth::True),
         ] {
             assert_eq!(Depth::of(colorterm, term), depth, "{colorterm} {term}");
         }

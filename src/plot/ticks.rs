@@ -1,11 +1,11 @@
-//! Ticks on a 1-2-5 grid whose labels never collide.
+//! Ticks on a 1-2-5 grid, with labels that never collide.
 
 use super::axis::Scale;
 use super::step::Step;
 use super::units::AxisUnit;
 use super::window::Window;
 
-/// A tick: where it is and what is written beside it.
+/// A tick: its value, its place, and its label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
     /// The value, in the data's unit.
@@ -17,8 +17,8 @@ pub struct Tick {
 }
 
 impl Tick {
-    /// The first cell of the label when it is centred on the tick in a row that reaches
-    /// from `before` cells left of the first cell to the last of `cells` cells.
+    /// Returns the first cell of the label when it is centred on the tick, in a row that begins `before` cells left of
+    /// the axis and is `cells` cells long from there.
     pub fn label_start(&self, cells: u16, before: u16) -> i32 {
         let width = self.label.len() as i32;
         let centred = i32::from(self.cell) - width / 2;
@@ -28,19 +28,19 @@ impl Tick {
     }
 }
 
-/// How the labels of an axis lie.
+/// How the labels of an axis are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Labels {
     /// Side by side in one row, which begins this many cells left of the axis.
     Row(u16),
-    /// One below the other, each in a row of its own.
+    /// One below the other, one per row.
     Column,
 }
 
-/// An axis laid over cells: where values lie, the unit of its labels, and its ticks.
+/// An axis laid over cells: the map from values to cells, the unit of its labels, and its ticks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ruler {
-    /// Where values lie.
+    /// The map from values to cells.
     pub window: Window,
     /// The unit of the labels.
     pub unit: AxisUnit,
@@ -49,7 +49,7 @@ pub struct Ruler {
 }
 
 impl Ruler {
-    /// A window with as many ticks as fit in this unit.
+    /// Lays out a window with as many ticks in this unit as fit.
     pub fn new(window: Window, unit: AxisUnit, labels: Labels) -> Self {
         let ticks = ticks(&window, unit.factor, labels);
         Self {
@@ -59,8 +59,8 @@ impl Ruler {
         }
     }
 
-    /// The same column with an upper end a little higher, so that the ticks of a linear axis are the same number of
-    /// rows apart; as it was where that would leave too much of it empty.
+    /// Raises the upper end of a column a little, so that the ticks of a linear axis are evenly spaced in rows; leaves
+    /// it unchanged if too much of the column would be empty.
     #[must_use]
     pub fn even(self) -> Self {
         let [lo, hi] = self.window.bounds;
@@ -71,7 +71,7 @@ impl Ruler {
         let ends = [1.0, 2.0, 5.0].into_iter().filter_map(|times| {
             let step = times * (second.value - first.value);
             let rows = (height / ((hi - lo) / step) + 1e-9).floor();
-            // The lower end must lie on a tick, or its row would not be the one that the others count from.
+            // The lower end must lie on a tick, because rows are counted from it.
             let is_aligned = ((lo / step).round() * step - lo).abs() < 1e-6 * step;
             let end = lo + step * height / rows;
             (rows >= 1.0 && is_aligned && end <= lo + 1.3 * (hi - lo)).then_some(end)
@@ -88,8 +88,8 @@ impl Ruler {
         }
     }
 
-    /// Values of ticks between those with labels: on a linear axis two steps of the grid finer, which makes four or
-    /// five to a step; 2 to 9 in a decade.
+    /// Returns the values of minor ticks. On a linear axis their grid is two steps finer, four or five intervals per
+    /// labelled one; on a logarithmic axis they are 2 to 9 in each decade.
     pub fn minor(&self) -> Vec<f64> {
         let [low, high] = self.window.bounds;
         if self.window.scale == Scale::Log {
@@ -113,9 +113,8 @@ impl Ruler {
     }
 }
 
-/// The ticks of an axis, in increasing order: as many as fit without their labels coming
-/// close, at least two where there is room for two. `factor` is the axis' unit in the
-/// data's unit (1e-6 for µm), a power of ten on a log axis.
+/// Returns the ticks of an axis, in increasing order: as many as fit without crowded labels, at least two if there is
+/// room for two. `factor` is the size of the axis' unit in the data's unit (1e-6 for µm), a power of ten on a log axis.
 fn ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
     let linear = || linear_ticks(window, factor, labels);
     match window.scale {
@@ -131,7 +130,7 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
     if !(span > 0.0 && span.is_finite() && span > 1e-12 * lo.abs().max(hi.abs())) {
         return Vec::new();
     }
-    // A value up to half a dot outside still lands on the first or last dot.
+    // A value up to half a dot outside still falls on the first or last dot.
     let slack = 0.5 * span / window.dots().max(2) as f64;
     let ends = |step: Step| {
         let first = ((lo - slack) / step.value()).ceil();
@@ -163,7 +162,7 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
         }
     }
 
-    // No step has two multiples far enough apart: two multiples of a finer one may be.
+    // If no step has two multiples far enough apart, two multiples of a finer one may be.
     let mut single = Vec::new();
     let Step(coarsest) = Step::at_most(span);
     for step in (coarsest - 10..=coarsest + 1).rev().map(Step) {
@@ -182,7 +181,7 @@ fn linear_ticks(window: &Window, factor: f64, labels: Labels) -> Vec<Tick> {
     single
 }
 
-/// Decades, with 2 and 5 between them if there is room; `None` if no two of them fit.
+/// Returns ticks at decades, with 2 and 5 between them if there is room; `None` if no two fit.
 fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> {
     let [lo, hi] = window.bounds;
     let first = (lo.log10() - 1e-9).floor() as i32;
@@ -198,7 +197,7 @@ fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> 
         };
         Some(Tick { value, cell, label })
     };
-    // Every step of the grid, every decade, every second one and so on.
+    // Ticks at every step of the grid, at every decade, at every second decade and so on.
     let grid = |every: i32| -> Vec<Tick> {
         let steps = (3 * first..=3 * last + 2).filter(|step| step.rem_euclid(every) == 0);
         steps.map(Step).filter_map(tick).collect()
@@ -210,7 +209,7 @@ fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> 
             return Some(found);
         }
     }
-    // The outermost decades, or the outermost of all where there are no two decades.
+    // The outermost decades, or the outermost steps if there are no two decades.
     [3, 1].into_iter().find_map(|every| {
         let found = grid(every);
         let [first, .., last] = &found[..] else {
@@ -221,8 +220,8 @@ fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> 
     })
 }
 
-/// Are neighbours `apart` cells apart, with `blanks` cells between labels in a row, and no
-/// label longer than the row?
+/// Whether neighbours are `apart` cells apart, with `blanks` cells between labels in a row, and no label is longer than
+/// the row.
 fn fit(ticks: &[Tick], window: &Window, labels: Labels, apart: u16, blanks: i32) -> bool {
     let far = ticks
         .windows(2)
@@ -307,7 +306,7 @@ mod tests {
         assert_eq!(labels_of(&ticks(&window, 1e-6, row(3)))[0], "1e-6");
     }
 
-    /// Neighbours apart, everything inside, order kept.
+    /// Checks that ticks are in order, inside, and far enough apart.
     fn check(ticks: &[Tick], window: &Window, labels: Labels) {
         let [lo, hi] = window.bounds;
         for tick in ticks {

@@ -1,20 +1,19 @@
-//! SI prefixes for axes and readings.
+//! SI prefixes for axes and values.
 //!
-//! One axis has one prefix, taken from the largest absolute value on it, so that all its
-//! labels share it. A prefix before a power of a unit is raised with it, as SI wants:
-//! 1 µm³ is 10⁻¹⁸ m³. Where no prefix applies (pure numbers, `1/Pa`, cycles) or fits, a power of
-//! a thousand is written in its place: `[1e-6 1/Pa]`.
+//! One axis has one prefix, chosen for the largest absolute value on it, so that all its labels share it. A prefix
+//! before a power of a unit is raised with it, as SI requires: 1 µm³ is 10⁻¹⁸ m³. Where no prefix applies (pure
+//! numbers, `1/Pa`, cycles) or fits, a power of a thousand is written instead: `[1e-6 1/Pa]`.
 
 use std::borrow::Cow;
 
 use crate::scenario::units::{SHOWN_PREFIXES, shown_in, takes_prefix};
 
-/// The prefix for values up to `max` of `unit`, and what the unit with it is worth without: 1e-18 for µ before m³.
-/// Some units (an empty one, `1/Pa`, `cycles`) take none.
+/// Returns the prefix for values up to `max` of `unit`, and its factor: 1e-18 for µ before m³. Some units (an empty
+/// one, `1/Pa`, `cycles`) have no prefixes.
 fn prefix(max: f64, unit: &str) -> (&'static str, f64) {
     let size = max.abs() * (1.0 + 1e-9);
     let power = match leading_power(unit) {
-        // Nobody reads kiloseconds.
+        // Kiloseconds and kiloradians are not in use.
         Some(_) if matches!(unit, "s" | "rad") && max.abs() >= 1.0 => return ("", 1.0),
         Some(power) if size > 0.0 && size.is_finite() => power,
         _ => return ("", 1.0),
@@ -24,10 +23,10 @@ fn prefix(max: f64, unit: &str) -> (&'static str, f64) {
     fitting.unwrap_or(raised[0])
 }
 
-/// The power of a unit's first symbol (3 for `m³`, 1 for `N/m`); `None` where no prefix applies.
+/// Returns the power of a unit's first symbol (3 for `m³`, 1 for `N/m`); `None` if no prefix applies.
 fn leading_power(unit: &str) -> Option<i32> {
     let rest = unit.trim_start_matches(char::is_alphabetic);
-    // Other words (cycles, %, deg) stand alone.
+    // Other words (cycles, %, deg) have no prefixes.
     takes_prefix(unit.strip_suffix(rest)?).then_some(())?;
     match rest.trim_start_matches('^').chars().next() {
         Some('²' | '2') => Some(2),
@@ -37,16 +36,16 @@ fn leading_power(unit: &str) -> Option<i32> {
     }
 }
 
-/// The unit one axis is labelled in.
+/// The unit of an axis' labels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisUnit {
-    /// What one labelled unit is worth in the data's units.
+    /// The size of this unit in the data's unit.
     pub factor: f64,
     /// The unit with its prefix or power of ten (`MPa`, `1e-15 N`, `1e6 cycles`, or empty).
     pub text: String,
 }
 
-/// The common unit of an axis whose largest absolute value is `max` (in `unit`).
+/// Returns the common unit of an axis whose largest absolute value is `max` (in `unit`).
 pub fn axis_unit(max: f64, unit: &str) -> AxisUnit {
     let (symbol, factor) = prefix(max, unit);
     let scaled = max.abs() / factor;
@@ -55,7 +54,7 @@ pub fn axis_unit(max: f64, unit: &str) -> AxisUnit {
         return AxisUnit { factor, text };
     }
     let power = 3 * ((max.abs() * (1.0 + 1e-9)).log10() / 3.0).floor() as i32;
-    // A unit that is itself a power of ten, as 1e-3, takes the power up.
+    // A unit that is itself a power of ten, such as 1e-3, is combined with the power.
     let own = unit.strip_prefix("1e");
     let own = own.and_then(|own| own.parse::<i32>().ok());
     let text = match own.map(|own| power + own) {
@@ -69,8 +68,8 @@ pub fn axis_unit(max: f64, unit: &str) -> AxisUnit {
     }
 }
 
-/// The ends of a range (in `unit`) for its key, `digits` significant digits each: in one unit, which the second end
-/// names, or each with its own where that has a power of ten.
+/// Formats the ends of a range (in `unit`) for its key, with `digits` significant digits each. They share one unit,
+/// which the second end names, unless it has a power of ten: then each end names its own.
 pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize) -> [String; 2] {
     let AxisUnit { factor, text } = axis_unit(high.abs().max(low.abs()), unit);
     if text.starts_with("1e") {
@@ -80,9 +79,8 @@ pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize) -> [String; 
     [low, format!("{high} {text}").trim_end().to_owned()]
 }
 
-/// A reading with its unit, `1.23 µm`: `digits` significant digits (digits before the
-/// point are never rounded away), the prefix chosen after rounding, scientific notation
-/// beyond pico and giga.
+/// Formats a value with its unit, `1.23 µm`, to `digits` significant digits (digits before the point are never rounded
+/// away). The prefix is chosen after rounding; beyond pico and giga the notation is scientific.
 pub fn format_value(value: f64, unit: &str, digits: usize) -> String {
     let digits = digits.clamp(1, 17);
     let (mut symbol, factor) = prefix(round_to(value, digits), unit);
@@ -94,7 +92,7 @@ pub fn format_value(value: f64, unit: &str, digits: usize) -> String {
     text.trim_end().to_owned()
 }
 
-/// A bare number with `digits` significant digits; scientific outside 1e-3..1e6.
+/// Formats a bare number with `digits` significant digits; in scientific notation outside 1e-3..1e6.
 pub fn format_number(value: f64, digits: usize) -> String {
     let digits = digits.clamp(1, 17);
     if value == 0.0 {
@@ -114,8 +112,8 @@ pub fn format_number(value: f64, digits: usize) -> String {
     }
 }
 
-/// A value (in `unit`) as an engineer reads it, in up to seven digits: the number, and the unit it is in, which a
-/// scenario takes back: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/J`.
+/// Formats a value (in `unit`) as an engineer writes it, to at most seven digits. Returns the number and its unit,
+/// which a scenario accepts: `230.77 GPa`, `1 µm`, `45 deg`, `50 Hz`, `0.13 mm³/J`.
 pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
     let (unit, factor) = match shown_in(unit) {
         Some((unit, factor)) => (unit.to_owned(), factor),
@@ -131,7 +129,7 @@ pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
     (plain(value / factor), unit)
 }
 
-/// A number in up to seven digits, without trailing zeros.
+/// Formats a number to at most seven digits, without trailing zeros.
 pub fn plain(number: f64) -> String {
     match round_to(number, 7) {
         0.0 => "0".to_owned(),
@@ -140,20 +138,20 @@ pub fn plain(number: f64) -> String {
     }
 }
 
-/// `value` rounded to `digits` significant decimal digits.
+/// Rounds `value` to `digits` significant decimal digits.
 fn round_to(value: f64, digits: usize) -> f64 {
     let rounded = format!("{value:.*e}", digits - 1).parse();
-    // Rounding may overflow next to f64::MAX; the value itself is then as good.
+    // Rounding may overflow next to f64::MAX; the value itself is then good enough.
     match rounded {
         Ok(number) if f64::is_finite(number) => number,
         _ => value,
     }
 }
 
-/// Signs common in units and labels, and how each of them is spelled in ASCII.
+/// Characters common in units and labels, and their spelling in ASCII.
 #[rustfmt::skip]
 const SPELLED: [(&str, &str); 39] = [
-    // The prefix micro, and the letter of friction.
+    // The micro sign of the prefix, and the Greek letter mu of friction.
     ("\u{b5}", "u"), ("\u{3bc}", "mu"),
     ("⁰₀", "0"), ("¹₁", "1"), ("²₂", "2"), ("³₃", "3"), ("⁻−–—─━", "-"), ("│├┤", "|"), ("┊", ":"), ("→", "->"), ("↓", "v"),
     ("←", "<-"), ("‖", "="), ("■", "#"), ("·", "*"), ("×", "x"), ("∞", "inf"), ("τ", "tau"), ("σ", "sigma"),
@@ -163,8 +161,8 @@ const SPELLED: [(&str, &str); 39] = [
     ("╌", "="), ("┈", "."), ("┄", "~"), ("╴", "_"),
 ];
 
-/// `text` with the signs common in units and labels spelled in ASCII (`µm` as `um`, `τ` as
-/// `tau`); any other character becomes `?`.
+/// Spells characters common in units and labels in ASCII (`µm` as `um`, `τ` as `tau`); any other non-ASCII character
+/// becomes `?`.
 pub fn to_ascii(text: &str) -> Cow<'_, str> {
     if text.is_ascii() {
         return Cow::Borrowed(text);

@@ -22,8 +22,8 @@ use super::window::Window;
 const SMALLEST: (u16, u16) = (12, 4);
 
 impl Plot<'_> {
-    /// The abscissa, in the x axis' unit, under a cell of the screen where the plot is drawn in `area`;
-    /// none outside of the curves' own part of it.
+    /// Returns the abscissa, in the x axis' unit, at a cell of the screen if the plot is drawn in `area`; `None`
+    /// outside the curves' area.
     pub fn abscissa_at(&self, area: Rect, cell: layout::Position) -> Option<f64> {
         if area.is_empty() {
             return None;
@@ -61,14 +61,14 @@ impl Widget for Plot<'_> {
     }
 }
 
-/// Whether an area has no room for axes.
+/// Whether an area is too small for axes.
 fn is_bare(area: Rect) -> bool {
     area.width < SMALLEST.0 || area.height < SMALLEST.1
 }
 
-/// Where the name of a zone of `width` cells from `first` on begins, in a band of `cells`. Zones change
-/// with every frame, and a name that stayed in their middle could not be read: it keeps to the end that the
-/// zone shares with the band, else to every fourth cell.
+/// Returns where the name of a zone begins: the zone has `width` cells from `first` on, in a band of `cells`. Zones
+/// change in every frame, and a name always centred in its zone could not be read. It stays at the end that the zone
+/// shares with the band, or else snaps to every fourth cell.
 fn name_start(first: u16, width: u16, name: u16, cells: u16) -> u16 {
     const MARGIN: u16 = 2;
     const EVERY: u16 = 4;
@@ -84,7 +84,7 @@ fn name_start(first: u16, width: u16, name: u16, cells: u16) -> u16 {
     }
 }
 
-/// Everything placed: the plot area, and the axes around it.
+/// The layout: the plot area, and the axes around it.
 pub(super) struct Frame<'p> {
     pub plot: &'p Plot<'p>,
     pub area: Rect,
@@ -105,7 +105,7 @@ impl<'p> Frame<'p> {
         let y_bounds = chart.y.resolve(y_data, true);
         let (across, down) = plot.theme.marker.dots();
 
-        // Rows, from the bottom up: labels, axis line, band, plot; the title on top.
+        // Rows from the bottom up: labels, axis line, band, plot; the title is at the top.
         let mut bottom = area.bottom();
         let mut take = |wanted: bool| {
             bottom -= u16::from(wanted);
@@ -146,7 +146,7 @@ impl<'p> Frame<'p> {
         }
     }
 
-    /// The dots: fills, rules, curves in their order.
+    /// Draws the dots: fills, rules, and curves in their order.
     fn raster(&self) -> Raster {
         let (plot, x, y) = (self.plot, self.x.window, self.y.window);
         let (theme, curves) = (plot.theme, &plot.chart.curves);
@@ -186,11 +186,11 @@ impl<'p> Frame<'p> {
         raster
     }
 
-    /// The map, upwards in half cells where there are colours: each shows the place that its middle belongs to.
+    /// Draws the map, in half cells vertically if there are colours; each shows the place that contains its middle.
     fn map(&self, map: &Map, buf: &mut Buffer) {
         let (theme, chart, range) = (self.plot.theme, self.plot.chart, map.range());
         let parts = 1 + u16::from(has_blocks(theme));
-        // The places of cells or halves: as many edges lie before their middles.
+        // Finds the places of cells or half cells by counting the edges before their middles.
         let places = |axis: &Axis, places: &[f64], window: Window, parts: u16| -> Vec<usize> {
             let edges = axis.edges(places);
             let (inner, rises) = (&edges[1..places.len()], edges[0] < edges[places.len()]);
@@ -219,14 +219,14 @@ impl<'p> Frame<'p> {
         }
     }
 
-    /// Gives a sign on the map a colour that is seen there.
+    /// Gives a character on the map a colour that is visible there.
     fn ink(&self, cell: Option<&mut Cell>) {
         if let Some(cell) = cell.filter(|_| self.plot.theme.colored()) {
             cell.fg = ink_on(cell.bg);
         }
     }
 
-    /// Points with a sign of their own, and arrows where a curve leaves through the top.
+    /// Draws marked points, and arrows where a curve leaves through the top.
     fn signs(&self, buf: &mut Buffer) {
         let (plot, x, y) = (self.plot, self.x.window, self.y.window);
         let top = y.bounds[1] * (1.0 + 1e-9);
@@ -251,13 +251,13 @@ impl<'p> Frame<'p> {
         }
     }
 
-    /// A sign as the terminal can show it.
+    /// Returns a character that the terminal can show.
     fn sign(&self, sign: char) -> char {
         let text = self.plot.theme.printable(&sign.to_string());
         text.chars().next().unwrap_or(' ')
     }
 
-    /// Axis lines, ticks and their labels, and the band.
+    /// Draws axis lines, ticks with their labels, and the band.
     fn axes(&self, buf: &mut Buffer) {
         let [upright, y_tick, level, x_tick, corner] = if self.plot.theme.ascii() {
             ['|', '+', '-', '+', '+']
@@ -329,7 +329,7 @@ impl<'p> Frame<'p> {
         }
     }
 
-    /// Writes `words` from (`x`, `y`) on, no farther than the area.
+    /// Writes `words` from (`x`, `y`) on, within the area.
     pub(super) fn write(&self, buf: &mut Buffer, x: u16, y: u16, words: &str, style: Style) {
         let room = usize::from(self.area.right().saturating_sub(x));
         if room > 0 && (self.area.top()..self.area.bottom()).contains(&y) {

@@ -2,11 +2,10 @@
 
 use super::axis::Scale;
 
-/// One axis laid over a number of cells: the map from values to dots.
+/// The map from values to dots for one axis laid over a number of cells.
 ///
-/// Dots are counted from the left or from the bottom; dot `i` has its centre at position
-/// `i`. The bounds lie on the centres of the first and the last dot, so a value lands on
-/// the dot whose centre is nearest.
+/// Dots are counted from the left or from the bottom; the centre of dot `i` is at position `i`. The bounds lie on the
+/// centres of the first and the last dot, so a value falls on the dot with the nearest centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// The values at the two ends, in the data's unit.
@@ -15,16 +14,15 @@ pub struct Window {
     pub scale: Scale,
     /// The number of cells.
     pub cells: u16,
-    /// The dots of a cell along the axis.
+    /// The number of dots per cell along the axis.
     pub dots_per_cell: u16,
 }
 
-/// Positions farther out than this are brought back to it: a line to there is as steep.
+/// Positions are clamped to this distance; a line to a clamped point is just as steep.
 const FAR: f64 = 1e12;
 
 impl Window {
-    /// `bounds` (increasing, and positive on a log scale) over `cells` cells of
-    /// `dots_per_cell` dots.
+    /// Maps `bounds` (increasing, and positive on a log scale) to `cells` cells of `dots_per_cell` dots.
     pub fn new(bounds: [f64; 2], scale: Scale, cells: u16, dots_per_cell: u16) -> Self {
         Window {
             bounds,
@@ -34,18 +32,18 @@ impl Window {
         }
     }
 
-    /// The number of dots.
+    /// Returns the number of dots.
     pub fn dots(&self) -> usize {
         usize::from(self.cells) * usize::from(self.dots_per_cell)
     }
 
-    /// The distance from the first dot to the last one, in cells.
+    /// Returns the distance from the first dot to the last one, in cells.
     pub(super) fn height(&self) -> f64 {
         (self.dots() as f64 - 1.0) / f64::from(self.dots_per_cell)
     }
 
-    /// The position of `value` in dots, also outside the window; `None` for values that
-    /// have no place: not finite, or not positive on a log scale.
+    /// Returns the position of `value` in dots, also outside the window; `None` for values that are not finite, or not
+    /// positive on a log scale.
     pub fn position(&self, value: f64) -> Option<f64> {
         if !self.scale.has(value) {
             return None;
@@ -55,32 +53,32 @@ impl Window {
         let share = (at - lo) / (hi - lo);
         let position = match self.dots() {
             0 => return None,
-            // A lone dot stands for the whole window, not for everything outside it too.
+            // A single dot represents the whole window, but nothing outside it.
             1 => (share - 0.5) * 0.999,
             dots => share * (dots - 1) as f64,
         };
         (!position.is_nan()).then(|| position.clamp(-FAR, FAR))
     }
 
-    /// Where `value` lies between the ends, 0 to 1 inside; `None` for values that have no place.
+    /// Returns the relative position of `value` between the ends, 0 to 1 inside; `None` if it has no position.
     pub fn share(&self, value: f64) -> Option<f64> {
         let last = (self.dots().max(2) - 1) as f64;
         self.position(value).map(|dots| dots / last)
     }
 
-    /// The dot nearest to `value`; `None` outside the window.
+    /// Returns the dot nearest to `value`; `None` outside the window.
     pub fn dot(&self, value: f64) -> Option<usize> {
         let dot = self.position(value)?.round();
         (dot >= 0.0 && dot < self.dots() as f64).then_some(dot as usize)
     }
 
-    /// The cell that holds the dot nearest to `value`; `None` outside the window.
+    /// Returns the cell that holds the dot nearest to `value`; `None` outside the window.
     pub fn cell(&self, value: f64) -> Option<u16> {
         let dot = self.dot(value)?;
         Some((dot / usize::from(self.dots_per_cell)) as u16)
     }
 
-    /// The value at a position in dots: the inverse of [`position`](Self::position).
+    /// Returns the value at a position in dots: the inverse of [`position`](Self::position).
     pub fn value(&self, position: f64) -> f64 {
         let [lo, hi] = self.bounds.map(|v| self.scale.spread(v));
         let share = match self.dots() {
@@ -90,14 +88,14 @@ impl Window {
         self.scale.unspread(lo * (1.0 - share) + hi * share)
     }
 
-    /// The value in the middle of one of the `parts` that cells are divided into.
+    /// Returns the value in the middle of one of the `parts` into which each cell is divided.
     pub fn middle(&self, part: u16, parts: u16) -> f64 {
         let dots = f64::from(self.dots_per_cell) / f64::from(parts);
         let middle = (f64::from(part) + 0.5) * dots - 0.5;
         self.value(middle.clamp(0.0, self.dots().max(1) as f64 - 1.0))
     }
 
-    /// The position in dots of the middle of cell `index`.
+    /// Returns the position in dots of the middle of cell `index`.
     pub fn cell_middle(&self, index: u16) -> f64 {
         let dots = f64::from(self.dots_per_cell);
         (f64::from(index) + 0.5) * dots - 0.5

@@ -1,4 +1,4 @@
-//! The words of a chart in a terminal: legend, title row, labels of marks, names at the ends of curves.
+//! The text of a chart in a terminal: legend, title row, labels of marks, names at the ends of curves.
 
 use std::ops::Range;
 
@@ -13,13 +13,13 @@ use super::theme::Role;
 use super::widget::Frame;
 
 impl Frame<'_> {
-    /// The legend, the title row, and the labels of the marks; the dots below them go.
+    /// Writes the legend, the title row and the labels of the marks, and removes the dots below them.
     pub(super) fn words(&self, raster: &mut Raster, buf: &mut Buffer) {
         let (plot, area, inner) = (self.plot, self.area, self.inner);
         let (theme, units) = (plot.theme, [&self.x.unit, &self.y.unit]);
         let quiet = theme.style(Role::Quiet);
         let legend = Legend::arrange(plot, units, raster);
-        // Rather than over a curve, its name stands at its end.
+        // If the legend would cover a curve, the curves are named at their ends instead.
         let covers = |legend: &Legend| legend.covered > 0 && plot.cursor.is_none();
         let covers = legend.as_ref().is_some_and(covers);
         let at_ends = covers.then(|| self.names_at_ends(raster)).flatten();
@@ -51,7 +51,7 @@ impl Frame<'_> {
             free.end -= 1;
         }
 
-        // From left to right: a label takes the room of the title row up to its own end.
+        // From left to right, because a label takes the title row up to its own end.
         let mut marks: Vec<_> = plot.chart.marks.iter().collect();
         marks.sort_by(|a, b| a.x.total_cmp(&b.x));
         for mark in marks {
@@ -66,7 +66,7 @@ impl Frame<'_> {
                 free.start = x + width + 1;
                 continue;
             }
-            // No place above the line: beside its upper end, unless a curve passes there.
+            // Without room above the line, the label goes beside its upper end, unless a curve passes there.
             let beside = [Some(column + 1), column.checked_sub(width)];
             let mut spots = beside.into_iter().flatten();
             let spot = spots.find_map(|x| {
@@ -82,9 +82,9 @@ impl Frame<'_> {
         }
     }
 
-    /// Writes what the abscissa is into the rule above the plot, where there is one with room for it, else to the
-    /// right end of the `free` part of the title row; returns the cells that it takes there. In the row of the ticks
-    /// it would stand where the last of them is.
+    /// Writes the abscissa's title into the rule above the plot if there is room, else at the right end of the `free`
+    /// part of the title row; returns the number of cells that it takes there. In the row of tick labels it would
+    /// collide with the last one.
     fn x_title(&self, free: Range<u16>, buf: &mut Buffer) -> u16 {
         let theme = self.plot.theme;
         let arrow = if theme.ascii() { '>' } else { '→' };
@@ -95,7 +95,7 @@ impl Frame<'_> {
         let quiet = theme.style(Role::Quiet);
         let whole = title(&self.plot.chart.x.label);
         if let Some(rule) = self.plot.rule.filter(|rule| cells(&whole) <= rule.width) {
-            // The rule is dim; what stands in it is not.
+            // The rule is dim; text in it is not.
             let style = Style::reset().patch(quiet);
             buf.set_string(rule.right() - cells(&whole), rule.y, whole, style);
             return 0;
@@ -109,7 +109,7 @@ impl Frame<'_> {
         cells(title)
     }
 
-    /// The names of the curves above or below their last points, where no curve is; `None` unless each has its place.
+    /// Places the names of the curves above or below their last points, in free areas; `None` unless all fit.
     fn names_at_ends(&self, raster: &Raster) -> Option<Vec<(Rect, String, Style)>> {
         let (theme, inner) = (self.plot.theme, self.inner);
         let mut placed: Vec<(Rect, String, Style)> = Vec::new();

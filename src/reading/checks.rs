@@ -1,37 +1,38 @@
-//! The checks of a run: most compare two independent ways to compute the same number, one the cells with the scar.
+//! The checks of a run. Most compare two independent ways to
+//! compute the same number; one compares the cells with the scar.
 //!
-//! One list serves the status line, the accuracy panel, the header of every file and the end of a
-//! run. The guide's chapter on checks, which the panel shows too, explains each.
+//! One list serves the status line, the accuracy panel, the header of every file and the end of a run. The guide's
+//! chapter on checks, which the panel also shows, explains each.
 
 use super::Log;
 use crate::math::abel::worn;
 use crate::simulation::{Simulation, Unworn};
 
-/// The guide's chapter: a section a certificate.
+/// The guide's chapter, with one section per check.
 const GUIDE: &str = include_str!("../guide/checks.md");
 
-/// Above this difference a check fails.
+/// A larger difference fails the check.
 const FAILS: f64 = 0.015;
 
-/// A run errs by about this many times what its last profile leaves out between nodes: the median over 256 random
-/// scenarios is 4.6.
+/// Typical ratio of a run's error to the interpolation error of its last profile: the median over 256 random scenarios
+/// is 4.6.
 const OVER_RUN: f64 = 4.0;
 
-/// What a certificate is about.
+/// Subject of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Subject {
     /// V against k E_d since the start.
     Energy,
-    /// The curvature of the worn depth against the widths of the cells.
+    /// The interpolation error of the worn depth on its cells.
     Interpolation,
-    /// F_x against the closed form, where nothing wears.
+    /// F_x against the closed form, if nothing wears.
     TangentialForce,
-    /// E_d of a cycle against the closed form, where nothing wears.
+    /// E_d per cycle against the closed form, if nothing wears.
     Dissipation,
 }
 
 impl Subject {
-    /// In words.
+    /// Returns the name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Energy => "energy",
@@ -41,7 +42,7 @@ impl Subject {
         }
     }
 
-    /// What is compared, in a line.
+    /// Says in one line what is compared.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Energy => "V of the profile against k E_d since the start",
@@ -51,7 +52,7 @@ impl Subject {
         }
     }
 
-    /// What is compared and what a difference means, in two sentences of the guide.
+    /// Explains in two sentences of the guide what is compared and what a difference means.
     pub fn explanation(self) -> &'static str {
         let heading = format!("## {}\n", self.name());
         let after = GUIDE
@@ -61,22 +62,22 @@ impl Subject {
     }
 }
 
-/// One certificate and by how much its two sides differ.
+/// A check and the difference between its two sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Check {
     /// What is compared.
     pub subject: Subject,
-    /// The relative difference, signed.
+    /// Relative difference, signed.
     pub error: f64,
 }
 
 impl Check {
-    /// Whether both sides agree as well as they should.
+    /// Whether both sides agree closely enough.
     pub fn holds(&self) -> bool {
         self.error.abs() <= FAILS
     }
 
-    /// `energy off by 2 %`.
+    /// Describes the difference, such as `energy off by 2 %`.
     pub fn complaint(&self) -> String {
         let (name, percent) = (self.subject.name(), 100.0 * self.error.abs());
         match percent {
@@ -88,9 +89,9 @@ impl Check {
     }
 }
 
-/// `checks ok`, or the worst of the `checks` that fail; none before there is any check.
+/// Returns `checks ok`, or the worst of the `checks` that fail; `None` before there is any check.
 pub fn verdict(checks: &[Check]) -> Option<String> {
-    // What is no number is the worst.
+    // NaN counts as the worst.
     let worst = checks
         .iter()
         .max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()))?;
@@ -102,7 +103,7 @@ pub fn verdict(checks: &[Check]) -> Option<String> {
 }
 
 impl Simulation {
-    /// Every certificate that the present moment has, with the notes of the run.
+    /// Returns all checks available at the present moment, using the log of the run.
     pub fn checks(&self, log: &Log) -> Vec<Check> {
         let moment = self.moment();
         let mut checks = Vec::new();
@@ -111,7 +112,7 @@ impl Simulation {
         };
         add(Subject::Energy, moment.energy_residual);
         let period = f64::from(self.setup().drive.cycles_to_settle());
-        // A scar of a part of a period has edges that the rest of it wears away.
+        // Within the first period the scar has edges that the rest of the period wears away.
         if moment.cycle >= period {
             let left_out = worn::interpolation_error(&self.setup().grid, self.worn_depth());
             add(
@@ -129,7 +130,8 @@ impl Simulation {
         checks
     }
 
-    /// F_x and E_d of the last period over the closed forms of a held load, less 1, where nothing wears.
+    /// Returns F_x and E_d of the last period, divided by the
+    /// closed forms of a held load, minus 1; only if nothing wears.
     fn closed_forms(&self, log: &Log) -> Option<[f64; 2]> {
         let worn = self.setup().wear.is_some_and(|law| law.coefficient() > 0.0);
         if worn || self.state().wear.iter().any(|&worn| worn > 0.0) {

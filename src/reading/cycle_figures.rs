@@ -1,15 +1,13 @@
-//! The figures that a fretting test reports for a cycle: energy, force and slip ratios, and the
-//! running condition.
+//! The figures that a fretting test reports per cycle: energy, force and slip ratios, and the running condition.
 //!
-//! The figures describe the last complete period of the motion. Each step adds its end point to a
-//! [`LoopTally`]; at the end of the period the tally becomes [`CycleFigures`]. The [`Log`](super::Log) of a run keeps
-//! both. After a jump over cycles, the figures are those of the [`FinePeriod`] on the present profile.
+//! The figures describe the last complete period of the motion. Each step adds its end point to a [`LoopTally`], which
+//! becomes [`CycleFigures`] at the end of the period. The [`Log`](super::Log) of a run keeps both. After a jump over
+//! cycles, the figures describe the [`FinePeriod`] on the present profile.
 //!
 //! # Formulas
 //!
-//! With the amplitudes U of u_x⁽⁰⁾, or of the actuator where a rig of finite stiffness moves the
-//! contact, and Q* of F_x, the mean P of F_z and the displacement δ₀ that is
-//! left where F_x passes through zero, of one cycle:
+//! U is the amplitude of u_x⁽⁰⁾, or of the actuator if a rig of finite stiffness moves the contact; Q* the amplitude of
+//! F_x, P the mean of F_z, and δ₀ the displacement that remains where F_x passes through zero, all over one cycle:
 //!
 //! | figure | formula | 0 | gross slip |
 //! |---|---|---|---|
@@ -28,8 +26,8 @@ use strum::{EnumString, IntoStaticStr};
 use crate::math::root;
 use crate::simulation::{FinePeriod, PeriodPoint, Setup, Simulation};
 
-/// Below this energy ratio A the loop is a line to any test rig: the contact counts as sticking. A
-/// sphere in partial slip passes it near U = 0.06 of the amplitude of gross slip.
+/// Below this energy ratio A a test rig sees the loop as a line, so the contact counts as sticking. A sphere in partial
+/// slip passes it near U = 0.06 of the amplitude of gross slip.
 const CLOSED_LOOP: f64 = 0.005;
 
 /// The running condition of a cycle.
@@ -39,24 +37,24 @@ const CLOSED_LOOP: f64 = 0.005;
 pub enum Regime {
     /// Full stick: the loop is closed (A < 0.005).
     Stick,
-    /// Partial slip: some of the contact never slips.
+    /// Partial slip: part of the contact never slips.
     Partial,
-    /// Gross slip: nothing sticks through the whole cycle.
+    /// Gross slip: no point sticks through the whole cycle.
     Gross,
-    /// The contact opens during a part of the cycle.
+    /// The contact opens during part of the cycle.
     Open,
 }
 
 impl Regime {
-    /// Every regime, in the order of legends.
+    /// All regimes, in the order of legends.
     pub const ALL: [Self; 4] = [Self::Stick, Self::Partial, Self::Gross, Self::Open];
 
-    /// The name in files.
+    /// Returns the name used in files.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// The name on screens.
+    /// Returns the name shown on screens.
     pub fn title(self) -> &'static str {
         match self {
             Self::Stick => "full stick",
@@ -82,7 +80,7 @@ pub struct CycleFigures {
     pub opening: Option<f64>,
     /// Q*/(μP).
     pub force_ratio: Option<f64>,
-    /// 1 − Q*/(2G*aU), at least 0; of a line 1 − Q*/(KU), K the stiffness of the contact that sticks.
+    /// 1 − Q*/(2G*aU), at least 0; in a line contact 1 − Q*/(KU), with K the stiffness of the sticking contact.
     pub slip_ratio: Option<f64>,
     /// D = δ₀/U.
     pub sliding_ratio: Option<f64>,
@@ -94,10 +92,10 @@ pub struct CycleFigures {
     pub regime: Regime,
 }
 
-/// The present period of the motion so far.
+/// The current period of the motion so far.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct LoopTally {
-    /// Where it began, in cycles, and E_d there, J.
+    /// Its beginning in cycles, and E_d there, J.
     start: [f64; 2],
     /// Cycle, u_x⁽⁰⁾ (m) and F_x (N) of the last step.
     last: [f64; 3],
@@ -108,7 +106,7 @@ pub struct LoopTally {
     /// ∫F_z dn and ∫a dn over the cycles n, N and m.
     normal_force: f64,
     contact_radius: f64,
-    /// Whether nothing touched at some moment.
+    /// Whether the contact was open at some moment.
     opened: bool,
     /// Sum and number of the u_x⁽⁰⁾ at which F_x falls, or rises, through zero.
     falling: [f64; 2],
@@ -116,7 +114,7 @@ pub struct LoopTally {
 }
 
 impl LoopTally {
-    /// Begins at the present moment of a simulation.
+    /// Begins a tally at the present moment of a simulation.
     pub fn begin(simulation: &Simulation) -> Self {
         let [cycle, shift, force] = moment(simulation);
         Self {
@@ -128,7 +126,7 @@ impl LoopTally {
         }
     }
 
-    /// The end of the last step, in cycles.
+    /// Returns the end of the last step, in cycles.
     pub fn cycle(&self) -> f64 {
         self.last[0]
     }
@@ -165,8 +163,8 @@ impl LoopTally {
         self.last = moment;
     }
 
-    /// The figures of the period that ends at the present moment of a simulation; none if it began within the
-    /// period, and without tangential motion.
+    /// Returns the figures of the period that ends at the present moment of a simulation; `None` if the tally began
+    /// within the period, or without tangential motion.
     pub fn close(&self, simulation: &Simulation, period: f64) -> Option<CycleFigures> {
         let [start, energy] = self.start;
         let cycles = self.last[0] - start;
@@ -189,14 +187,14 @@ impl LoopTally {
     }
 }
 
-/// δ₀, m, from the sum and number of the displacements at which F_x falls, and rises, through zero.
+/// Returns δ₀, m, from the sums and numbers of the displacements at which F_x falls and rises through zero.
 fn opening(falling: [f64; 2], rising: [f64; 2]) -> Option<f64> {
     let mean = |[sum, count]: [f64; 2]| sum / count;
     let crosses = falling[1] > 0.0 && rising[1] > 0.0;
     crosses.then(|| 0.5 * (mean(falling) - mean(rising)).abs())
 }
 
-/// What is measured in a period: per cycle, and on average over it.
+/// Measured values of a period: per cycle, or averaged over it.
 struct Measured {
     /// E_d, J.
     energy: f64,
@@ -208,7 +206,7 @@ struct Measured {
     contact_radius: f64,
     /// The smallest stick radius, m.
     stick_radius: f64,
-    /// Whether nothing touched at some moment.
+    /// Whether the contact was open at some moment.
     opened: bool,
     /// δ₀, m.
     opening: Option<f64>,
@@ -227,7 +225,7 @@ impl Measured {
         let material = &setup.material;
         let ratio = |over: f64, under: f64| (under > 0.0).then(|| over / under);
         let energy_ratio = ratio(energy, 4.0 * force * shift);
-        // The slip ratio is about the contact alone.
+        // The slip ratio describes the contact without the rig.
         let of_contact = shift - setup.drive.rig_compliance() * force;
         let elastic = setup.drive.stiffness(material, self.contact_radius) * of_contact;
         let regime = if self.opened {
@@ -256,7 +254,7 @@ impl Measured {
 }
 
 impl CycleFigures {
-    /// The figures of a finely stepped period on the parts of `setup`.
+    /// Computes the figures of a finely stepped period with the parts of `setup`.
     pub fn of(period: &FinePeriod, setup: &Setup) -> Self {
         let points = &period.points;
         let length = period.cycles;
@@ -291,7 +289,7 @@ impl CycleFigures {
     }
 }
 
-/// The present cycle, the displacement that the rig's sensor sees, m, and F_x, N.
+/// Returns the present cycle, the displacement that the rig's sensor sees, m, and F_x, N.
 fn moment(simulation: &Simulation) -> [f64; 3] {
     let contact = &simulation.state().contact;
     let force = contact.tangential_force(simulation.model());
@@ -299,9 +297,9 @@ fn moment(simulation: &Simulation) -> [f64; 3] {
     [simulation.cycle(), shift, force]
 }
 
-/// Returns the displacement at which F_x passes through zero in the last step, m. F_x bends so much in the longest
-/// steps that a straight line misses it by 6 %. At its `ends` the force is known, N. `None` if the contact cannot be
-/// solved between them.
+/// Returns the displacement at which F_x passes through zero in the last step, m. In the longest steps F_x curves so
+/// much that a straight line misses it by 6 %. The force is known at the step's `ends`, N. `None` if the contact cannot
+/// be solved between them.
 fn unloaded(simulation: &Simulation, ends: [f64; 2]) -> Option<f64> {
     let model = simulation.model_of_last_step();
     let mut found = None;
@@ -321,8 +319,8 @@ fn unloaded(simulation: &Simulation, ends: [f64; 2]) -> Option<f64> {
     found
 }
 
-/// The displacement of the actuator, m, where the contact is shifted by `shift` under `force` (N): what
-/// the rig's sensor sees.
+/// Returns the displacement of the actuator, m, which the rig's sensor sees, if the contact is shifted by `shift` under
+/// `force` (N).
 pub(super) fn sensed(setup: &Setup, shift: f64, force: f64) -> f64 {
     shift + setup.drive.rig_compliance() * force
 }

@@ -1,10 +1,10 @@
-//! Wear or crack? Fatigue parameters of the half-space over one steady cycle.
+//! Wear or crack? Computes fatigue parameters of the half-space over one steady-state cycle.
 //!
-//! A contact in gross slip wears, one in partial slip may crack first. The stresses below the surface
-//! give numbers to compare with fatigue tests; no crack grows here, and no life is predicted.
+//! A contact in gross slip wears; one in partial slip may crack first. The stresses below the surface give numbers to
+//! compare with fatigue tests; this neither grows cracks nor predicts a life.
 //!
 //! # Formulas
-//! Over the moments t of one steady cycle on the present profile, tension positive, with E and ν of the
+//! Over the moments t of one steady-state cycle on the present profile, tension positive, with E and ν of the
 //! half-space:
 //!
 //! - **Smith–Watson–Topper** on the critical plane: the largest σ_n,max ε_n,a over all planes, where
@@ -14,15 +14,15 @@
 //!   uniaxial stress: the limit to compare it with is the fully reversed fatigue limit σ₋₁. K. N. Smith,
 //!   P. Watson, T. H. Topper (1970), J. Mater. 5, 767–778; on planes D. F. Socie (1987), J. Eng. Mater.
 //!   Technol. 109, 293–298; in fretting M. P. Szolwinski, T. N. Farris (1996), Wear 198, 93–107.
-//! - **Crossland**: √J₂,a + α σ_H,max, Pa, with √J₂,a the radius of the smallest ball that holds the path of
+//! - **Crossland**: √J₂,a + α σ_H,max, Pa, with √J₂,a the radius of the smallest ball that contains the path of
 //!   the deviatoric stress S, measured by |S|² = ½ S:S, σ_H = tr σ/3 and α = 3τ₋₁/σ₋₁ − √3; the limit is
-//!   τ₋₁, the fully reversed fatigue limit in torsion. Half the longest chord of the path is up to 18 % less
+//!   τ₋₁, the fully reversed fatigue limit in torsion. Half the longest chord of the path is up to 18 % smaller
 //!   (15 % in a plane). B. Crossland (1956), Proc. Int. Conf. Fatigue of Metals, IMechE, 138–149; the ball
 //!   K. Dang Van, B. Griveau, O. Message (1989), in Biaxial and Multiaxial Fatigue, EGF 3, 479–496; in
 //!   fretting S. Fouvry, P. Kapsa, L. Vincent (1996), Wear 200, 186–205.
 //!
-//! The y axis is a principal direction in the plane of motion y = 0, so a plane is given by the angle of
-//! its normal in the plane of motion and by the share of y in it.
+//! The y axis is a principal direction in the plane of motion y = 0, so a plane is given by the angle of its normal in
+//! the plane of motion and by the share of y in the normal.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -33,21 +33,21 @@ use crate::reading::Curves;
 use crate::reading::subsurface::{Peak, SpringLoad, Stress, peak};
 use crate::simulation::Simulation;
 
-/// Moments of a period at which the stresses are taken, besides those where the motion turns. A sine is
-/// missed by at most 5e-4 of its amplitude between them.
+/// Moments per period at which stresses are computed, besides those where the motion reverses. Between them a sine is
+/// missed by at most 5e-4 of its amplitude.
 const MOMENTS: usize = 100;
 
-/// Planes that the critical one is looked for on: angles, and shares of the y axis.
+/// Planes of the first search for the critical one: angles, and shares of the y axis.
 const ANGLES: usize = 24;
 const SHARES: usize = 4;
 
-/// How often the best plane is looked around from; an angle is then known to about 1e-4.
+/// Number of refinements around the best plane; they determine its angle to about 1e-4.
 const REFINEMENTS: usize = 12;
 
-/// Columns and rows on which the largest value below the contact is looked for first.
+/// Columns and rows of the first search for the largest value below the contact.
 const GRID: [usize; 2] = [31, 9];
 
-/// What the stresses of one place amount to over a cycle.
+/// Fatigue parameters of one place over a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Fatigue {
     /// √(E σ_n,max ε_n,a) on the critical plane, Pa.
@@ -59,7 +59,8 @@ pub struct Fatigue {
 }
 
 impl Fatigue {
-    /// Of the stresses of one place at the moments of a cycle, with ν; all zero without stresses.
+    /// Computes the parameters from the stresses of one place at
+    /// the moments of a cycle, with ν; all zero without stresses.
     pub fn of(stresses: &[Stress], poisson: f64) -> Self {
         let hydrostatic = stresses.iter().map(|stress| -stress.pressure());
         Self {
@@ -69,7 +70,7 @@ impl Fatigue {
         }
     }
 
-    /// Crossland's √J₂,a + α σ_H,max, Pa.
+    /// Returns Crossland's √J₂,a + α σ_H,max, Pa.
     pub fn crossland(&self, limits: Limits) -> f64 {
         self.shear_amplitude + limits.hydrostatic_share() * self.hydrostatic
     }
@@ -78,20 +79,20 @@ impl Fatigue {
 /// Fully reversed fatigue limits of a material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// σ₋₁, of tension or bending, Pa.
+    /// σ₋₁, in tension or bending, Pa.
     pub tension: f64,
-    /// τ₋₁, of torsion, Pa.
+    /// τ₋₁, in torsion, Pa.
     pub shear: f64,
 }
 
 impl Limits {
-    /// Crossland's α = 3τ₋₁/σ₋₁ − √3.
+    /// Returns Crossland's α = 3τ₋₁/σ₋₁ − √3.
     pub fn hydrostatic_share(self) -> f64 {
         3.0 * self.shear / self.tension - 3.0_f64.sqrt()
     }
 }
 
-/// √(E σ_n,max ε_n,a) on the critical plane, Pa.
+/// Returns √(E σ_n,max ε_n,a) on the critical plane, Pa.
 fn swt(stresses: &[Stress], poisson: f64) -> f64 {
     if stresses.iter().all(|stress| stress.max_principal() <= 0.0) {
         return 0.0;
@@ -133,9 +134,9 @@ fn swt(stresses: &[Stress], poisson: f64) -> f64 {
     best.0.sqrt()
 }
 
-/// √J₂,a, Pa: the radius of the smallest ball that holds the path of the deviatoric stress.
+/// Returns √J₂,a, Pa: the radius of the smallest ball that contains the path of the deviatoric stress.
 fn shear_amplitude(stresses: &[Stress]) -> f64 {
-    // With σ_xy = σ_yz = 0 the deviators are a space of three dimensions. In these coordinates |S|² = ½ S:S.
+    // With σ_xy = σ_yz = 0 the deviators form a three-dimensional space. In these coordinates |S|² = ½ S:S.
     let deviator = |s: &Stress| {
         let across = (2.0 * s.yy - s.xx - s.zz) / 12.0_f64.sqrt();
         Vector3::new(0.5 * (s.xx - s.zz), across, s.xz)
@@ -152,7 +153,7 @@ struct Ball {
 }
 
 impl Ball {
-    /// The smallest ball through all of `points`; `None` where they do not span the ball.
+    /// Returns the smallest ball with all of `points` on its surface; `None` if the points are degenerate.
     fn through(points: &[Vector3<f64>]) -> Option<Self> {
         let (first, others) = points.split_first()?;
         let mut ball = Self {
@@ -161,7 +162,7 @@ impl Ball {
         };
         let mut axes: Vec<Vector3<f64>> = Vec::new();
         for point in others {
-            // Away from the points before, the centre keeps equal distances to them.
+            // Moving along this axis keeps the centre at equal distances from the previous points.
             let way = point - first;
             let way = axes
                 .iter()
@@ -185,9 +186,9 @@ impl Ball {
     }
 }
 
-/// The smallest ball that holds `points`, exact to rounding: the ball of up to four of them grows by the farthest one
-/// outside, which then lies on its surface, until none is outside. E. Welzl (1991), Smallest enclosing disks (balls
-/// and ellipsoids), LNCS 555, 359–370.
+/// Returns the smallest ball that contains `points`, exact to rounding. A ball through up to four of them grows to
+/// include the farthest point outside, which then lies on its surface, until all are inside. E. Welzl (1991), Smallest
+/// enclosing disks (balls and ellipsoids), LNCS 555, 359–370.
 fn smallest_ball(points: &[Vector3<f64>]) -> Ball {
     let mut support: Vec<Vector3<f64>> = points.iter().take(1).copied().collect();
     let mut ball = Ball::through(&support).unwrap_or_default();
@@ -212,24 +213,24 @@ fn smallest_ball(points: &[Vector3<f64>]) -> Ball {
             Some((larger, through)) if larger.squared_radius > ball.squared_radius => {
                 (ball, support) = (larger, through);
             }
-            // What is left outside is rounding.
+            // Anything still outside is rounding.
             _ => return ball,
         }
     }
 }
 
-/// The loads on the half-space at the moments of one steady cycle.
+/// The loads on the half-space at the moments of one steady-state cycle.
 #[derive(Debug, Clone)]
 pub struct StressCycle(Vec<Arc<SpringLoad>>);
 
 impl StressCycle {
-    /// From the loads of a cycle, in any order.
+    /// Collects the loads of a cycle, in any order.
     pub fn new(loads: Vec<Arc<SpringLoad>>) -> Self {
         Self(loads)
     }
 
-    /// Steps a copy of `simulation` through two periods of the motion without wear, the first of which
-    /// settles it. `None` without a common period of the two motions, and where the contact cannot be held.
+    /// Steps a copy of `simulation` through two periods of the motion without wear; the first one lets it settle.
+    /// `None` if the two motions have no common period, or if the contact cannot be solved.
     pub fn of(simulation: &Simulation) -> Option<Self> {
         let period = f64::from(simulation.setup().drive.repeats_after()?);
         let poisson = simulation.setup().material.poisson();
@@ -258,7 +259,7 @@ impl StressCycle {
         Some(Self(loads.map(|(_, load)| Arc::new(load)).collect()))
     }
 
-    /// The parameters at (r, z) and at (−r, z), m; z is the depth below the surface.
+    /// Returns the parameters at (r, z) and at (−r, z), m; z is the depth below the surface.
     pub fn mirrored(&self, r: f64, z: f64) -> [Fatigue; 2] {
         let loads = self.0.iter();
         let poisson = loads.clone().next().map_or(0.0, |load| load.poisson());
@@ -267,7 +268,7 @@ impl StressCycle {
         [right, left].map(|stresses| Fatigue::of(&stresses, poisson))
     }
 
-    /// Where in the plane of motion a parameter is largest, below the widest contact of the cycle.
+    /// Finds where in the plane of motion a parameter is largest, below the widest contact of the cycle.
     pub fn largest(&self, of: impl Fn(&Fatigue) -> f64) -> Peak {
         let radii = self.0.iter().map(|load| load.contact_radius());
         let radius = radii.fold(0.0, f64::max);

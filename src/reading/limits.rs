@@ -1,29 +1,33 @@
-//! Warnings, given before the run, about scenarios outside the theory.
+//! Warns, before the run, about scenarios outside the theory.
 
 use super::Log;
 use crate::math::invalid::Invalid;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Integrator, Setup, Simulation, Spacing, Unworn, border};
 
-/// Slopes and a/R above this one are no half-space any more.
+/// Larger slopes and a/R no longer act as a half-space.
 const STEEP: f64 = 0.3;
 
-/// Pressures above this one, in units of E*, strain the bodies by more than small strains.
+/// Larger pressures, in units of E*, cause more than small strains.
 const STRONG: f64 = 0.1;
 
-/// Fewer steps than this lose percents of the wear by a power of the slip rate that is not 1, where slip begins
-/// within a step.
+/// With fewer steps, wear by a power n ≠ 1 of the slip rate loses percents where slip begins within a step.
 const STEPS_FOR_POWERS: u32 = 50;
 
-/// Strokes beyond this part of the half-width of a line contact are not small.
+/// Longer strokes, relative to the half-width of a line contact, are not small.
 const LONG_STROKE: f64 = 0.1;
+
+/// The usual a/R is greater than this, and the usual stroke of a fretting contact, in units of its radius, lies between
+/// these: beyond them, a length is most often in another unit.
+const SHALLOW: f64 = 5e-4;
+const STROKES: [f64; 2] = [3e-5, 1.5];
 
 /// By how much of the depth g may fall and still counts as level: noise of a scar.
 const LEVEL: f64 = 0.02;
 
 impl Simulation {
-    /// A line for each way in which the scene lies outside the theory, or beyond what any grid
-    /// sees; the notes of the run say what it has passed.
+    /// Returns one line for each way in which the scene lies outside the theory, or beyond the resolution of any grid.
+    /// The log of the run tells which limits it has passed.
     pub fn warnings(&self, log: &Log) -> Vec<String> {
         let mut lines = warnings(self.setup());
         lines.extend(self.hardness_warning(log));
@@ -31,7 +35,7 @@ impl Simulation {
         lines
     }
 
-    /// Why cycles that should be jumped are all stepped directly; `None` if they are jumped.
+    /// Explains why cycles that should be jumped are all stepped; `None` if they are jumped.
     pub fn why_never_jumped(&self) -> Option<&'static str> {
         let Setup {
             drive,
@@ -49,7 +53,7 @@ impl Simulation {
         }
     }
 
-    /// A scar may leave a profile that touches in a ring, which the springs do not stand for.
+    /// Warns if a scar leaves a profile that touches in a ring, which the springs cannot represent.
     fn ring_of_contact(&self) -> Option<String> {
         self.setup().scar.as_ref()?;
         let g = self.profile_1d();
@@ -69,8 +73,7 @@ impl Simulation {
         })
     }
 
-    /// What there is to say of the hardness: that the pressure has passed it, or, before the first step, that it
-    /// will when the contact is deepest.
+    /// Warns that the pressure has passed the hardness, or, before the first step, that it will at the deepest contact.
     fn hardness_warning(&self, log: &Log) -> Option<String> {
         let hardness = self.setup().hardness?;
         let (pressure, radius, when) = match log.passed_hardness() {
@@ -113,7 +116,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
         ));
     }
     let pressure = unworn.mean_pressure(depth) / setup.material.normal_modulus();
-    // The largest pressure of a sphere is 3/2 of the mean; tips and rims bear more, in theory without bound.
+    // The largest pressure of a sphere is 3/2 of the mean; tips and rims have more, in theory without bound.
     if 1.5 * pressure > STRONG {
         lines.push(format!(
             "outside the theory: the pressure reaches {:.2} E*; linear elasticity needs less than \
@@ -121,6 +124,13 @@ fn warnings(setup: &Setup) -> Vec<String> {
             1.5 * pressure
         ));
     }
+    if slope > 0.0 && slope < SHALLOW {
+        lines.push(format!(
+            "outside the theory, or a length in another unit than m: the slope at the contact's edge is {slope:.1e}, where \
+             contacts have {SHALLOW:.0e} or more"
+        ));
+    }
+    lines.extend(unusual_stroke(setup, radius));
     lines.extend(slip_instability(setup, 1.5 * pressure));
     lines.extend(gross_slip_under_force(setup, unworn));
     lines.extend(long_stroke(setup, unworn, radius));
@@ -141,7 +151,7 @@ fn warnings(setup: &Setup) -> Vec<String> {
     lines
 }
 
-/// The slope of the unworn profile at the contact's edge.
+/// Returns the slope of the unworn profile at the contact's edge.
 fn slope(setup: &Setup, radius: f64) -> f64 {
     if setup.indenter.rim().is_some() || radius <= 0.0 {
         return 0.0;
@@ -149,6 +159,19 @@ fn slope(setup: &Setup, radius: f64) -> f64 {
     let inside = radius * (1.0 - 1e-6);
     let rise = setup.indenter.profile(radius) - setup.indenter.profile(inside);
     rise / (radius - inside)
+}
+
+/// An amplitude that no fretting contact of this `radius`, m, has.
+fn unusual_stroke(setup: &Setup, radius: f64) -> Option<String> {
+    let amplitude = setup.drive.tangential()?.displacement()?.amplitude();
+    let share = amplitude / radius;
+    let [least, most] = STROKES;
+    (amplitude > 0.0 && radius > 0.0 && !(least..=most).contains(&share)).then(|| {
+        format!(
+            "outside the theory, or a length in another unit than m: the amplitude is {share:.1e} of the contact's radius, \
+             where fretting has {least:.0e} to {most}"
+        )
+    })
 }
 
 /// Wear that lets springs slip on by more than they slipped, at a `pressure` in units of E*. Beyond that, a quasi-static
@@ -167,7 +190,7 @@ fn slip_instability(setup: &Setup, pressure: f64) -> Option<String> {
     })
 }
 
-/// A prescribed tangential force that friction cannot hold has no quasi-static motion.
+/// Warns if friction cannot hold a prescribed tangential force: there is no quasi-static motion then.
 fn gross_slip_under_force(setup: &Setup, unworn: Unworn<'_>) -> Option<String> {
     let Some(Control::Force(tangential)) = setup.drive.tangential() else {
         return None;
@@ -186,8 +209,8 @@ fn gross_slip_under_force(setup: &Setup, unworn: Unworn<'_>) -> Option<String> {
     })
 }
 
-/// A line that slides as a whole further than a part of its half-width (m) wears the other body where it is not in contact
-/// all the time: the theory knows only the sum of both, at one place.
+/// Warns if a line contact slides further than a part of its half-width (m). It then wears the other body where that is
+/// not always in contact, and the theory knows only the sum of both worn depths, at one place.
 fn long_stroke(setup: &Setup, unworn: Unworn<'_>, half_width: f64) -> Option<String> {
     let swing = setup.drive.tangential()?.displacement()?;
     let elastic = setup
@@ -203,7 +226,7 @@ fn long_stroke(setup: &Setup, unworn: Unworn<'_>, half_width: f64) -> Option<Str
     })
 }
 
-/// The same contact, held at the deepest point of its motion, on the same nodes.
+/// Returns the same contact, held at the deepest point of its motion, on the same nodes.
 fn at_deepest(setup: &Setup) -> Result<Setup, Invalid> {
     let normal = setup.drive.normal();
     let held = Oscillation::new(normal.oscillation().highest(), 0.0, 1.0, 0.0)?;

@@ -1,4 +1,4 @@
-//! What is noted of a run as it goes on, and no step needs: whoever drives a simulation lets a [`Log`] follow it.
+//! Notes on a run that no step needs: a [`Log`] follows a simulation while someone drives it.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,20 +8,20 @@ use crate::simulation::{Breakdown, Simulation};
 /// The notes of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Log {
-    /// The present period of the motion so far.
+    /// The current period of the motion so far.
     tally: LoopTally,
-    /// What the last complete period was like; none before there is one, or where it was jumped over.
+    /// Figures of the last complete period; `None` before the first, or if it was jumped over.
     figures: Option<CycleFigures>,
     balance: PeriodBalance,
     passed_hardness: Option<Passed>,
 }
 
-/// V = k E_d over one period of the motion.
+/// Compares V with k E_d over one period of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct PeriodBalance {
-    /// Worn volume and ∫k dE_d where the period began, m³.
+    /// Worn volume and ∫k dE_d at the start of the period, m³.
     start: [f64; 2],
-    /// 1 − ΔV/∫k dE_d of the last complete period; none before there is one, or if nothing wore.
+    /// 1 − ΔV/∫k dE_d of the last complete period; `None` before the first, or if nothing wore.
     residual: Option<f64>,
 }
 
@@ -32,26 +32,26 @@ pub struct Passed {
     pub cycle: f64,
     /// r, m.
     pub radius: f64,
-    /// The largest p there and then, Pa.
+    /// The largest p at that moment, Pa.
     pub pressure: f64,
 }
 
 impl Log {
-    /// Begins with a simulation that has not stepped yet.
+    /// Begins a log of a simulation that has not stepped yet.
     pub fn of(simulation: &Simulation) -> Self {
         let mut log = Self::default();
         log.begin_anew(simulation);
         log
     }
 
-    /// Forgets the figures and begins a period: after a change of the parts, or a jump over cycles.
+    /// Forgets the figures and begins a new period, after a change of the parts or a jump over cycles.
     pub fn begin_anew(&mut self, simulation: &Simulation) {
         self.figures = None;
         self.tally = LoopTally::begin(simulation);
         self.watch_hardness(simulation);
     }
 
-    /// Notes the step or the jump that the simulation has just made, if it has made one.
+    /// Notes the last step or jump of the simulation, if there was one.
     pub fn follow(&mut self, simulation: &Simulation) {
         let (before, cycle) = (self.tally.cycle(), simulation.cycle());
         if cycle == before {
@@ -63,7 +63,7 @@ impl Log {
         }
         self.tally.add(simulation);
         let period = period(simulation);
-        // A period is a whole number of cycles.
+        // Periods are whole numbers of cycles.
         if cycle.floor() > before.floor() && (cycle / period).floor() > (before / period).floor() {
             self.figures = self.tally.close(simulation, period);
             self.tally = LoopTally::begin(simulation);
@@ -76,7 +76,7 @@ impl Log {
     ///
     /// # Errors
     ///
-    /// What stops the simulation.
+    /// If the simulation stops.
     pub fn advance(&mut self, simulation: &mut Simulation, cycle: f64) -> Result<(), Breakdown> {
         while simulation.cycle() < cycle {
             simulation.step_until(cycle)?;
@@ -85,9 +85,9 @@ impl Log {
         Ok(())
     }
 
-    /// The figures of the last complete period of the motion. After a jump over cycles, those of the period finely
-    /// stepped on the present profile. None before the first period has ended, within the period of a change, and without tangential
-    /// motion.
+    /// Returns the figures of the last complete period of the motion; after a jump over cycles, of a period finely
+    /// stepped on the present profile. `None` before the end of the first period, within the period of a change, and
+    /// without tangential motion.
     pub fn cycle_figures(&self, simulation: &Simulation) -> Option<CycleFigures> {
         if self.figures.is_some() || !simulation.has_jumped() {
             return self.figures;
@@ -96,23 +96,24 @@ impl Log {
         Some(CycleFigures::of(&period, simulation.setup()))
     }
 
-    /// The figures of the last complete period if it was stepped through.
+    /// Returns the figures of the last complete period if it was stepped.
     pub(super) fn stepped_figures(&self) -> Option<&CycleFigures> {
         self.figures.as_ref()
     }
 
-    /// 1 − ΔV/∫k dE_d over the last complete period of the motion.
+    /// Returns 1 − ΔV/∫k dE_d over the last complete period of the motion.
     pub fn period_residual(&self) -> Option<f64> {
         self.balance.residual
     }
 
-    /// Where and when the pressure first passed the hardness; none if it never has, or none is given.
+    /// Returns where and when the pressure first passed the
+    /// hardness; `None` if it never did, or if no hardness is given.
     pub fn passed_hardness(&self) -> Option<Passed> {
         self.passed_hardness
     }
 
-    /// Notes the first moment at which p lies above the hardness: an elastic calculation continues where a metal would
-    /// yield. Without a hardness nothing is computed.
+    /// Notes the first moment at which p exceeds the hardness: an elastic calculation continues where a metal would
+    /// yield. Computes nothing without a hardness.
     fn watch_hardness(&mut self, simulation: &Simulation) {
         if let Some(hardness) = simulation.setup().hardness
             && self.passed_hardness.is_none()
@@ -140,7 +141,7 @@ impl PeriodBalance {
 }
 
 impl Simulation {
-    /// Where the largest pressure acts, m, and how large it is, Pa.
+    /// Returns the radius of the largest pressure, m, and its value, Pa.
     pub(super) fn highest_pressure(&self) -> (f64, f64) {
         let pressure = self.pressure();
         let points = self.setup().grid.nodes().iter().copied().zip(pressure);
@@ -153,7 +154,7 @@ impl Simulation {
     }
 }
 
-/// The period of the motion, in cycles.
+/// Returns the period of the motion, in cycles.
 fn period(simulation: &Simulation) -> f64 {
     f64::from(simulation.setup().drive.cycles_to_settle())
 }

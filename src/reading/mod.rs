@@ -1,6 +1,7 @@
-//! What only reads a simulation: quantities that no step needs, computed where somebody asks for them.
+//! Read-only views of a simulation: quantities that no step needs, computed on demand.
 
 mod checks;
+pub mod column;
 mod cycle_figures;
 pub mod fatigue;
 mod limits;
@@ -9,9 +10,12 @@ pub mod observation;
 mod quantity;
 mod scar_end;
 pub mod subsurface;
+mod table;
 
 pub use checks::{Check, Subject, verdict};
+pub use column::Column;
 pub use cycle_figures::{CycleFigures, Regime};
 pub use log::{Log, Passed};
 pub use observation::{Curves, Moment, Observation, Zone};
 pub use quantity::Quantity;
+pub use table::Table;

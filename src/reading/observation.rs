@@ -1,4 +1,4 @@
-//! Owned, read-only snapshots of one moment: all that files and screens see of a simulation.
+//! Owned, read-only snapshots of one moment: everything that files and screens see of a simulation.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use serde::Serialize;
 use strum::IntoStaticStr;
 
 use super::cycle_figures::sensed;
-use super::scar_end;
 use super::subsurface::SpringLoad;
+use super::{Column, Table, scar_end};
 use crate::contact::tangential::SpringState;
 use crate::math::abel::AbelMethod;
 use crate::math::abel::dome::Dome;
@@ -18,7 +18,7 @@ use crate::math::grid::RadialGrid;
 use crate::simulation::{Simulation, stability, traction};
 
 bitflags! {
-    /// Which curves a reader shows. What nobody shows is not computed.
+    /// The curves that a reader shows. Others are not computed.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct Curves: u8 {
         /// f.
@@ -33,14 +33,14 @@ bitflags! {
         const SHEAR = 1 << 4;
         /// u_x(r) of the surface: one transform.
         const SURFACE = 1 << 5;
-        /// Stick, slip or open, node by node.
+        /// Stick, slip or open at each node.
         const ZONES = 1 << 6;
         /// u_z(r) of the surface: one transform.
         const DEPRESSION = 1 << 7;
     }
 }
 
-/// What a node does at the moment.
+/// The state of a node at the moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Zone {
@@ -53,7 +53,7 @@ pub enum Zone {
 }
 
 impl Zone {
-    /// The name in files.
+    /// Returns the name used in files.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -70,8 +70,8 @@ pub struct Moment {
     pub depth: f64,
     /// u_x⁽⁰⁾, m.
     pub shift: f64,
-    /// The displacement of the rig's actuator, m, which its sensor sees: that of the indenter and of
-    /// the rig; `None` if the rig is stiff.
+    /// Displacement of the rig's actuator, m, which its sensor sees: the indenter's plus the rig's own; `None` if the
+    /// rig is stiff.
     pub rig_displacement: Option<f64>,
     /// F_z, N.
     pub normal_force: f64,
@@ -79,26 +79,26 @@ pub struct Moment {
     pub tangential_force: f64,
     /// a, m.
     pub contact_radius: f64,
-    /// c of this moment, m; none without tangential motion.
+    /// c at this moment, m; `None` without tangential motion.
     pub stick_radius: Option<f64>,
     /// The smallest c of the last period of the motion, m.
     pub permanent_stick_radius: Option<f64>,
-    /// V of the profile, m³, that of a scar which the run began with included.
+    /// V of the profile, m³, including a scar that the run began with.
     pub wear_volume: f64,
     /// V of that scar, m³; 0 without one.
     pub initial_volume: f64,
     /// E_d, J.
     pub dissipated_energy: f64,
-    /// 1 − V/∫k dE_d: how far the 3D side and the 1D side disagree. None before anything has worn
-    /// and under laws that do not follow energy.
+    /// 1 − V/∫k dE_d: the disagreement of the 3D side and the 1D side. `None` before anything has worn and under laws
+    /// that do not follow energy.
     pub energy_residual: Option<f64>,
-    /// The largest stiffness that the method tolerates, relative to that of the last step or of its stiffest
-    /// sub-step: below 1 a sawtooth grows. `None` if nothing has worn in the step, and after a jump.
+    /// The largest stiffness that the method tolerates, relative to the stiffness of the last step or its stiffest
+    /// sub-step: below 1 a sawtooth grows. `None` if nothing wore in the step, and after a jump.
     pub stability_margin: Option<f64>,
 }
 
 impl Moment {
-    /// What the surface does at a radius (m).
+    /// Returns the state of the surface at a radius (m).
     pub fn zone_at(&self, r: f64) -> Zone {
         match self.stick_radius {
             _ if r >= self.contact_radius => Zone::Open,
@@ -107,88 +107,94 @@ impl Moment {
         }
     }
 
-    /// V/E_d of the run, m³/J = 1/Pa: what the wear coefficient of the whole test amounts to. None before
-    /// any work of friction.
+    /// Returns V/E_d of the run, m³/J = 1/Pa: the effective wear coefficient of the whole test. `None` before any
+    /// friction work.
     pub fn wear_per_energy(&self) -> Option<f64> {
         let worn = self.wear_volume - self.initial_volume;
         (self.dissipated_energy > 0.0).then(|| worn / self.dissipated_energy)
     }
 }
 
-/// The scalars and the curves that were asked for; a curve that was not is empty.
+/// The scalars and the requested curves; the other curves are empty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observation {
     /// The scalars.
     pub moment: Moment,
-    /// Round, or a line.
+    /// Geometry of the contact.
     pub geometry: Geometry,
     /// The transform method.
     pub method: AbelMethod,
-    /// The wear law's name; none without wear.
+    /// Name of the wear law; `None` without wear.
     pub law: Option<&'static str>,
-    /// Nodes r = x, and where the permanent stick zone ends among them.
+    /// Nodes r = x, with the border of the permanent stick zone among them.
     pub grid: RadialGrid,
-    /// Nodes r = x, m.
-    pub radii: Arc<[f64]>,
-    /// f₀, m.
-    pub unworn: Arc<[f64]>,
-    /// f, m.
-    pub profile: Vec<f64>,
-    /// f − f₀, m.
-    pub wear: Vec<f64>,
-    /// g, m.
-    pub profile_1d: Vec<f64>,
-    /// q_z, N/m.
-    pub normal_load: Vec<f64>,
-    /// q_x, N/m.
-    pub tangential_load: Vec<f64>,
-    /// How both loads fall to zero at the end of a scar.
+    /// The curves, in the order of `state.csv`.
+    pub columns: Arc<Table>,
+    /// How each load falls to zero at the end of a scar, if it does.
     pub domes: [Option<Dome>; 2],
-    /// u_x of the springs, m.
-    pub spring: Vec<f64>,
-    /// p, Pa.
-    pub pressure: Vec<f64>,
-    /// τ, Pa.
-    pub shear: Vec<f64>,
-    /// u_x(r) of the surface, m.
-    pub surface: Vec<f64>,
     /// u_z(r) of the surface, m, downwards: d − f in contact, Eq. (2) of the springs outside.
     pub depression: Vec<f64>,
     /// Stick, slip or open.
     pub zones: Vec<Zone>,
 }
 
+/// Makes a reader of each curve; one that was not asked for is empty.
+macro_rules! curves {
+    ($($doc:literal $name:ident $column:ident;)*) => {
+        impl Observation {
+            $(#[doc = $doc]
+            pub fn $name(&self) -> &[f64] {
+                self.columns.column(Column::$column).unwrap_or_default()
+            })*
+        }
+    };
+}
+
+curves! {
+    "Nodes r = x, m." radii Radius;
+    "f₀, m." unworn Unworn;
+    "f, m." profile Profile;
+    "f − f₀, m." wear Wear;
+    "g, m." profile_1d Profile1d;
+    "q_z, N/m." normal_load NormalLoad;
+    "q_x, N/m." tangential_load TangentialLoad;
+    "u_x of the springs, m." spring SpringShift;
+    "p, Pa." pressure Pressure;
+    "τ, Pa." shear Shear;
+    "u_x(r) of the surface, m." surface Shift;
+}
+
 impl Observation {
-    /// The worn depth f − f₀ at the radius `r`, m, as the transforms take it between nodes; needs
+    /// Returns the worn depth f − f₀ at the radius `r`, m, with the interpolation of the transforms; needs
     /// [`Curves::PROFILE`].
     pub fn worn_depth_at(&self, r: f64) -> f64 {
-        // Between nodes the interpolant may swing below zero by a little.
-        worn::interpolate(&self.grid, &self.wear, r).max(0.0)
+        // Between nodes the interpolant may dip slightly below zero.
+        worn::interpolate(&self.grid, self.wear(), r).max(0.0)
     }
 
-    /// The springs' load on a half-space of Poisson's ratio `poisson`, which its stresses follow from;
-    /// needs [`Curves::SPRINGS`], without which nothing is loaded.
+    /// Returns the springs' load on a half-space of Poisson's ratio `poisson`, from which its stresses follow; needs
+    /// [`Curves::SPRINGS`], otherwise the load is zero.
     pub fn spring_load(&self, poisson: f64) -> SpringLoad {
         let [of_normal, of_tangential] = self.domes;
-        let normal = (&self.normal_load[..], of_normal);
-        let tangential = (&self.tangential_load[..], of_tangential);
-        let [nodes, normal, tangential] = scar_end::divided(&self.radii, [normal, tangential]);
+        let normal = (self.normal_load(), of_normal);
+        let tangential = (self.tangential_load(), of_tangential);
+        let [nodes, normal, tangential] = scar_end::divided(self.radii(), [normal, tangential]);
         let radius = self.moment.contact_radius;
         SpringLoad::new(&nodes, &normal, &tangential, radius, poisson).of(self.geometry)
     }
 }
 
 impl Observation {
-    /// The worn depths of the indenter and of the half-space at the node `j`, m, where the indenter takes `share`
+    /// Returns the worn depths of the indenter and of the half-space at the node `j`, m, if the indenter takes `share`
     /// of the wear. Their sum is the worn depth.
     pub fn wear_of_bodies(&self, share: f64, j: usize) -> [f64; 2] {
-        let indenter = share * self.wear[j];
-        [indenter, self.wear[j] - indenter]
+        let indenter = share * self.wear()[j];
+        [indenter, self.wear()[j] - indenter]
     }
 }
 
 impl Simulation {
-    /// The scalars of the present moment.
+    /// Returns the scalars of the present moment.
     pub fn moment(&self) -> Moment {
         let (state, contact) = (self.state(), &self.state().contact);
         let wear_volume = self.wear_volume();
@@ -219,9 +225,9 @@ impl Simulation {
         }
     }
 
-    /// 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs
-    /// of the 1D side. None without load. Between nodes p is linear in r², and falls like a root towards the edge, but
-    /// for that of a dome, which is even.
+    /// Returns 1 − ∫p dA/F_z with the `pressure` p (Pa) of the present moment: the 3D side against the springs of the
+    /// 1D side. `None` without load. p is linear in r² between nodes and falls like a root towards the edge, except for
+    /// a dome's pressure, which is uniform.
     pub fn force_residual(&self, pressure: &[f64]) -> Option<f64> {
         let contact = &self.state().contact.normal;
         let force = self.state().contact.normal_force(self.model());
@@ -245,24 +251,17 @@ impl Simulation {
         Some(1.0 - (inside + edge) / force)
     }
 
-    /// The present moment with the curves of `curves`.
+    /// Observes the present moment with the requested `curves`.
     pub fn observe(&self, curves: Curves) -> Observation {
         let (model, contact) = (self.model(), &self.state().contact);
         let nodes = model.nodes();
         let with_springs = model.springs() > 0;
-        // Springs that the scene does not have carry nothing.
+        // If the scene has no springs, they carry nothing.
         let or_zero = |values: &[f64]| {
             if with_springs {
                 values.to_vec()
             } else {
                 vec![0.0; nodes]
-            }
-        };
-        let when = |curve: Curves, make: &dyn Fn() -> Vec<f64>| {
-            if curves.intersects(curve) {
-                make()
-            } else {
-                Vec::new()
             }
         };
         let modulus = self.setup().material.tangential_modulus();
@@ -271,62 +270,83 @@ impl Simulation {
             let unworn = model.unworn.iter();
             unworn.zip(&self.state().wear).map(|(f, w)| f + w).collect()
         };
+        let moment = self.moment();
+        let mut columns = vec![
+            (Column::Radius, model.grid.nodes().to_vec()),
+            (Column::Unworn, model.unworn.to_vec()),
+        ];
+        let mut add = |asked: Curves, column: Column, make: &dyn Fn() -> Vec<f64>| {
+            if curves.intersects(asked) {
+                columns.push((column, make()));
+            }
+        };
+        add(Curves::PROFILE, Column::Profile, &worn);
+        add(Curves::PROFILE_1D, Column::Profile1d, &|| self.profile_1d());
+        // d − g in contact, 0 elsewhere.
+        add(Curves::PROFILE_1D, Column::Compression, &|| {
+            let pressed = |g: &f64| (moment.depth - g).max(0.0);
+            self.profile_1d().iter().map(pressed).collect()
+        });
+        add(Curves::SPRINGS, Column::NormalLoad, &|| {
+            contact.load.nodal.clone()
+        });
+        add(Curves::SPRINGS, Column::TangentialLoad, &|| {
+            let springs = or_zero(&contact.spring.nodal);
+            springs.iter().map(|u| modulus * u).collect()
+        });
+        add(Curves::PRESSURE, Column::Pressure, &|| self.pressure());
+        add(Curves::SHEAR, Column::Shear, &|| {
+            let mut out = vec![0.0; nodes];
+            if with_springs {
+                traction::shear_to_read(model, contact, &mut out);
+            }
+            out
+        });
+        add(Curves::SPRINGS, Column::SpringShift, &|| {
+            or_zero(&contact.spring.nodal)
+        });
+        add(Curves::SURFACE, Column::Shift, &|| {
+            let mut out = vec![0.0; nodes];
+            if with_springs {
+                contact.surface_displacement(model, &mut out);
+            }
+            out
+        });
+        add(Curves::PROFILE, Column::Wear, &|| self.state().wear.clone());
+        let depression = || {
+            let mut out = vec![0.0; nodes];
+            contact.depression(model, &mut out);
+            let (depth, inside, worn) = (contact.depth, contact.normal.nodes, worn());
+            // In a line contact the surface is measured from its centre.
+            let centre = if self.setup().geometry.is_line() {
+                worn[0]
+            } else {
+                0.0
+            };
+            for (out, f) in out.iter_mut().zip(worn).take(inside) {
+                *out = depth - (f - centre);
+            }
+            out
+        };
+        let asks = |curve| curves.contains(curve);
+        let header = vec![(Column::Cycle.name().to_owned(), moment.cycle.to_string())];
         Observation {
-            moment: self.moment(),
+            moment,
             geometry: self.setup().geometry,
             method: self.setup().method,
             law: self.setup().wear.map(|law| law.name()),
             grid: self.setup().grid.clone(),
-            radii: self.setup().grid.nodes().into(),
-            unworn: Arc::clone(&model.unworn),
-            profile: when(Curves::PROFILE, &worn),
-            wear: when(Curves::PROFILE, &|| self.state().wear.clone()),
-            profile_1d: when(Curves::PROFILE_1D, &|| self.profile_1d()),
-            normal_load: when(Curves::SPRINGS, &|| contact.load.nodal.clone()),
-            tangential_load: when(Curves::SPRINGS, &|| {
-                let springs = or_zero(&contact.spring.nodal);
-                springs.iter().map(|u| modulus * u).collect()
-            }),
+            columns: Arc::new(Table::of_columns(header, columns)),
             domes: [
                 contact.load.dome.filter(|_| with_loads),
                 contact.spring.dome.map(|dome| dome.scaled(modulus)),
             ],
-            spring: when(Curves::SPRINGS, &|| or_zero(&contact.spring.nodal)),
-            pressure: when(Curves::PRESSURE, &|| self.pressure()),
-            shear: when(Curves::SHEAR, &|| {
-                let mut out = vec![0.0; nodes];
-                if with_springs {
-                    traction::shear_to_read(model, contact, &mut out);
-                }
-                out
-            }),
-            surface: when(Curves::SURFACE, &|| {
-                let mut out = vec![0.0; nodes];
-                if with_springs {
-                    contact.surface_displacement(model, &mut out);
-                }
-                out
-            }),
-            depression: when(Curves::DEPRESSION, &|| {
-                let mut out = vec![0.0; nodes];
-                contact.depression(model, &mut out);
-                let (depth, inside, worn) = (contact.depth, contact.normal.nodes, worn());
-                // The surface of a line contact is told against its centre.
-                let centre = if self.setup().geometry.is_line() {
-                    worn[0]
-                } else {
-                    0.0
-                };
-                for (out, f) in out.iter_mut().zip(worn).take(inside) {
-                    *out = depth - (f - centre);
-                }
-                out
-            }),
-            zones: if curves.contains(Curves::ZONES) {
-                self.zones()
-            } else {
-                Vec::new()
-            },
+            depression: asks(Curves::DEPRESSION)
+                .then(depression)
+                .unwrap_or_default(),
+            zones: asks(Curves::ZONES)
+                .then(|| self.zones())
+                .unwrap_or_default(),
         }
     }
 

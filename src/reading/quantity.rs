@@ -1,6 +1,8 @@
-//! The numbers of a run whose errors are stated: one list for headers, columns, screens, the guide and the judge.
+//! The numbers of a run with stated errors: one list for headers, columns, screens, the guide and the judge.
 
 use strum::{EnumCount, VariantArray};
+
+use super::Column;
 
 /// A number that a run gives away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, EnumCount, VariantArray)]
@@ -21,15 +23,15 @@ pub enum Quantity {
     Pressure,
     /// a.
     ContactRadius,
-    /// c, that of the moment and the permanent one.
+    /// c, at the moment and permanent.
     StickRadius,
 }
 
 impl Quantity {
-    /// All of them, in the order of headers.
+    /// All quantities, in the order of headers.
     pub const ALL: &'static [Self] = Self::VARIANTS;
 
-    /// The name on screens and in messages, as after "error of".
+    /// Returns the name on screens and in messages, as after "error of".
     pub const fn name(self) -> &'static str {
         match self {
             Self::WornDepth => "the worn depth, rms",
@@ -44,49 +46,17 @@ impl Quantity {
         }
     }
 
-    /// The key in the headers of files, and the name of the column in studies.
-    pub const fn column(self) -> &'static str {
-        match self {
-            Self::WornDepth => "estimated_error",
-            Self::Deepest => "estimated_error_deepest",
-            Self::Volume => "estimated_error_volume",
-            Self::Energy => "estimated_error_energy",
-            Self::Force => "estimated_error_force",
-            Self::Loop => "estimated_error_loop",
-            Self::Pressure => "estimated_error_pressure",
-            Self::ContactRadius => "estimated_error_contact_radius",
-            Self::StickRadius => "estimated_error_stick_radius",
-        }
+    /// Its estimated error: the key in the headers of files, and the column of studies.
+    pub const fn column(self) -> Column {
+        Column::ERRORS[self as usize]
     }
 
-    /// What its error is, and relative to what, in one line.
-    pub const fn meaning(self) -> &'static str {
-        match self {
-            Self::WornDepth => {
-                "error of the new wear, rms over the scar, relative to its largest depth"
-            }
-            Self::Deepest => "error of the largest new wear, relative to it",
-            Self::Volume => "error of the new worn volume, relative to it",
-            Self::Energy => {
-                "error of the friction work, relative to it or to 0.001 of 4 mu F_z U per cycle"
-            }
-            Self::Force => "largest error of F_x over the last period, relative to mu F_z",
-            Self::Loop => "error of the last loop's area, relative to it or to 0.001 of 4 mu F_z U",
-            Self::Pressure => {
-                "largest error of p farther than 0.05 a from the axis, the stick border and the contact's edge, \
-                 relative to the largest p there"
-            }
-            Self::ContactRadius => "error of a, relative to it",
-            Self::StickRadius => "larger error of c, of the moment and permanent, relative to a",
-        }
-    }
-
-    /// Whether it is about wear, and means nothing where nothing has worn.
+    /// Whether it concerns wear, so that it means nothing before anything has worn.
     pub const fn is_of_wear(self) -> bool {
         matches!(self, Self::WornDepth | Self::Deepest | Self::Volume)
     }
 
-    /// Whether `numerics.accuracy` holds it; the errors of the others are told only.
+    /// Whether `numerics.accuracy` guarantees it; the other errors are only reported.
     pub const fn is_promised(self) -> bool {
         match self {
             Self::WornDepth | Self::Volume | Self::Energy | Self::Force => true,
@@ -103,7 +73,7 @@ impl Quantity {
 mod tests {
     use super::*;
 
-    /// The chapter on accuracy has a row for each, in the same words.
+    /// The chapter on accuracy has one row per quantity, in the same words.
     #[test]
     fn the_guide_lists_every_number() {
         let guide = include_str!("../guide/accuracy.md");
@@ -111,8 +81,8 @@ mod tests {
             let promised = if quantity.is_promised() { "yes" } else { "no" };
             let row = format!(
                 "| `{}` | {} | {promised} |",
-                quantity.column(),
-                quantity.meaning()
+                quantity.column().name(),
+                quantity.column().meaning()
             );
             assert!(guide.contains(&row), "the guide lacks: {row}");
         }

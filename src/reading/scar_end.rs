@@ -1,18 +1,18 @@
-//! Loads that end as a [dome](crate::math::abel::dome), in more points: the stresses below the surface are sums over
-//! springs between which the loads are linear in x².
+//! Refines loads that end as a [dome](crate::math::abel::dome): the stresses below the surface are sums over springs
+//! between which the loads must be linear in x².
 
 use crate::math::abel::dome::Dome;
 
-/// The last cells of a dome that are divided.
+/// Number of cells at the end of a dome that are divided.
 const CELLS: usize = 4;
 
-/// The points of each of these cells on average: even steps of the root.
+/// Average number of points per divided cell, at equal steps of the root.
 const POINTS: usize = 12;
 
 /// A load, N/m at the nodes, and its dome.
 pub(super) type Load<'a> = (&'a [f64], Option<Dome>);
 
-/// Nodes (m, from 0 up) and two loads on them, with more nodes where the first of the loads ends as a dome.
+/// Returns nodes (m, from 0 up) and two loads on them, with extra nodes if the first load ends as a dome.
 pub(super) fn divided(nodes: &[f64], loads: [Load<'_>; 2]) -> [Vec<f64>; 3] {
     let Some(end) = loads[0].1 else {
         return [nodes, loads[0].0, loads[1].0].map(<[f64]>::to_vec);
@@ -54,8 +54,8 @@ mod tests {
     use super::*;
     use crate::reading::subsurface::SpringLoad;
 
-    /// Below an even pressure p over a circle the stress on the axis is σ_z = −p [1 − z³/(a² + z²)^{3/2}]; at the surface
-    /// it is p up to the edge.
+    /// Below a uniform pressure p on a circle the stress on the axis is σ_z = −p [1 − z³/(a² + z²)^{3/2}]; at the
+    /// surface it is p up to the edge.
     #[test]
     fn an_even_pressure_is_even_up_to_the_edge() {
         let nodes: Vec<f64> = (0..=20).map(|j| f64::from(j) / 16.2).collect();

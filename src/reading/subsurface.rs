@@ -19,12 +19,11 @@
 //!   F_zzz = 2 Im A, F_xxzz = 2 Im(ζA³ − AB); 2πσ_xx = 2(1 + ν)F_xzz + 2νF_xxx − zF_xxxz,
 //!   2πσ_yy = −2νF_xxx − zF_xyyz, 2πσ_zz = −zF_xzzz, 2πσ_xz = F_zzz − zF_xxzz.
 //!
-//! Deviation from the sum over springs of the paper: q is taken as linear in x² between two springs,
-//! which is exact for a paraboloid, and the punches of a cell are integrated in closed form: with
-//! x dx = −(ζ − z) dζ each product f gives −2 Im(∫ζf dζ − z∫f dζ), and all primitives are in the same
-//! letters: ∫A = L, ∫AB = −B, ∫B = ½(ζB + L), ∫ζA³ = −A, ∫A³ = −AB, ∫B² = ⅓(ζB² − 2B), ∫AB² = −½B²;
-//! ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB, ∫ζB² = ¼(ζ²B² + L − ζB),
-//! ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, on coarse grids too.
+//! Deviation from the sum over springs of the paper: q is linear in x² between two springs, which is exact for a
+//! paraboloid, and the punches of a cell are integrated in closed form. With x dx = −(ζ − z) dζ each product f gives
+//! −2 Im(∫ζf dζ − z∫f dζ), and all primitives are in the same symbols: ∫A = L, ∫AB = −B, ∫B = ½(ζB + L), ∫ζA³ = −A,
+//! ∫A³ = −AB, ∫B² = ⅓(ζB² − 2B), ∫AB² = −½B²; ∫ζA = R, ∫ζAB = ½(L − ζB), ∫ζB = ⅓(R + ζ²B), ∫ζ²A³ = L + r²AB,
+//! ∫ζB² = ¼(ζ²B² + L − ζB), ∫ζAB² = −⅓(ζB² + B). So the stresses hold up to the surface, even on coarse grids.
 //!
 //! # A line contact
 //!
@@ -38,9 +37,8 @@
 //! by superposition of Flamant's point loads, and σ_yy = ν(σ_xx + σ_zz). The strips of a cell add up to
 //! ∫ 2s G ds = −2√(w² − s²) and its derivative by w.
 //!
-//! Cost: one complex root and one arc tangent per point and kink of the load. Springs where q is
-//! linear in x² within [`FLAT`] do not count as kinks: a Hertz contact has one kink, a worn contact
-//! a few dozen.
+//! Cost: one complex root and one arc tangent per point and kink of the load. Springs at which q is linear in x² within
+//! [`FLAT`] do not count as kinks: a Hertz contact has one kink, a worn contact a few dozen.
 
 use std::f64::consts::PI;
 
@@ -48,13 +46,13 @@ use nalgebra::{Complex, ComplexField};
 
 use crate::math::geometry::Geometry;
 
-/// How far below the surface a point counts as on it, in contact radii: the formulas are limits there.
+/// Points less deep than this, in contact radii, count as on the surface, where the formulas are limits.
 const SURFACE: f64 = 1e-9;
 
-/// How far a spring may lie off the line between the kinks that are kept, in largest loads.
+/// Tolerance for dropping a spring between two kept kinks, relative to the largest load.
 pub const FLAT: f64 = 1e-6;
 
-/// The stresses of one point of the plane of motion, Pa, tension positive; σ_xy = σ_yz = 0 there.
+/// The stresses at one point of the plane of motion, Pa, tension positive; σ_xy = σ_yz = 0 there.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stress {
     /// σ_xx.
@@ -68,31 +66,31 @@ pub struct Stress {
 }
 
 impl Stress {
-    /// The equivalent stress of von Mises, Pa.
+    /// Returns the von Mises equivalent stress, Pa.
     pub fn von_mises(&self) -> f64 {
         let [a, b, c] = [self.xx - self.yy, self.yy - self.zz, self.zz - self.xx];
         (0.5 * (a * a + b * b + c * c) + 3.0 * self.xz * self.xz).sqrt()
     }
 
-    /// The largest and the smallest principal stress, Pa.
+    /// Returns the largest and the smallest principal stress, Pa.
     fn principal(&self) -> [f64; 2] {
         let mean = 0.5 * (self.xx + self.zz);
         let radius = (0.5 * (self.xx - self.zz)).hypot(self.xz);
         [(mean + radius).max(self.yy), (mean - radius).min(self.yy)]
     }
 
-    /// The largest principal stress, Pa; positive is tension, where fretting cracks begin.
+    /// Returns the largest principal stress, Pa; positive is tension, where fretting cracks begin.
     pub fn max_principal(&self) -> f64 {
         self.principal()[0]
     }
 
-    /// The largest shear stress on any plane, Pa.
+    /// Returns the largest shear stress on any plane, Pa.
     pub fn max_shear(&self) -> f64 {
         let [high, low] = self.principal();
         0.5 * (high - low)
     }
 
-    /// The hydrostatic pressure −(σ_xx + σ_yy + σ_zz)/3, Pa.
+    /// Returns the hydrostatic pressure −(σ_xx + σ_yy + σ_zz)/3, Pa.
     pub fn pressure(&self) -> f64 {
         -(self.xx + self.yy + self.zz) / 3.0
     }
@@ -107,7 +105,7 @@ impl Stress {
     }
 }
 
-/// A largest stress and its place.
+/// The largest value of a stress and its place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Peak {
     /// The stress, Pa.
@@ -118,14 +116,14 @@ pub struct Peak {
     pub z: f64,
 }
 
-/// Columns and rows of the grid that a largest stress is looked for on.
+/// Columns and rows of the first search for a largest stress.
 const GRID: [usize; 2] = [13, 13];
 
-/// How often the best place is looked around from.
+/// Number of refinements around the best place.
 const REFINEMENTS: usize = 16;
 
-/// Where `of`, which gives a value at (r, z) and at (−r, z), m, is largest: on a grid of columns and rows
-/// over 1.2 times `radius` (m) first, then ever closer to its best place.
+/// Finds where `of`, which gives the values at (r, z) and at (−r, z), m, is largest: first on a grid of columns and
+/// rows over 1.2 times `radius` (m), then ever closer to the best place.
 pub fn peak(radius: f64, [columns, rows]: [usize; 2], of: impl Fn(f64, f64) -> [f64; 2]) -> Peak {
     let at = |x: f64, z: f64| {
         let [right, left] = of(x.abs(), z);
@@ -163,7 +161,7 @@ pub fn peak(radius: f64, [columns, rows]: [usize; 2], of: impl Fn(f64, f64) -> [
     best
 }
 
-/// What begins at x: by how much the slopes of q_z and q_x over x² rise there (Pa/m).
+/// What begins at x: the rise of the slopes of q_z and q_x over x² there (Pa/m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Kink {
     x: f64,
@@ -171,11 +169,11 @@ struct Kink {
     tangential: f64,
 }
 
-/// The line loads of one moment, as the half-space feels them.
+/// The line loads of one moment, as a source of stress in the half-space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringLoad {
     kinks: Vec<Kink>,
-    /// q_z and q_x with which the load ends at a, N/m: not zero under a flat punch.
+    /// q_z and q_x at the contact's edge a, N/m: not zero under a flat punch.
     end: [f64; 2],
     radius: f64,
     poisson: f64,
@@ -183,8 +181,8 @@ pub struct SpringLoad {
 }
 
 impl SpringLoad {
-    /// From q_z and q_x (N/m) at `nodes` (m, from 0 up, of one length), the contact radius a (m) and ν
-    /// of the half-space. Springs outside of the contact count as unloaded.
+    /// Makes the load from q_z and q_x (N/m) at `nodes` (m, from 0 up, of one length), the contact radius a (m) and ν
+    /// of the half-space. Springs outside the contact count as unloaded.
     pub fn new(
         nodes: &[f64],
         normal: &[f64],
@@ -198,7 +196,7 @@ impl SpringLoad {
             .take_while(|&[x, qz, _]| x <= contact_radius && qz > 0.0)
             .collect();
         let last = points.last().copied().unwrap_or_default();
-        // Between two springs the load ends at zero; on a spring it ends with what that one carries.
+        // Between two springs the load ends at zero; on a spring it ends with that spring's load.
         let end = if contact_radius > last[0] * (1.0 + 1e-9) {
             points.push([contact_radius, 0.0, 0.0]);
             [0.0, 0.0]
@@ -214,7 +212,7 @@ impl SpringLoad {
         }
     }
 
-    /// The same load of a contact of this `geometry`.
+    /// Returns the same load in a contact of this `geometry`.
     #[must_use]
     pub fn of(self, geometry: Geometry) -> Self {
         Self { geometry, ..self }
@@ -230,20 +228,20 @@ impl SpringLoad {
         self.radius
     }
 
-    /// Where in the plane of motion a stress is largest.
+    /// Finds where in the plane of motion a stress is largest.
     pub fn largest(&self, of: impl Fn(&Stress) -> f64) -> Peak {
         peak(self.radius, GRID, |r, z| {
             self.mirrored(r, z).map(|stress| of(&stress))
         })
     }
 
-    /// The stresses at (x, z), m, in the plane of motion; z is the depth below the surface.
+    /// Returns the stresses at (x, z), m, in the plane of motion; z is the depth below the surface.
     pub fn stress(&self, x: f64, z: f64) -> Stress {
         let [right, left] = self.mirrored(x.abs(), z);
         if x < 0.0 { left } else { right }
     }
 
-    /// The stresses at (r, z) and at (−r, z): the sum over the springs is the same for both.
+    /// Returns the stresses at (r, z) and at (−r, z): both share the sum over the springs.
     pub fn mirrored(&self, r: f64, z: f64) -> [Stress; 2] {
         if self.kinks.len() < 2 {
             return [Stress::default(); 2];
@@ -262,10 +260,10 @@ impl SpringLoad {
         [right, left]
     }
 
-    /// The stresses at (r, z) of q_z and of q_x on a half-plane.
+    /// Returns the stresses at (r, z) due to q_z and q_x on a half-plane.
     fn of_strips(&self, r: f64, z: f64) -> [Stress; 2] {
         let w = Complex::new(r, z);
-        // √(w² − s²) that is w far away: both factors lie in the upper half-plane.
+        // The branch of √(w² − s²) that equals w far away: both factors lie in the upper half-plane.
         let root = |s: f64| (w - s).sqrt() * (w + s).sqrt();
         let mut strips = [[Complex::default(); 2]; 2];
         let mut add = |[value, slope]: [Complex<f64>; 2], weights: [f64; 2]| {
@@ -299,7 +297,7 @@ impl SpringLoad {
         ]
     }
 
-    /// The stresses at (r, z) of q_z and of q_x on a half-space, in the plane of motion.
+    /// Returns the stresses at (r, z) due to q_z and q_x on a half-space, in the plane of motion.
     fn of_punches(&self, r: f64, z: f64) -> [Stress; 2] {
         let (mut normal, mut tangential) = (Products::default(), Products::default());
         for kink in &self.kinks {
@@ -318,8 +316,8 @@ impl SpringLoad {
     }
 }
 
-/// The points between which all others lie on lines over x², as far as [`FLAT`] tells. From each point
-/// kept, the slopes that pass all later ones narrow until a point falls out of them.
+/// Keeps the points between which all others lie on lines over x², within [`FLAT`]. The slopes from a kept point that
+/// pass all later ones narrow until a point falls outside them; the one before it is kept next.
 fn thinned(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let largest = |i: usize| points.iter().fold(0.0, |most: f64, q| most.max(q[i].abs()));
     let slack = [1, 2].map(|i| FLAT * largest(i));
@@ -349,7 +347,7 @@ fn thinned(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
     kept
 }
 
-/// Where the slopes over x² of the line loads `[x, q_z, q_x]` change: the pieces that add up to them.
+/// Finds where the slopes over x² of the line loads `[x, q_z, q_x]` change: the kinks that add up to the loads.
 fn kinks(points: &[[f64; 3]]) -> Vec<Kink> {
     let slope = |k: usize| {
         let (from, to) = (points[k], points[k + 1]);
@@ -370,7 +368,7 @@ fn kinks(points: &[[f64; 3]]) -> Vec<Kink> {
     kinks
 }
 
-/// The imaginary parts of the products that the stresses are made of, or of their primitives in x.
+/// Imaginary parts of the products in the stresses, or of their primitives in x.
 #[derive(Debug, Clone, Copy, Default)]
 struct Products {
     a: f64,
@@ -383,7 +381,7 @@ struct Products {
 }
 
 impl Products {
-    /// Of a punch of radius `x`.
+    /// Computes the products for a punch of radius `x`.
     fn of_punch(r: f64, z: f64, x: f64) -> Self {
         let (zeta, a, b) = letters(r, z, x);
         let (ab, a3) = (a * b, a * a * a);
@@ -398,7 +396,7 @@ impl Products {
         }
     }
 
-    /// Of punches of all radii up to `x`, each with 2x as its load: ∫ 2x Im f dx.
+    /// Integrates the products over punches of all radii up to `x`, each with load 2x: ∫ 2x Im f dx.
     #[inline]
     fn of_paraboloid(r: f64, z: f64, x: f64) -> Self {
         let (zeta, a, b) = letters(r, z, x);
@@ -429,7 +427,7 @@ impl Products {
         self.za3 += weight * other.za3;
     }
 
-    /// The stresses at (r, z) under a normal load.
+    /// Returns the stresses at (r, z) under a normal load.
     fn pressed(&self, r: f64, z: f64, poisson: f64) -> Stress {
         let (h_z, h_zz, h_rz) = (2.0 * self.a, -2.0 * self.za3, -2.0 * r * self.a3);
         let (h_r, chi_r) = (2.0 * self.ab, -2.0 * self.b);
@@ -443,7 +441,7 @@ impl Products {
         }
     }
 
-    /// The stresses at (r, z) under a traction along x.
+    /// Returns the stresses at (r, z) under a traction along x.
     fn pushed(&self, r: f64, z: f64, poisson: f64) -> Stress {
         let f_xzz = 2.0 * r * self.ab;
         let f_xxx = r * (self.b2 - 2.0 * self.ab);
@@ -466,7 +464,7 @@ fn letters(r: f64, z: f64, x: f64) -> (Complex<f64>, Complex<f64>, Complex<f64>)
     let zeta = Complex::new(z, x);
     let square = Complex::new(r * r + (z - x) * (z + x), 2.0 * z * x);
     let size = (square.re * square.re + square.im * square.im).sqrt();
-    // The root in the quarter where both parts are positive, without cancellation.
+    // The root in the first quadrant, without cancellation.
     let larger = (0.5 * (size + square.re.abs())).sqrt();
     let smaller = if larger > 0.0 {
         0.5 * square.im / larger

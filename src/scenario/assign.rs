@@ -9,7 +9,7 @@ use super::hints;
 use super::schema::{self, Kind, Parameter};
 use super::values;
 
-/// Splits `KEY=VALUE`, which stands at `place`.
+/// Splits `KEY=VALUE`, found at `place`.
 pub(crate) fn split<'a>(text: &'a str, place: &str) -> Result<(&'a str, &'a str), Refusal> {
     let (key, value) = text.split_once('=').unwrap_or_default();
     let (key, value) = (key.trim(), value.trim());
@@ -18,7 +18,7 @@ pub(crate) fn split<'a>(text: &'a str, place: &str) -> Result<(&'a str, &'a str)
     whole.ok_or_else(|| Refusal::new(place, rule))
 }
 
-/// Puts `value` at the dotted path `key`; `written` is how the user wrote it.
+/// Puts `value` at the dotted path `key`; `written` is the assignment as the user wrote it.
 pub(super) fn assign(
     table: &mut Table,
     origin: &mut Origin,
@@ -41,10 +41,15 @@ pub(super) fn assign(
     if parameter.path == "indenter.shape" {
         drop_keys_of_other_shapes(table, &value, origin);
     }
-    drop_replaced(table, parameter.path);
-    origin.assign(parameter.path, written);
-    values::insert(table, parameter.path, value);
+    put(table, origin, parameter.path, value, written);
     Ok(())
+}
+
+/// Puts `value` at a known `path`, in the place of what does not go with it.
+pub(super) fn put(table: &mut Table, origin: &mut Origin, path: &str, value: Value, written: &str) {
+    drop_replaced(table, path);
+    origin.assign(path, written);
+    values::insert(table, path, value);
 }
 
 /// Drops the keys whose place the one that is assigned takes, or that do not go with it.
@@ -62,7 +67,7 @@ fn drop_replaced(table: &mut Table, path: &str) {
     }
 }
 
-/// The value as TOML reads it, or the bare text.
+/// Parses the value as TOML, or takes the bare text.
 fn parse(parameter: &Parameter, text: &str) -> Value {
     if parameter.kind == Kind::Number && values::is_large_whole(text) {
         return text
@@ -77,9 +82,9 @@ fn parse(parameter: &Parameter, text: &str) -> Value {
     }
 }
 
-/// Drops the keys of the previous shape, which would be refused or misread: the radius of a punch
-/// is not a radius of curvature, and a punch brings its own edge of the domain. Keys of both shapes that are assigned
-/// together with the shape stay.
+/// Drops the keys of the previous shape, which would be refused or misread: the radius of a punch is not a radius of
+/// curvature, and a punch brings its own edge of the domain. Keys of both shapes stay if they are assigned together
+/// with the shape.
 fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) {
     let known = schema::known("indenter.shape").kind;
     let Some(shape) = shape.as_str().filter(|_| known.fits(shape)) else {
@@ -102,7 +107,7 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
     }
 }
 
-/// How an error repeats an assignment.
+/// Formats an assignment for an error message.
 pub(super) fn written(key: &str, value: &str) -> String {
     format!("{} = {}", echo(key), echo(value))
 }

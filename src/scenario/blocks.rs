@@ -1,8 +1,7 @@
 //! Load blocks: `[[blocks]]`, each a number of cycles with its own motion and load.
 //!
-//! The first block is the start of the scenario, and every later one changes keys where it begins.
-//! So blocks become `[[changes]]`: the profile is carried over, and the `scenario.toml` of a run
-//! holds the changes.
+//! The first block gives the start of the scenario, and every later one changes keys where it begins. Blocks therefore
+//! become `[[changes]]`: the profile is carried over, and the `scenario.toml` of a run holds the changes.
 
 use toml::{Table, Value};
 
@@ -14,8 +13,8 @@ use super::{Change, values};
 /// The tables whose keys a block may change.
 const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
 
-/// Puts the `[[blocks]]` of `table` in place: the keys of the first, changes for the others, and the
-/// length of all together as `run.cycles` where none is given.
+/// Replaces the `[[blocks]]` of `table` by the keys of the first and changes for the others, and sets `run.cycles` to
+/// their total length if it is not given.
 pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), Refusal> {
     let Some(blocks) = table.remove("blocks") else {
         return Ok(());
@@ -67,7 +66,7 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), Refusal> 
     Ok(())
 }
 
-/// The values of a table with their dotted paths.
+/// Collects the values of a table with their dotted paths.
 pub(crate) fn flatten(path: &str, value: &Value, found: &mut Vec<(String, Value)>) {
     match value {
         Value::Table(table) => {

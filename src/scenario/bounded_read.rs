@@ -1,4 +1,4 @@
-//! Reads files that others have written: regular ones, and no more of them than a limit.
+//! Reads files that others have written: regular files only, up to a size limit.
 //!
 //! A pipe or a device could keep the program waiting for ever, so neither is read, even if the user names it.
 
@@ -9,7 +9,7 @@ use std::path::Path;
 
 use nix::libc::{ELOOP, O_NONBLOCK};
 
-/// Why a file is not read.
+/// Why a file cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum Unread {
     /// It does not exist.
@@ -24,10 +24,10 @@ pub enum Unread {
     /// It is larger than the limit, in bytes.
     #[error("is larger than {} MiB", .0 >> 20)]
     TooLarge(u64),
-    /// It is not text, from this byte on.
+    /// It is not text; the number is the first bad byte.
     #[error("is not UTF-8 text at byte {0}")]
     NotText(usize),
-    /// The system refuses.
+    /// The system reports an error.
     #[error("cannot be read: {0}")]
     Io(io::Error),
 }
@@ -42,7 +42,7 @@ impl From<io::Error> for Unread {
     }
 }
 
-/// Whether another choice by the user would have avoided an error of the system.
+/// Whether the user could have avoided an error of the system.
 pub fn is_avoidable(cause: &io::Error) -> bool {
     use io::ErrorKind as Kind;
     let is_avoidable = matches!(
@@ -56,7 +56,7 @@ pub fn is_avoidable(cause: &io::Error) -> bool {
             | Kind::InvalidFilename
             | Kind::InvalidInput
     );
-    // Without a code it is a refusal of the program itself.
+    // An error without a code comes from the program itself.
     is_avoidable || matches!(cause.raw_os_error(), None | Some(ELOOP))
 }
 
@@ -71,7 +71,8 @@ pub fn open(path: &Path) -> Result<File, Unread> {
         about if !about.is_file() => Err(Unread::Irregular),
         _ => Ok(()),
     };
-    // Opening alone may do something to a device, and waits for the other end of a pipe that has just been put there.
+    // Merely opening a device may affect it, and opening a pipe
+    // waits for its other end, so check first, and never wait.
     check(path.metadata())?;
     let file = File::options()
         .read(true)
@@ -90,7 +91,7 @@ pub fn text(path: &Path, most: u64) -> Result<String, Unread> {
     text_from(open(path)?, most)
 }
 
-/// Reads a text of at most `most` bytes from what is open already, such as the standard input.
+/// Reads a text of at most `most` bytes from an open source, such as the standard input.
 ///
 /// # Errors
 ///
@@ -100,7 +101,7 @@ pub fn text_from(from: impl Read, most: u64) -> Result<String, Unread> {
         .map_err(|error| Unread::NotText(error.utf8_error().valid_up_to()))
 }
 
-/// Reads at most `most` bytes of a regular file that may be in any encoding.
+/// Reads at most `most` bytes of a regular file in any encoding.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Changes made during a run: `[[changes]]`, and the scenario that holds after them.
+//! Changes made during a run: `[[changes]]`, and the resulting scenarios.
 
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -7,15 +7,14 @@ use super::error::Origin;
 use super::escape::echo;
 use super::{Refusal, Scenario, assign, schema, units, values};
 
-/// Maximum number of changes of a run. Each is checked by assembling the scenario that holds from
-/// it on.
+/// Maximum number of changes of a run. Each is checked by assembling the scenario that results.
 pub const MOST_CHANGES: usize = 1_000;
 
 /// `[[changes]]`: one key that was changed during the run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// When, in cycles since the start.
+    /// Cycles since the start.
     pub at_cycle: f64,
     /// The key and its new value, `KEY = VALUE` with the value as TOML.
     pub set: String,
@@ -30,12 +29,12 @@ impl Change {
         }
     }
 
-    /// The dotted path of what changes.
+    /// Returns the dotted path of the changed key.
     pub fn key(&self) -> &str {
         self.set.split_once('=').map_or("", |(key, _)| key.trim())
     }
 
-    /// The new value, as TOML or as a bare word.
+    /// Returns the new value, as TOML or as a bare word.
     pub fn value(&self) -> &str {
         self.set
             .split_once('=')
@@ -43,19 +42,19 @@ impl Change {
     }
 }
 
-/// Changes in their order, those of one cycle together.
+/// Groups changes, in their order, by cycle.
 pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]> {
     changes.chunk_by(|a, b| a.at_cycle == b.at_cycle)
 }
 
 impl Scenario {
-    /// The scenario that holds after `changes` of one cycle, which are only right together; it has no changes of its
-    /// own. Applied to those of one cycle after the other, it gives the stages of a run.
+    /// Returns the scenario after `changes` of one cycle, which are only valid together; it has no changes itself.
+    /// Applied to one cycle after another, it yields the stages of a run.
     pub fn after(&self, changes: &[Change]) -> Result<Self, Refusal> {
         self.changed(changes, |at| echo(&changes[at].set))
     }
 
-    /// Walks through the stages of a run, so that a change that cannot be made is found before it.
+    /// Walks through the stages of a run, to find a change that cannot be made before the run starts.
     pub(super) fn check_changes(&self, changes: &[Change], from: &Origin) -> Result<(), Refusal> {
         for (k, pair) in changes.windows(2).enumerate() {
             let [before, cycle] = [&pair[0], &pair[1]].map(|change| change.at_cycle);
@@ -76,14 +75,14 @@ impl Scenario {
         Ok(())
     }
 
-    /// The scenario after `changes` of one cycle; `place` is what messages call each.
+    /// Returns the scenario after `changes` of one cycle; messages call each change by its `place`.
     fn changed(
         &self,
         changes: &[Change],
         place: impl Fn(usize) -> String,
     ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
-        let mut table = self.with_changes(Vec::new()).whole();
+        let mut table = self.with_changes(Vec::new()).whole(&self.spec);
         for (at, change) in changes.iter().enumerate() {
             let written = place(at);
             let (key, value) = assign::split(&change.set, &written)?;
@@ -97,8 +96,8 @@ impl Scenario {
         Self::build(table, origin, &self.origin, &self.directory)
     }
 
-    /// A control that changes measures the motion in another unit: metres that were given for the old one
-    /// must not be read as newtons.
+    /// Refuses a change of control without new values: the motion then has another unit, and metres given for the old
+    /// control must not be read as newtons.
     fn refuse_values_in_other_units(
         &self,
         table: &Table,

@@ -1,5 +1,5 @@
-//! Checks every key of a scenario against the schema: is it known, is its value of the right type
-//! and in range? `parts` checks how the values fit together.
+//! Checks every key of a scenario against the schema: whether it is known, and whether its value has the right type and
+//! range. `parts` checks how the values fit together.
 
 use toml::{Table, Value};
 
@@ -9,15 +9,15 @@ use super::hints;
 use super::schema::{self, Parameter};
 use super::{units, values};
 
-/// Finds every key that is not in the table of parameters or has a value of the wrong kind, and puts the number in SI
-/// units in the place of every text with a unit.
+/// Finds every key that is unknown or has a value of the wrong kind, and converts every text with a unit to a number in
+/// SI units.
 pub(super) fn keys(table: &mut Table, origin: &Origin, faults: &mut Faults) {
     section(table, "", "", origin, faults);
 }
 
 /// Refuses keys that exclude each other.
 pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), Refusal> {
-    // The first of each kind stands for the others.
+    // Only the first given key of each group is reported.
     let given = |keys: &[&'static str]| {
         let given = |&key: &&'static str| Some((key, values::at(table, key)?));
         keys.iter().find_map(given)
@@ -31,7 +31,7 @@ pub(super) fn conflicts(table: &Table, origin: &Origin) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Checks the keys of the table at `path`, which messages call `shown`.
+/// Checks the keys of the table at `path`, called `shown` in messages.
 fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: &mut Faults) {
     let is_force = table.get("control").and_then(Value::as_str) == Some("force");
     for (name, value) in table.iter_mut() {
@@ -52,7 +52,7 @@ fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: 
                 }
             }
         } else {
-            // What was meant is not missing as well.
+            // The key that was meant does not count as missing as well.
             let meant = if faults.is_full() {
                 Vec::new()
             } else {
@@ -64,7 +64,7 @@ fn section(table: &mut Table, path: &str, shown: &str, origin: &Origin, faults: 
     }
 }
 
-/// The rule that the value of a key breaks. A text with a unit becomes a number.
+/// Returns the rule that the value of a key breaks. A text with a unit becomes a number.
 fn broken(value: &mut Value, parameter: &Parameter, is_force: bool) -> Option<String> {
     let text = value.as_str().unwrap_or_default();
     match units::quantity(text, parameter, is_force) {
@@ -114,19 +114,19 @@ fn changes(value: &mut Value, origin: &Origin, faults: &mut Faults) {
     }
 }
 
-/// The error for an unknown key, named at `place`.
+/// Builds the error for an unknown key at `place`.
 pub(super) fn unknown(place: &str, path: &str, shown: &str) -> Refusal {
     let rule = format!("unknown key {}; {}", echo(shown), hints::hint(path));
     Refusal::new(place, rule)
 }
 
-/// A length of a measured profile as an error tells it: in three digits.
+/// Formats a length of a measured profile for an error, with three digits.
 pub(super) fn length(value: f64) -> String {
     let rounded = format!("{value:.2e}").parse().unwrap_or(value);
     show(&Value::Float(rounded))
 }
 
-/// A value as an error repeats it.
+/// Formats a value for an error.
 pub(super) fn show(value: &Value) -> String {
     match value {
         Value::Table(_) => "{...}".to_owned(),

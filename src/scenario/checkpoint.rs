@@ -1,17 +1,16 @@
-//! A checkpoint: a session saved in one file, and restored to the same bits.
+//! A checkpoint: a session saved in one file and restored bit for bit.
 //!
 //! ```text
-//! mdr-tui checkpoint 6
+//! mdr-tui checkpoint 7
 //! 20517 bytes, CRC-32 9ae0daaf
 //! run 5f0c2a91, written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>
 //! ```
 //!
-//! Three lines that a person can read, then the scenario as it was loaded, its changes and the
-//! saved run in CBOR (RFC 8949), which keeps every f64 to its bits, infinities and −0 included.
-//! Fields are stored by name, so that added fields can be recognised. Length and checksum of the
-//! contents reveal a damaged file. A checkpoint of `mdr-tui run` also names its run, so that a
-//! directory which another run has used meanwhile is recognised; see [`Stamp`].
+//! Three readable lines, then the scenario as loaded, its changes and the saved run in CBOR (RFC 8949), which keeps
+//! every bit of an f64, including infinities and −0. Fields are stored by name, so that added fields can be recognised.
+//! Length and checksum of the contents reveal a damaged file. A checkpoint of `mdr-tui run` also names its run, to
+//! detect that another run has used the directory in between; see [`Stamp`].
 
 use std::borrow::Cow;
 use std::io::{self, BufRead, BufReader, Read};
@@ -28,22 +27,22 @@ use crate::math::grid::RadialGrid;
 use crate::reading::Log;
 use crate::simulation::{Saved, Simulation};
 
-/// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 6;
+/// The format version written, and the only one read.
+pub const VERSION: u32 = 7;
 
-/// What the first line begins with.
+/// Start of the first line.
 const MAGIC: &str = "mdr-tui checkpoint ";
 
-/// The longest line before the contents, in bytes.
+/// Maximum length of a line before the contents, in bytes.
 const LONGEST_LINE: u64 = 200;
 
-/// The largest contents that are read, in bytes: the history of ten million cycles.
+/// Maximum size of the contents, in bytes: the history of ten million cycles.
 const LARGEST: u64 = 4 << 30;
 
 /// A saved session, and the data of the program that drove it.
 #[derive(Debug)]
 pub struct Checkpoint<E> {
-    /// The session, ready to go on.
+    /// The session, ready to continue.
     pub session: Session,
     /// The driver's own data, if it saved any.
     pub job: Option<E>,
@@ -59,25 +58,25 @@ struct Body<'a, E> {
     goals: Cow<'a, [f64]>,
     saved: Saved,
     log: Cow<'a, Log>,
-    /// The run before the changes of the present cycle.
+    /// The run before the changes of the current cycle.
     unchanged: Option<(Saved, Cow<'a, Log>)>,
     job: Option<E>,
 }
 
-/// What the third line of a run's checkpoint says: which run it is of, and how far that has come.
+/// The third line of a run's checkpoint: which run it belongs to, and how far that has come.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stamp {
-    /// The identity of the run.
+    /// Identifier of the run.
     pub run: String,
     /// Cycles since its start.
     pub cycle: f64,
 }
 
 impl Stamp {
-    /// The start of the third line that names a run.
+    /// Start of a third line that names a run.
     const RUN: &str = "run ";
 
-    /// Reads the third line of the checkpoint at `path`; `None` for any other file, and for a checkpoint of no run.
+    /// Reads the third line of the checkpoint at `path`; `None` for other files, and for a checkpoint without a run.
     pub fn read(path: &Path) -> Option<Self> {
         let mut from = BufReader::new(bounded_read::open(path).ok()?.take(3 * LONGEST_LINE));
         let mut lines = [const { String::new() }; 3];
@@ -99,7 +98,7 @@ pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
     written(session, "", job)
 }
 
-/// Encodes a checkpoint of `session` with the `job` of the run that is identified by `run`.
+/// Encodes a checkpoint of `session` with the `job` of the run identified by `run`.
 pub fn encode_run<E: Serialize>(session: &Session, run: &str, job: &E) -> Vec<u8> {
     written(session, &format!("{}{run}, ", Stamp::RUN), Some(job))
 }
@@ -125,14 +124,14 @@ fn written<E: Serialize>(session: &Session, run: &str, job: Option<&E>) -> Vec<u
     sealed(&contents)
 }
 
-/// `contents` behind the lines that tell whether they are whole.
+/// Prepends the lines with which `contents` can be verified.
 pub fn sealed(contents: &[u8]) -> Vec<u8> {
     let seal = seal(contents.len() as u64, crc32fast::hash(contents));
     let head = format!("{MAGIC}{VERSION}\n{seal}");
     [head.as_bytes(), contents].concat()
 }
 
-/// The second line.
+/// Formats the second line.
 fn seal(length: u64, checksum: u32) -> String {
     format!("{length} bytes, CRC-32 {checksum:08x}\n")
 }
@@ -141,14 +140,14 @@ fn seal(length: u64, checksum: u32) -> String {
 ///
 /// # Errors
 ///
-/// One line: a file that cannot be read, is no checkpoint of this version, is damaged, or holds no valid run.
+/// In one line: the file cannot be read, is not a checkpoint of this version, is damaged, or holds no valid run.
 pub fn read<E: DeserializeOwned>(path: &Path) -> Result<Checkpoint<E>, Refusal> {
     let name = printable(&path.display().to_string());
     let file = bounded_read::open(path).map_err(|why| unreadable(&name, why))?;
     decode(BufReader::new(file), &name)
 }
 
-/// Reads a checkpoint that messages call `name`.
+/// Reads a checkpoint, called `name` in messages.
 ///
 /// # Errors
 ///
@@ -191,11 +190,11 @@ pub fn decode<E: DeserializeOwned>(
     if length > LARGEST {
         return unfit(&format!("it is larger than {} GiB", LARGEST >> 30));
     }
-    // One byte more shows that there is more.
+    // Allow one extra byte to detect extra contents.
     let mut contents = BufReader::new(Summed::new(from.take(length + 1)));
     let body = body(&mut contents);
     io::copy(&mut contents, &mut io::sink()).map_err(unread)?;
-    // Only now it is known whether the body is whole.
+    // Only now is it known whether the body is complete.
     let read = contents.into_inner();
     match read.length {
         found if found > length => return torn(&format!("it continues after its {length} bytes")),
@@ -206,7 +205,7 @@ pub fn decode<E: DeserializeOwned>(
     body.and_then(restore).or_else(|why| unfit(&why))
 }
 
-/// Counts and sums up what is read, which need not be in memory at once.
+/// Counts and sums the bytes read, which need not fit in memory at once.
 struct Summed<R> {
     from: R,
     length: u64,
@@ -241,7 +240,7 @@ fn unreadable(name: &str, why: Unread) -> Refusal {
     }
 }
 
-/// Length and checksum of the second line.
+/// Parses length and checksum from the second line.
 fn promise(line: &str) -> Option<(u64, u32)> {
     let (length, checksum) = line.strip_suffix('\n')?.split_once(" bytes, CRC-32 ")?;
     let length = length.parse().ok()?;
@@ -249,7 +248,7 @@ fn promise(line: &str) -> Option<(u64, u32)> {
     (line == seal(length, checksum)).then_some((length, checksum))
 }
 
-/// Reads the body behind the line on who wrote it.
+/// Reads the body, which follows the line on who wrote it.
 fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Body<'static, E>, String> {
     let mut line = from.by_ref().take(LONGEST_LINE);
     line.skip_until(b'\n').map_err(|error| error.to_string())?;
@@ -259,7 +258,7 @@ fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Body<'static, E>
     })
 }
 
-/// Restores a session; an error is what is wrong with its body.
+/// Restores a session; the error says what is wrong with its body.
 fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
     let loaded = Scenario::from_toml(&body.scenario, &body.origin, &[])
         .map_err(|error| format!("its scenario {error}"))?;
@@ -300,7 +299,7 @@ fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
     })
 }
 
-/// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's own.
+/// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's.
 fn simulation(scenario: &Scenario, saved: Saved) -> Result<Simulation, String> {
     let mut setup = scenario.setup().clone();
     if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {

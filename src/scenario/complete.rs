@@ -6,10 +6,10 @@ use toml::{Table, Value};
 use super::schema::{self, Default, Kind, Parameter};
 use super::values;
 
-/// Tables that every scenario has, written or not.
+/// Tables that every scenario has, given or not.
 const ALWAYS: [&str; 2] = ["motion.normal", "numerics"];
 
-/// The key of an accuracy, and the keys that it chooses.
+/// The key of the accuracy, and the keys that it chooses.
 const ACCURACY: &str = "numerics.accuracy";
 const CHOSEN_BY_ACCURACY: [&str; 4] = [
     "numerics.points",
@@ -18,10 +18,10 @@ const CHOSEN_BY_ACCURACY: [&str; 4] = [
     "numerics.nodes",
 ];
 
-/// The accuracy of a run with wear whose numerics nobody has chosen.
+/// Default accuracy of a run with wear if no numerics are given.
 pub const USUAL_ACCURACY: f64 = 1e-2;
 
-/// The keys of `written`, which has passed [`check::keys`](super::check::keys), without `[run]` and
+/// Returns the keys of `written`, which has passed [`check::keys`](super::check::keys), without `[run]` and
 /// `[[changes]]`: numbers as floats, defaults filled in.
 pub(super) fn table(written: &Table) -> Table {
     let usual = has_usual_accuracy(written).then_some(Value::Float(USUAL_ACCURACY));
@@ -29,7 +29,7 @@ pub(super) fn table(written: &Table) -> Table {
     let mut complete = Table::new();
     let is_apart = |known: &Parameter| ["run", "changes"].contains(&known.section());
     for parameter in schema::parameters().filter(|known| !is_apart(known)) {
-        // These are found before the run, and written then.
+        // Before the run these are found, and written then.
         let chosen = has_accuracy
             && (CHOSEN_BY_ACCURACY.contains(&parameter.path)
                 || parameter.path == "numerics.integrator");
@@ -49,7 +49,7 @@ pub(super) fn table(written: &Table) -> Table {
     complete
 }
 
-/// Whether wear is computed and nothing is written that says how finely.
+/// Whether the scenario computes wear and gives no accuracy or resolution.
 fn has_usual_accuracy(written: &Table) -> bool {
     let is_written = |path: &str| values::at(written, path).is_some();
     let mut chosen = CHOSEN_BY_ACCURACY.into_iter().chain([ACCURACY]);
@@ -57,7 +57,7 @@ fn has_usual_accuracy(written: &Table) -> bool {
     wear.any(is_written) && !chosen.any(is_written)
 }
 
-/// The value with numbers as floats.
+/// Returns the value with numbers as floats.
 fn plain(value: &Value, kind: Kind) -> Value {
     match (kind, value) {
         (Kind::Number | Kind::Numbers, Value::Integer(whole)) => Value::Float(*whole as f64),

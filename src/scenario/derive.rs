@@ -1,5 +1,5 @@
-//! Defaults derived from the rest of a scenario: the domain radius and the references of the power
-//! law, found by pressing the unworn indenter, and choices that depend on the transform method.
+//! Derives defaults from the rest of a scenario: the domain radius and the references of the power law, found by
+//! pressing the unworn indenter, and choices that depend on the transform method.
 
 use crate::math::abel::AbelMethod;
 use crate::math::quadrature::gauss_in_pieces;
@@ -7,19 +7,19 @@ use crate::math::root;
 use crate::simulation::drive::Control;
 use crate::simulation::{Scheme, Spacing, Unworn};
 
-/// Under a prescribed force a wearing contact sinks in; where nobody knows how far, the domain has room
-/// for this many times the depth of the unworn one.
+/// Under a prescribed force a wearing contact sinks in. If the final depth is unknown, the domain has room for this
+/// many times the depth of the unworn contact.
 const ROOM_TO_SINK: f64 = 3.0;
 
-/// Room beyond the depth at which wear ends, for what cells and steps err by.
+/// Margin beyond the depth at which wear ends, for the error of cells and steps.
 const BEYOND_SETTLED: f64 = 1.05;
 
-/// The domain of a line contact in half-widths of the unworn one: where nothing wears, and where nobody knows how far the
-/// scar will reach. It grows with the contact.
+/// Domain of a line contact in half-widths of the unworn one, if nothing wears and if the final size of the scar is
+/// unknown. It grows with the contact.
 const UNWORN_LINE: f64 = 1.5;
 const WORN_LINE: f64 = 2.0;
 
-/// Grid and scheme where the scenario gives none: the published methods run as they were published.
+/// Default grid and scheme: the published methods run as published.
 pub fn choices(method: AbelMethod) -> (Spacing, Scheme) {
     match AbelMethod::PUBLISHED.contains(&method) {
         true => (Spacing::Uniform, Scheme::Euler),
@@ -28,9 +28,9 @@ pub fn choices(method: AbelMethod) -> (Spacing, Scheme) {
 }
 
 impl Unworn<'_> {
-    /// The largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a
-    /// force that has no bound in general: [`ROOM_TO_SINK`] is used instead, added to the depth (m) that is `worn` when the
-    /// run begins. `None` where no contact can carry the force.
+    /// Returns the largest radius that can ever touch, m: the rim, or where f₀ reaches the largest depth. Under a force
+    /// there is generally no such bound; then [`ROOM_TO_SINK`] applies, plus the depth (m) `worn` at the start of the
+    /// run. `None` if no contact can carry the force.
     pub(super) fn domain_radius(&self, friction_is_constant: bool, worn: f64) -> Option<f64> {
         let start = self.deepest();
         if self.geometry.is_line() {
@@ -48,10 +48,10 @@ impl Unworn<'_> {
         start.is_finite().then(|| self.indenter.radius_at(depth))
     }
 
-    /// That of a line contact with the depth `start` (m), as far as it is known before the run.
+    /// Returns the domain radius of a line contact with the depth `start` (m), as far as known before the run.
     ///
-    /// Worn to its limit, a cylinder touches up to b = c cosh θ, sinh(2θ)/2θ = (a₀/c)², a₀ the unworn half-width and c that
-    /// of the permanent stick zone; with c falls what bounds it. Other shapes are not far from that.
+    /// Worn to its limit, a cylinder touches up to b = c cosh θ, sinh(2θ)/2θ = (a₀/c)², with a₀ the unworn half-width
+    /// and c the half-width of the permanent stick zone; if c shrinks, that bound is lost. Other shapes differ little.
     fn line_domain(&self, start: f64, friction_is_constant: bool, worn: f64) -> Option<f64> {
         let edge = self.radius(start);
         if self.indenter.rim().is_some() {
@@ -75,9 +75,9 @@ impl Unworn<'_> {
         (radius > 0.0 && radius.is_finite()).then_some(radius)
     }
 
-    /// The depth, m, at which a held normal force and a tangential amplitude U have worn all that slips: within
-    /// the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and what lies outside bears nothing,
-    /// F_z = 2E* ∫₀ᶜ (d − g) dx. None if it is beyond [`ROOM_TO_SINK`] times the depth at the `start` (m).
+    /// Returns the depth, m, at which a held normal force and a tangential amplitude U have worn away all that slips.
+    /// Within the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and the part outside carries nothing,
+    /// F_z = 2E* ∫₀ᶜ (d − g) dx. `None` if that exceeds [`ROOM_TO_SINK`] times the depth at the `start` (m).
     fn settled_depth(&self, start: f64) -> Option<f64> {
         let shift = self.drive.tangential()?.displacement()?;
         let yielding = shift.amplitude() * self.material.stick_ratio();
@@ -92,11 +92,10 @@ impl Unworn<'_> {
         Some(profile(radius) + yielding)
     }
 
-    /// τ_ref, Pa, and v_ref, m/s, of the power law where the scenario gives none: μ times the mean
-    /// pressure at the mean normal position, and the greatest tangential velocity of the indenter. `None` where no
-    /// contact can carry the force.
+    /// Returns defaults for τ_ref, Pa, and v_ref, m/s, of the power law: μ times the mean pressure at the mean normal
+    /// position, and the greatest tangential velocity of the indenter. `None` if no contact can carry the force.
     pub(super) fn references(&self) -> Option<(f64, f64)> {
-        // A motion that only touches at its deepest has its pressure there.
+        // A motion that only touches at its deepest point takes the pressure there.
         let swing = self.drive.normal().oscillation();
         let at = if swing.mean() > 0.0 {
             swing.mean()
@@ -107,7 +106,7 @@ impl Unworn<'_> {
             Control::Displacement(_) => at,
             Control::Force(_) => Some(self.depth(at)).filter(|depth| depth.is_finite())?,
         };
-        // Without friction there is no stress to compare with, and any reference does.
+        // Without friction there is no stress to compare with, so any reference will do.
         let or_one = |value: f64| if value > 0.0 { value } else { 1.0 };
         let stress = or_one(self.material.friction()) * self.mean_pressure(depth);
         let velocity = match self.drive.tangential() {
@@ -163,7 +162,7 @@ mod tests {
         assert!(depth > 1e-6 && depth < 3e-6, "{depth:e}");
         let domain = contact.domain_radius(true, 0.0).expect("a domain");
         assert!((domain / (0.02 * BEYOND_SETTLED * depth).sqrt() - 1.0).abs() < 1e-9);
-        // Friction that changes has no such end.
+        // If friction changes, there is no such limit.
         let domain = contact.domain_radius(false, 0.0).expect("a domain");
         assert!((domain / (0.02 * ROOM_TO_SINK * 1e-6_f64).sqrt() - 1.0).abs() < 1e-9);
     }

@@ -8,26 +8,26 @@ use thiserror::Error;
 use super::bounded_read::{self, Unread};
 use super::escape::{echo, printable};
 
-/// The most errors that are told at once.
+/// Maximum number of errors reported at once.
 const MOST_ERRORS: usize = 20;
 
-/// Wrong input of a user: where it stands, with its value, and what would be right, in one line; of a scenario all that
-/// is wrong with it, a line each.
+/// Wrong user input, in one line: its place, its value, and what would be right. For a scenario, all its errors, one
+/// per line.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}", .lines.join("\n"))]
 pub struct Refusal {
     lines: Vec<String>,
-    /// Whether the system failed, not the user.
+    /// Whether the system failed rather than the user.
     is_failure: bool,
 }
 
 impl Refusal {
-    /// Refuses what stands at `place`: a file, an option, a key.
+    /// Refuses the input at `place`: a file, an option, a key.
     pub fn new(place: impl Display, rule: impl Display) -> Self {
         format!("{place}: {rule}").into()
     }
 
-    /// Refuses the file at `place`, which cannot be read.
+    /// Refuses the file at `place`, which could not be read.
     pub fn unread(place: impl Display, why: &Unread) -> Self {
         Self {
             is_failure: matches!(why, Unread::Io(cause) if !bounded_read::is_avoidable(cause)),
@@ -35,18 +35,18 @@ impl Refusal {
         }
     }
 
-    /// Refuses `value` at `place`; a long one is cut.
+    /// Refuses `value` at `place`, shortened if it is long.
     pub fn of_value(place: impl Display, value: impl Display, rule: impl Display) -> Self {
         let value = echo(&value.to_string());
         format!("{place} = {value}: {rule}").into()
     }
 
-    /// The error that `origin` gives no value at `path`, which means `meaning`.
+    /// Reports that `origin` lacks a value at `path`, which means `meaning`.
     pub fn missing(origin: impl Display, path: &str, meaning: impl Display) -> Self {
         Self::new(origin, format!("{path} is missing: {meaning}"))
     }
 
-    /// The same with what else the user can do.
+    /// Adds another option for the user.
     #[must_use]
     pub fn or(self, hint: impl Display) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl Refusal {
         }
     }
 
-    /// Errors as one; `None` where there are none. Of a long list only the first are told.
+    /// Combines errors into one; `None` if there are none. Only the first of many are reported.
     pub(super) fn all(errors: impl IntoIterator<Item = Self>) -> Option<Self> {
         let mut is_failure = false;
         let lines = errors.into_iter().flat_map(|error| {
@@ -73,7 +73,7 @@ impl Refusal {
         })
     }
 
-    /// What is wrong, one by one.
+    /// The errors, one per line.
     pub fn lines(&self) -> &[String] {
         &self.lines
     }
@@ -84,7 +84,7 @@ impl Refusal {
     }
 }
 
-/// A line that says place and rule already.
+/// A line that already names place and rule.
 impl From<String> for Refusal {
     fn from(line: String) -> Self {
         Self {
@@ -94,17 +94,18 @@ impl From<String> for Refusal {
     }
 }
 
-/// The keys of a scenario that errors blame, and the errors.
+/// The errors of a scenario and the keys they blame.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     errors: Vec<Refusal>,
-    /// The number of errors beyond those that are told.
+    /// Number of errors beyond the reported ones.
     more: usize,
     blamed: BTreeSet<String>,
 }
 
 impl Faults {
-    /// Notes an error that is due to the key at `path`, if it is the first one. Of too many it is not even made.
+    /// Notes an error caused by the key at `path`, if it is that
+    /// key's first. Errors beyond the maximum are only counted.
     pub fn note(&mut self, path: &str, error: impl FnOnce() -> Refusal) {
         if !self.blamed.insert(path.to_owned()) {
             return;
@@ -116,31 +117,31 @@ impl Faults {
         }
     }
 
-    /// Whether there are more errors than are told.
+    /// Whether the maximum number of errors is reached.
     pub fn is_full(&self) -> bool {
         self.errors.len() >= MOST_ERRORS
     }
 
-    /// Notes that the key at `path` is dealt with by an error that is there already.
+    /// Notes that an existing error already covers the key at `path`.
     pub fn blame(&mut self, path: &str) {
         self.blamed.insert(path.to_owned());
     }
 
-    /// Whether an error deals with the key at `path`, or with the whole table that it stands in.
+    /// Whether an error covers the key at `path` or a table that contains it.
     pub fn covers(&self, path: &str) -> bool {
         let tables = path.match_indices('.').map(|(end, _)| &path[..end]);
         tables.chain([path]).any(|path| self.blamed.contains(path))
     }
 
-    /// The keys that errors deal with.
+    /// The keys that errors cover.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
         self.blamed.iter().map(String::as_str)
     }
 
-    /// All errors as one; `None` where there are none.
+    /// Combines all errors into one; `None` if there are none.
     pub fn into_error(mut self) -> Option<Refusal> {
         if self.more > 0 {
-            // The last line tells how many are left out.
+            // The last line gives the number of errors left out.
             let more = self.more + self.errors.split_off(MOST_ERRORS - 1).len();
             self.errors.push(format!("and {more} more errors").into());
         }
@@ -152,12 +153,12 @@ impl Faults {
 #[derive(Debug, Clone)]
 pub(super) struct Origin {
     name: String,
-    /// Paths that were assigned after the text was read, and how the assignment was written.
+    /// Paths assigned after the text was read, and the assignments as written.
     assigned: Vec<(String, String)>,
 }
 
 impl Origin {
-    /// A text called `name`.
+    /// Names a text.
     pub fn new(name: &str) -> Self {
         Self {
             name: printable(name),
@@ -175,12 +176,12 @@ impl Origin {
         self.assigned.iter().any(|(key, _)| key == path)
     }
 
-    /// The text's name, fit for a line.
+    /// Returns the name of the text, printable on one line.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Where a value stands: the assignment that gave it, or the origin with path and value.
+    /// Returns the place of a value: the assignment that gave it, or the origin with path and value.
     pub fn place(&self, path: &str, value: &str) -> String {
         let last = self.assigned.iter().rev().find(|(key, _)| key == path);
         match last {
@@ -194,7 +195,7 @@ impl Origin {
         Refusal::new(self.place(path, value), rule)
     }
 
-    /// The error that there is no value at `path`, which means `meaning`.
+    /// Reports that there is no value at `path`, which means `meaning`.
     pub fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
         Refusal::missing(&self.name, path, meaning)
     }

@@ -1,4 +1,4 @@
-//! Text on its way out: each kind of output has one function that makes any text harmless there.
+//! Escapes text for output: one function for each kind of output makes any text harmless there.
 //!
 //! | output | function |
 //! |---|---|
@@ -9,10 +9,10 @@
 
 use serde::Serialize;
 
-/// Maximum number of characters of a user's text in an error.
+/// Maximum number of characters of user text in an error.
 const LONGEST_ECHO: usize = 60;
 
-/// `text` on one line, whatever it holds: control and invisible characters become escapes.
+/// Puts `text` on one line: control and invisible characters become escapes.
 pub fn printable(text: &str) -> String {
     if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
         return text.to_owned();
@@ -25,13 +25,13 @@ pub fn printable(text: &str) -> String {
             .next_back()
             .filter(|(_, c)| is_joiner(*c))
         {
-            // Between characters it shapes a script or an emoji.
+            // Between characters a joiner shapes a script or an emoji.
             Some((end, joiner)) if end > 0 && joined.peek().is_some() => {
                 (&part[..end], Some(joiner))
             }
             _ => (part, None),
         };
-        // Quotes and backslashes are harmless, and would only be harder to read as escapes.
+        // Quotes and backslashes are harmless, and only harder to read if escaped.
         let plain = ["\"", "'", "\\"];
         let escaped = part.escape_debug().to_string();
         line += &plain.iter().fold(escaped, |line, plain| {
@@ -42,12 +42,12 @@ pub fn printable(text: &str) -> String {
     line
 }
 
-/// The zero-width non-joiner and joiner.
+/// Whether a character is the zero-width non-joiner or joiner.
 fn is_joiner(c: char) -> bool {
     matches!(c, '\u{200c}' | '\u{200d}')
 }
 
-/// [`printable`], cut where it grows too long for a line.
+/// As [`printable`], but cut if too long for a line.
 pub(super) fn echo(text: &str) -> String {
     let mut start: String = text.chars().take(LONGEST_ECHO).collect();
     let cut = start.len() < text.len();
@@ -58,7 +58,7 @@ pub(super) fn echo(text: &str) -> String {
     start
 }
 
-/// A text as a cell of a table: printable, and no formula of a spreadsheet.
+/// Makes a text safe as a cell of a table: printable, and not a spreadsheet formula.
 pub fn cell(text: &str) -> String {
     let text = printable(text);
     if text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err() {
@@ -67,18 +67,18 @@ pub fn cell(text: &str) -> String {
     text
 }
 
-/// One line of a CSV file, with its end, of [cells](cell).
+/// Formats one line of a CSV file, including its end, from [cells](cell).
 pub fn csv_line<T: AsRef<str>>(fields: impl IntoIterator<Item = T>) -> String {
     let mut writer = csv::WriterBuilder::new();
     let mut writer = writer.comment(Some(b'#')).from_writer(Vec::new());
-    // Memory does not fail to be written.
+    // Writing to memory cannot fail.
     let _ = writer.write_record(fields.into_iter().map(|field| cell(field.as_ref())));
     let bytes = writer.into_inner().unwrap_or_default();
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// A value as JSON on one line, or on several with `indented`. Characters that act on a terminal or turn the direction
-/// of text are escaped.
+/// Formats a value as JSON on one line, or on several if `indented`. Escapes characters that affect a terminal or the
+/// direction of text.
 ///
 /// # Errors
 ///
@@ -102,7 +102,7 @@ pub fn json<T: Serialize>(value: &T, indented: bool) -> serde_json::Result<Strin
     Ok(escaped)
 }
 
-/// A text for an XML element; what XML cannot hold and what turns the direction of text becomes a blank.
+/// Escapes a text for an XML element; characters that XML forbids, or that change the direction of text, become blanks.
 pub fn xml(text: &str) -> String {
     let hidden = |c: char| c != '\n' && is_hidden(c);
     text.replace('&', "&amp;")
@@ -112,7 +112,7 @@ pub fn xml(text: &str) -> String {
         .replace(hidden, " ")
 }
 
-/// Whether a character shows nothing and acts on the text around it or on a terminal.
+/// Whether a character is invisible and affects the text around it or a terminal.
 fn is_hidden(c: char) -> bool {
     let is_direction = matches!(
         c,
@@ -127,7 +127,7 @@ fn is_hidden(c: char) -> bool {
 mod tests {
     use super::*;
 
-    /// Everything that a terminal, a table or a browser would act on.
+    /// Characters that affect a terminal, a table or a browser.
     const RUDE: &str =
         "a\u{9b}2J\u{202e}\u{1b}]0;x\u{7}\r\n\u{7f}\u{2066}\u{ffff}\u{1fffe}\u{2028}";
 

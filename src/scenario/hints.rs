@@ -1,4 +1,4 @@
-//! What is said to a key or a word that no scenario has: the one that was meant, or those that there are.
+//! Suggestions for unknown keys and words: the one probably meant, or all that exist.
 
 use std::collections::HashSet;
 
@@ -8,6 +8,10 @@ use super::nearest::nearest;
 use super::schema::{Kind, Parameter, is_section, parameters};
 use super::values::split;
 
+/// Why there is no bulk stress, which users of fatigue rigs look for.
+const NO_BULK_STRESS: &str = "a bulk stress moves the stick zone off the centre, and this model is symmetric: \
+                              see mdr-tui guide lines";
+
 /// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
 /// is nothing near.
 pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
@@ -15,7 +19,7 @@ pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let word = key.to_lowercase();
     let known = parameters().filter(|known| known.also.contains(&word.as_str()));
     let mut known: Vec<&Parameter> = known.collect();
-    // A word for keys of several tables is known within each of them alone.
+    // A word for keys of several tables only stands for the key of the same table.
     let sections: HashSet<&str> = known.iter().map(|known| known.section()).collect();
     if sections.len() > 1 {
         known.retain(|known| known.section() == section);
@@ -38,8 +42,11 @@ fn places() -> Vec<&'static str> {
     all.filter(|place| seen.insert(*place)).collect()
 }
 
-/// A hint for the unknown `path`.
+/// Returns a hint for the unknown `path`.
 pub fn hint(path: &str) -> String {
+    if path.contains("bulk") && !path.contains("modulus") {
+        return NO_BULK_STRESS.to_owned();
+    }
     let meant = meant(path);
     if !meant.is_empty() {
         let told = meant.iter().map(|(key, more)| format!("{key}{more}"));
@@ -48,15 +55,14 @@ pub fn hint(path: &str) -> String {
     known_in(split(path).0)
 }
 
-/// The keys and sub-tables of a table; those of the whole scenario if the table does not exist.
+/// Lists the keys and sub-tables of a table, or of the whole scenario if the table does not exist.
 pub(super) fn known_in(section: &str) -> String {
     let section = if is_section(section) { section } else { "" };
     let keys = places().into_iter().filter(|key| split(key).0 == section);
     format!("known are {}", keys.collect::<Vec<_>>().join(", "))
 }
 
-/// A remark behind the rule that `value` breaks as one of a key's words: the word that was meant, if that
-/// can be told.
+/// Returns a remark for a `value` that is not among a key's words: the word probably meant, if there is one.
 pub(super) fn instead(parameter: &Parameter, value: &Value) -> String {
     let (Kind::Choice(words), Some(given)) = (parameter.kind, value.as_str()) else {
         return String::new();
@@ -104,6 +110,9 @@ mod tests {
             ("load", "motion.normal.mean with control = \"force\""),
         ] {
             assert_eq!(hint(typed), format!("did you mean {near}?"), "{typed}");
+        }
+        for bulk in ["motion.bulk_stress", "material.half_space.bulk"] {
+            assert_eq!(hint(bulk), NO_BULK_STRESS);
         }
         assert!(hint("wear.zzz").starts_with("known are wear.law, wear.coefficient"));
         assert!(hint("zzz").starts_with("known are title, description, indenter"));

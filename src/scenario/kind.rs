@@ -1,4 +1,4 @@
-//! What the value of a key may be: its kind, its range, its default.
+//! What a key accepts: the kind of its value, its range, its default.
 
 use std::fmt;
 
@@ -26,27 +26,27 @@ pub enum Kind {
     Numbers,
 }
 
-/// A word that a value is chosen from.
+/// A word that a value can be.
 #[derive(Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Word {
     /// The word.
     pub word: &'static str,
-    /// What it means, in a line.
+    /// Its meaning, in one line.
     #[serde(default)]
     pub(super) meaning: &'static str,
-    /// What people write in its place.
+    /// What people write instead.
     #[serde(default)]
     pub(super) also: Vec<&'static str>,
 }
 
-/// A list that lives as long as the table of keys.
+/// Leaks a list, so that it lives as long as the table of keys.
 fn leaked<'de: 'static, D: Deserializer<'de>>(list: D) -> Result<&'static [Word], D::Error> {
     Ok(Vec::deserialize(list)?.leak())
 }
 
 impl Kind {
-    /// The rule as words after "must be".
+    /// Returns the rule as words after "must be".
     pub fn wanted(self) -> String {
         match self {
             Self::Number => "a finite number".into(),
@@ -76,7 +76,7 @@ impl Kind {
         }
     }
 
-    /// The words that a value is chosen from, if it is.
+    /// Returns the words to choose from, if the value is one of a list.
     pub fn words(self) -> Option<Vec<&'static str>> {
         match self {
             Self::Choice(words) => Some(words.iter().map(|known| known.word).collect()),
@@ -86,11 +86,11 @@ impl Kind {
     }
 }
 
-/// The numbers that are allowed; for a list, each of them.
+/// The allowed numbers; in a list, each entry.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Range {
-    /// Every finite number, and whatever is no number.
+    /// Every finite number, and any value that is not a number.
     #[default]
     Any,
     /// Greater than 0.
@@ -101,7 +101,7 @@ pub enum Range {
     Within(f64, f64),
     /// Greater than 0, at most this.
     UpTo(f64),
-    /// An angle of a flank: greater than 0 and less than π/2.
+    /// The angle of a flank: greater than 0 and less than π/2.
     Acute,
 }
 
@@ -119,7 +119,7 @@ impl Range {
     }
 }
 
-/// The rule as it follows "must be"; empty where every number is allowed.
+/// The rule as it follows "must be"; empty if every number is allowed.
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -143,10 +143,10 @@ impl fmt::Display for Range {
 #[derive(Debug, PartialEq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Default {
-    /// Nothing: the key must be given where it is needed.
+    /// None: the key must be given wherever it is needed.
     #[default]
     None,
-    /// This TOML value, written into a scenario that is saved, since it may change between versions.
+    /// This TOML value, written into saved scenarios, since it may change between versions.
     Written(Value),
     /// This TOML value.
     Implied(Value),
@@ -155,7 +155,7 @@ pub enum Default {
 }
 
 impl Default {
-    /// The value that can be written down, if there is one.
+    /// Returns the value that can be written down, if there is one.
     pub fn value(&self) -> Option<&Value> {
         match self {
             Self::Written(value) | Self::Implied(value) => Some(value),

@@ -1,9 +1,9 @@
-//! Scenarios: from a TOML text, and what the command line adds to it, to parts that can be run.
+//! Scenarios: turns a TOML text, plus assignments of the command line, into parts that can be run.
 //!
 //! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`) →
 //! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → defaults (`complete`,
-//! `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses with one line that names the
-//! origin, the dotted path, the value and the rule.
+//! `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses bad input with one line that
+//! names the origin, the dotted path, the value and the rule.
 
 use std::ffi::OsStr;
 use std::io::Read;
@@ -35,6 +35,7 @@ mod run;
 pub mod scalars;
 pub mod schema;
 pub mod session;
+pub mod spec;
 pub mod typed;
 pub mod units;
 pub(crate) mod values;
@@ -48,39 +49,43 @@ use error::{Faults, Origin};
 use escape::echo;
 pub use escape::printable;
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
+pub use spec::Spec;
 
-/// The longest [stem](Scenario::stem), in bytes.
+/// Maximum length of the [stem](Scenario::stem), in bytes.
 const LONGEST_STEM: usize = 200;
 
 /// A validated scenario: parts that are ready to run, and the text that reproduces them.
 #[derive(Debug, Clone)]
 pub struct Scenario {
     origin: String,
-    /// Files that it names are relative to this.
+    /// Base directory of the files that it names.
     directory: PathBuf,
     title: String,
     description: String,
-    /// All keys except `[run]` and `[[changes]]`, with the defaults that may change written out,
-    /// but for those that follow the method.
+    /// The parts that code changes.
+    spec: Spec,
+    /// All other keys except `[[changes]]`. Here and there the defaults that may change are written out, but for those
+    /// that follow the method.
     table: Table,
     setup: Setup,
-    run: RunPlan,
     changes: Vec<Change>,
+    /// What was left out of the files that it names, a line each.
+    notes: Vec<String>,
 }
 
-/// Two scenarios are equal if they run alike; where they came from does not matter.
+/// Two scenarios are equal if they run alike; their origin does not matter.
 impl PartialEq for Scenario {
     fn eq(&self, other: &Self) -> bool {
         self.table == other.table
             && self.setup == other.setup
-            && self.run == other.run
+            && self.spec == other.spec
             && self.changes == other.changes
     }
 }
 
 impl Scenario {
-    /// Loads a preset by its name, or a file: what has a `/` or ends in `.toml` is a path. Each of
-    /// `sets` is a `KEY=VALUE` that replaces what stands there.
+    /// Loads a preset by its name, or a file: anything with a `/` or ending in `.toml` is a path. Each of `sets` is a
+    /// `KEY=VALUE` that overrides the scenario.
     pub fn load(name_or_path: impl AsRef<OsStr>, sets: &[String]) -> Result<Self, Refusal> {
         let path = Path::new(&name_or_path);
         let name = path.to_string_lossy();
@@ -97,13 +102,13 @@ impl Scenario {
         }
     }
 
-    /// Reads a scenario from what is open already, such as the standard input; messages call it `origin`.
+    /// Reads a scenario from an open source, such as the standard input, called `origin` in messages.
     pub fn from_reader(from: impl Read, origin: &str, sets: &[String]) -> Result<Self, Refusal> {
         Self::from_toml(&read::text(from, origin)?, origin, sets)
     }
 
-    /// Reads a scenario from a text that messages call `origin`; files that it names are relative to the directory of
-    /// that.
+    /// Reads a scenario from a text, called `origin` in messages; files that it names are relative to the directory of
+    /// `origin`.
     pub fn from_toml(text: &str, origin: &str, sets: &[String]) -> Result<Self, Refusal> {
         Self::in_directory(text, origin, Path::new(origin).parent(), sets)
     }
@@ -127,11 +132,27 @@ impl Scenario {
         Refusal::all(errors).map_or(built, Err)
     }
 
-    /// The same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare
-    /// word. Changing `indenter.shape` drops the keys of the shape before. Where the scenario gives
-    /// no `numerics.grid` and `numerics.scheme`, they go with the `numerics.method` it is changed to.
+    /// Returns the same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare word.
+    /// Changing `indenter.shape` drops the keys of the previous shape. Unless the scenario gives `numerics.grid` and
+    /// `numerics.scheme`, they follow a change of `numerics.method`.
     pub fn with(&self, key: &str, value: &str) -> Result<Self, Refusal> {
         self.with_all(&[(key, value)])
+    }
+
+    /// The same scenario with other numbers at dotted paths.
+    ///
+    /// # Errors
+    /// Numbers that are refused.
+    pub fn with_numbers<'a>(
+        &self,
+        numbers: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, Refusal> {
+        let (mut table, mut origin) = (self.whole(&self.spec), Origin::new(&self.origin));
+        for (key, number) in numbers {
+            let written = assign::written(key, &scalars::number(number));
+            assign::put(&mut table, &mut origin, key, Value::Float(number), &written);
+        }
+        Self::build(table, origin, &self.origin, &self.directory)
     }
 
     /// [`with`](Self::with) for several keys that are only right together, such as another shape
@@ -141,13 +162,14 @@ impl Scenario {
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
-        let mut table = self.whole();
+        let mut table = self.whole(&self.spec);
         let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
         if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
             && self.accuracy().is_none()
             && self.setup.integrator == Integrator::Direct
         {
-            // An accuracy chooses the integrator; the default that was written out for chosen numbers is no choice.
+            // An accuracy chooses the integrator; a default written
+            // out for explicit numbers does not count as a choice.
             values::remove(&mut table, "numerics.integrator");
         }
         for (key, value) in assignments {
@@ -155,55 +177,77 @@ impl Scenario {
             let written = assign::written(key, value);
             assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
         }
-        Self::build(table, origin, &self.origin, &self.directory)
+        let mut changed = Self::build(table, origin, &self.origin, &self.directory)?;
+        changed.notes.splice(..0, self.notes.iter().cloned());
+        Ok(changed)
+    }
+
+    /// What was left out of the files that it names, a line each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The same scenario with other parts.
+    ///
+    /// # Errors
+    /// Values that are refused.
+    pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Result<Self, Refusal> {
+        let mut spec = self.spec.clone();
+        edit(&mut spec);
+        let table = self.whole(&spec);
+        Self::build(
+            table,
+            Origin::new(&self.origin),
+            &self.origin,
+            &self.directory,
+        )
     }
 
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
-        let is_given = self.value("numerics.domain_radius").is_some();
+        let is_given = self.spec.numerics.domain_radius.is_some();
         match is_given || self.setup.indenter.rim().is_some() {
             true => Domain::Given,
             false => Domain::Derived,
         }
     }
 
-    /// The same scenario with another `[run]`, which is taken as it is.
+    /// Returns the same scenario with another `[run]`, which is not checked.
     #[must_use]
     pub fn with_run(&self, run: RunPlan) -> Self {
-        Self {
-            run,
-            ..self.clone()
-        }
+        let mut scenario = self.clone();
+        scenario.spec.run = run;
+        scenario
     }
 
-    /// The same scenario with what its files state of its errors, keys and values, which [`statements`](Self::statements)
-    /// returns as long as nothing else changes.
+    /// Returns the same scenario with the statements of its files on its errors, keys and values.
+    /// [`statements`](Self::statements) returns them while the scenario stays otherwise unchanged.
     #[must_use]
     pub fn stating(mut self, statements: &[(String, String)]) -> Self {
         let seal = self.seal();
-        self.run.state(statements, &seal);
+        self.spec.run.state(statements, &seal);
         self
     }
 
-    /// What the files of the run that this scenario records state of its errors, keys and values; empty for a scenario
-    /// that records no run, or was edited since.
+    /// Returns the error statements, keys and values, in the files of the recorded run; empty if the scenario records
+    /// no run, or was edited since.
     pub fn statements(&self) -> Vec<(String, String)> {
-        match self.run.statements() {
+        match self.spec.run.statements() {
             Some((statements, seal)) if seal == self.seal() => statements,
             _ => Vec::new(),
         }
     }
 
-    /// Tells this scenario, without its statements, from others.
+    /// Identifies this scenario without its statements.
     fn seal(&self) -> String {
         let bare = self.with_run(RunPlan {
             stated: None,
-            ..self.run.clone()
+            ..self.spec.run.clone()
         });
         format!("{:08x}", crc32fast::hash(bare.to_toml().as_bytes()))
     }
 
-    /// The same scenario with other `[[changes]]`, which are taken as they are: in order, and each
+    /// Returns the same scenario with other `[[changes]]`, which are not checked: they must be in order, and each
     /// accepted by [`after`](Self::after).
     #[must_use]
     pub fn with_changes(&self, changes: Vec<Change>) -> Self {
@@ -213,77 +257,78 @@ impl Scenario {
         }
     }
 
-    /// The title, on one line; without one, the origin.
+    /// Returns the title, on one line; without one, the origin.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// What the scenario shows; may have several lines, or none.
+    /// Describes what the scenario shows; may have several lines, or none.
     pub fn description(&self) -> &str {
         &self.description
     }
 
-    /// The preset's name or the path as it was given.
+    /// Returns the preset's name or the path as given.
     pub fn origin(&self) -> &str {
         &self.origin
     }
 
-    /// The origin without directories and ending, in characters that any file name takes.
+    /// Returns the origin without directories and extension, in characters valid in any file name.
     pub fn stem(&self) -> String {
         let stem = Path::new(&self.origin).file_stem();
         let stem = stem.map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
         let mut stem = stem.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-");
-        // With a number and an ending it must stay a name that file systems take.
+        // Leaves room for a number and an extension, so that file systems accept the name.
         let mut ends = (0..=LONGEST_STEM.min(stem.len())).rev();
         stem.truncate(ends.find(|&end| stem.is_char_boundary(end)).unwrap_or(0));
         stem
     }
 
-    /// The parts of the simulation, ready to run.
+    /// Returns the parts of the simulation, ready to run.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// Length and output of the run.
+    /// Returns length and output of the run.
     pub fn run(&self) -> &RunPlan {
-        &self.run
+        &self.spec.run
     }
 
-    /// What is changed during the run, in order.
+    /// The parts that code changes.
+    pub fn spec(&self) -> &Spec {
+        &self.spec
+    }
+
+    /// Returns the changes during the run, in order.
     pub fn changes(&self) -> &[Change] {
         &self.changes
     }
 
-    /// `numerics.accuracy`, where it is given, or [`USUAL_ACCURACY`] where something wears and no numerics are chosen:
-    /// then points, steps and tolerance are still to be found, by [`refinement`](crate::studies::refinement), and
-    /// assigning one of them takes its place.
+    /// Returns `numerics.accuracy` if given, or [`USUAL_ACCURACY`] if something wears and no numerics are chosen.
+    /// [`refinement`](crate::studies::refinement) then has to find points, steps and tolerance; assigning one of them
+    /// replaces the accuracy.
     pub fn accuracy(&self) -> Option<f64> {
-        schema::read(&self.table, "numerics.accuracy")
+        self.spec.numerics.accuracy
     }
 
-    /// `wear.share`, the part of the worn depth that is the indenter's, where it is given. The contact feels the sum of
-    /// both bodies' wear alone, so the simulation does not know it.
+    /// Returns `wear.share`, the indenter's part of the worn depth, if given. The contact only depends on the sum of
+    /// both bodies' wear, so the simulation does not use it.
     pub fn wear_share(&self) -> Option<f64> {
-        schema::read(&self.table, "wear.share")
+        self.spec.wear.as_ref()?.share
     }
 
-    /// `material.fatigue_limit`, Pa, where it is given: what stresses are compared with after the run.
+    /// Returns `material.fatigue_limit`, Pa, if given: stresses are compared with it after the run.
     pub fn fatigue_limit(&self) -> Option<f64> {
-        schema::read(&self.table, "material.fatigue_limit")
+        self.spec.material.fatigue_limit
     }
 
-    /// The value at a dotted path as TOML, where the scenario gives one.
+    /// Returns the value at a dotted path as TOML, if the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
         let value = |table: &Table| values::at(table, path).map(values::literal);
-        match path.split('.').next() {
-            // These two stand apart; the other keys are looked up as they are, for every frame.
-            Some("run" | "changes") => value(&self.whole()),
-            _ => value(&self.table),
-        }
+        value(&self.table).or_else(|| value(&self.whole(&self.spec)))
     }
 
-    /// The whole scenario as it is run. Read back, it gives an equal one, to the last bit. What
-    /// follows from the method stands there as a comment, so that it still follows a change of it.
+    /// Returns the complete scenario for a run. Reading it back gives an equal one, bit for bit. Values that follow
+    /// from the method are comments, so that they still follow a change of it.
     pub fn to_toml(&self) -> String {
         let setup = &self.setup;
         let quoted = |word: &str| format!("{word:?}");
@@ -292,10 +337,10 @@ impl Scenario {
             follows.insert(0, ("numerics.grid", quoted(setup.spacing.name())));
         }
         let source = format!("default of method \"{}\"", setup.method);
-        write::scenario(&self.whole(), &follows, &source)
+        write::scenario(&self.whole(&self.spec), &follows, &source)
     }
 
-    /// Checks a table and makes its parts; errors show its values as they were written.
+    /// Checks a table and makes its parts; errors show values as the user wrote them.
     fn build(
         mut table: Table,
         mut from: Origin,
@@ -303,11 +348,16 @@ impl Scenario {
         directory: &Path,
     ) -> Result<Self, Refusal> {
         blocks::expand(&mut table, &from)?;
-        embed::files(&mut table, directory, &mut from)?;
+        let notes = embed::files(&mut table, directory, &mut from)?;
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
-        let (complete, setup) = parts::setup(&mut table, from, faults)?;
+        let (mut complete, setup) = parts::setup(&mut table, from, faults)?;
+        complete.extend(
+            table
+                .get_key_value("run")
+                .map(|(run, plan)| (run.clone(), plan.clone())),
+        );
         let changes: Vec<Change> = schema::read(&table, "changes").unwrap_or_default();
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
@@ -323,26 +373,27 @@ impl Scenario {
             directory: directory.to_owned(),
             title: printable(given.as_deref().unwrap_or(origin)),
             description: lines.join("\n"),
+            spec: Spec::take(&mut complete),
             table: complete,
             setup,
-            run: schema::read(&table, "run").unwrap_or_default(),
             changes: Vec::new(),
+            notes,
         };
         scenario.check_changes(&changes, from)?;
         let mut scenario = scenario.with_changes(changes);
-        if scenario.run.stated.is_some() && scenario.statements().is_empty() {
+        if scenario.spec.run.stated.is_some() && scenario.statements().is_empty() {
             // They are about the scenario before it was edited.
-            scenario.run.stated = None;
+            scenario.spec.run.stated = None;
         }
         Ok(scenario)
     }
 
-    /// All keys, `[run]` and `[[changes]]` included.
-    fn whole(&self) -> Table {
+    /// All keys with these parts, `[[changes]]` included.
+    fn whole(&self, spec: &Spec) -> Table {
         let mut table = self.table.clone();
-        let plan = Value::try_from(&self.run).expect("a plan is a table");
         let changes = Value::try_from(&self.changes).expect("changes are a list");
-        table.extend([("run".into(), plan), ("changes".into(), changes)]);
+        table.extend(spec.table());
+        table.insert("changes".into(), changes);
         table
     }
 }

@@ -1,19 +1,18 @@
-//! The known name nearest to a mistyped one.
+//! Finds the known name nearest to a mistyped one.
 
 use strsim::normalized_damerau_levenshtein as likeness;
 
 use super::values::split;
 
-/// Below this, two names are taken to have nothing to do with each other.
+/// Names less alike than this are considered unrelated.
 const LIKELY: f64 = 0.5;
 
 /// Maximum length of a mistyped name, in bytes.
 const LONGEST: usize = 200;
 
-/// The name among `known` that `typed` most likely stands for; dotted paths are compared with regard
-/// to their tables.
+/// Returns the name among `known` that `typed` most likely stands for; the tables of dotted paths count too.
 pub fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    // The time that a comparison takes grows with both lengths.
+    // The time of a comparison grows with both lengths.
     let known = known.filter(|_| typed.len() <= LONGEST);
     let scored = known.map(|known| (score(typed, known), known));
     let likely = scored.filter(|(score, _)| *score > LIKELY);
@@ -21,7 +20,7 @@ pub fn nearest<'a>(typed: &str, known: impl Iterator<Item = &'a str>) -> Option<
     best.map(|(_, known)| known)
 }
 
-/// What is said to a mistyped name: the known one that it most likely stands for, or all of them.
+/// Returns a hint for a mistyped name: the known name most likely meant, or all of them.
 pub fn hint<'a>(typed: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
     match nearest(typed, known.clone()) {
         Some(near) => format!("did you mean {near}?"),

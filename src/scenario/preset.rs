@@ -1,4 +1,4 @@
-//! The presets: ordinary TOML files embedded in the program, with no special powers.
+//! Presets: ordinary TOML files embedded in the program, without special powers.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -9,9 +9,9 @@ use super::{nearest, schema};
 /// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preset {
-    /// The name on the command line: the file's, without its ending.
+    /// Name on the command line: the file's name without its extension.
     pub name: &'static str,
-    /// The TOML, with its comments.
+    /// The TOML text, including its comments.
     pub text: &'static str,
 }
 
@@ -24,7 +24,7 @@ macro_rules! presets {
     };
 }
 
-/// Every preset, in the order in which lists show them.
+/// All presets, in the order of lists.
 pub const ALL: &[Preset] = presets![
     "li2019-fig3",
     "hertz",
@@ -48,34 +48,34 @@ pub const ALL: &[Preset] = presets![
     "cylinder-gross-slip",
 ];
 
-/// The preset of this name.
+/// Finds a preset by name.
 pub fn find(name: &str) -> Option<&'static Preset> {
     ALL.iter().find(|preset| preset.name == name)
 }
 
-/// Whether a text names a file, and no preset.
+/// Whether a text names a file rather than a preset.
 pub fn is_path(text: &str) -> bool {
     text.contains(['/', std::path::MAIN_SEPARATOR]) || text.to_lowercase().ends_with(".toml")
 }
 
-/// A hint for the unknown `name`.
+/// Returns a hint for the unknown `name`.
 pub fn hint(name: &str) -> String {
     nearest::hint(name, ALL.iter().map(|preset| preset.name))
 }
 
 impl Preset {
-    /// The scenario's title.
+    /// Returns the scenario's title.
     pub fn title(&self) -> &'static str {
         &ABOUT[self.name][0]
     }
 
-    /// What it shows, on one line.
+    /// Describes on one line what it shows.
     pub fn summary(&self) -> &'static str {
         &ABOUT[self.name][1]
     }
 }
 
-/// Title and summary by name, read once: a list of presets is drawn with every frame.
+/// Title and summary by name, parsed once: a list of presets is drawn in every frame.
 static ABOUT: LazyLock<HashMap<&'static str, [String; 2]>> = LazyLock::new(|| {
     let about = |preset: &Preset| {
         let table = preset.text.parse().unwrap_or_default();

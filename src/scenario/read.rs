@@ -1,4 +1,4 @@
-//! From a file to a text, to a TOML table.
+//! Reads a file as text, and a text as a TOML table.
 
 use std::io::Read;
 use std::path::Path;
@@ -11,16 +11,16 @@ use super::escape::printable;
 use super::units::with_decimal_point;
 use super::values;
 
-/// The largest file that is read as a scenario, in bytes.
+/// Maximum size of a scenario's file, in bytes.
 const LARGEST_FILE: u64 = 1 << 20;
 
-/// Reads a file that can be a scenario: text, and not too long.
+/// Reads a scenario's file: text, up to the maximum size.
 pub(super) fn file(path: &Path) -> Result<String, Refusal> {
     let text = bounded_read::text(path, LARGEST_FILE);
     text.map_err(|why| refusal(&path.to_string_lossy(), why))
 }
 
-/// Reads the text of a scenario from what is open already, which messages call `origin`.
+/// Reads the text of a scenario from an open source, called `origin` in messages.
 pub(super) fn text(from: impl Read, origin: &str) -> Result<String, Refusal> {
     let text = bounded_read::text_from(from, LARGEST_FILE);
     text.map_err(|why| refusal(origin, why))
@@ -36,8 +36,8 @@ fn refusal(origin: &str, why: Unread) -> Refusal {
     Refusal::unread(printable(origin), &why).or(hint)
 }
 
-/// The text as a TOML table, and the numbers in it that have a decimal comma: they are read as meant, so
-/// that the rest can be judged as well.
+/// Parses the text as a TOML table, and reports numbers with a decimal comma. These are read as meant, so that the rest
+/// can be checked as well.
 pub(super) fn table(text: &str, origin: &Origin) -> Result<(Table, Vec<Refusal>), Refusal> {
     let mut text = text.to_owned();
     let mut commas = Vec::new();
@@ -67,7 +67,7 @@ pub(super) fn table(text: &str, origin: &Origin) -> Result<(Table, Vec<Refusal>)
     }
 }
 
-/// Where the first line of `text` has a decimal comma, and the number with a point in its place.
+/// Finds a decimal comma in the first line of `text`, and returns its position and the number with a point instead.
 fn decimal_comma(text: &str) -> Option<(usize, String)> {
     let line = text.lines().next()?;
     let value = line.split('#').next()?.split_once('=')?.1.trim();

@@ -1,36 +1,35 @@
-//! The `[run]` table: length, snapshots, and what the files of the run state.
+//! The `[run]` table: length, snapshots, and the statements in the files of the run.
 
 use serde::{Deserialize, Serialize};
 
-/// The longest run, in cycles.
+/// Maximum length of a run, in cycles.
 pub const MOST_CYCLES: f64 = 1e9;
 
 /// Maximum number of snapshots of a run.
 pub const MOST_SNAPSHOTS: usize = 10_000;
 
-/// `[run]`: how far a run goes and where it is written out.
+/// `[run]`: the length of a run and its output.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RunPlan {
-    /// Length of the run in cycles, 0 or more; `None`: until the user stops it.
+    /// Length of the run in cycles, 0 or more; `None` runs until the user stops it.
     pub cycles: Option<f64>,
-    /// Cycles at which the state is written; those after the end of the run are never reached.
+    /// Cycles at which the state is written; those after the end of the run are ignored.
     pub snapshot_at: Vec<f64>,
-    /// Cycles that a step or a jump was cut short for although the run went on, as the planned end is
-    /// that the explorer went past. Without them, a replay would take other steps.
+    /// Cycles at which a step or jump was cut short although the run continued, such as a planned end that the explorer
+    /// went past. Without them, a replay would take other steps.
     pub shortened_at: Vec<f64>,
-    /// A remark that is kept with the files.
+    /// A remark to store in the files.
     pub note: Option<String>,
-    /// What the files of the recorded run state of its errors, sealed by
-    /// [`Scenario::stating`](super::Scenario::stating).
+    /// Statements of the recorded run's files on its errors, sealed by [`Scenario::stating`](super::Scenario::stating).
     pub stated: Option<String>,
 }
 
-/// Between the parts of [`RunPlan::stated`], the last of which is the seal.
+/// Separates the parts of [`RunPlan::stated`], the last of which is the seal.
 const BETWEEN: &str = " | ";
 
 impl RunPlan {
-    /// Sets the statements, keys and values, with the seal of the scenario that they are about.
+    /// Sets the statements, keys and values, with the seal of their scenario.
     pub(super) fn state(&mut self, statements: &[(String, String)], seal: &str) {
         let entries = statements.iter().map(|(key, value)| {
             let value = value.replace(BETWEEN, ", ");
@@ -39,7 +38,7 @@ impl RunPlan {
         self.stated = (!statements.is_empty()).then(|| entries.collect::<String>() + seal);
     }
 
-    /// The statements, keys and values, and the seal of the scenario that they are about.
+    /// Returns the statements, keys and values, and the seal of their scenario.
     pub(super) fn statements(&self) -> Option<(Vec<(String, String)>, &str)> {
         let (entries, seal) = self.stated.as_deref()?.rsplit_once(BETWEEN)?;
         let entries = entries.split(BETWEEN).map(|entry| {

@@ -1,23 +1,21 @@
-//! Named scalars of a session's present moment: the columns of histories and of studies.
-//!
-//! Every name is defined once, here, so that a column means the same in every file.
+//! Scalars of a session's present moment: the columns of histories and of studies.
 
 use std::cell::OnceCell;
 
-use super::{nearest, printable, schema};
+use super::{nearest, printable};
 use crate::math::scan::largest;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
-use crate::reading::{CycleFigures, Moment, Quantity};
+use crate::reading::{Column, CycleFigures, Moment};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
-/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null where
-/// it is not defined at this moment.
+/// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null if it
+/// is undefined at this moment.
 pub use serde_json::Value;
 
-/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to
-/// the same bits, nothing where the value is missing.
+/// Returns the value as a field of a CSV file: numbers in the shortest form that reads back to the same bits, an empty
+/// field for a missing value.
 pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -39,13 +37,13 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// Returns a number as a field, empty where it is not known.
+/// Returns a number as a field, empty if NaN.
 pub fn field(value: f64) -> String {
     cell(&value.into())
 }
 
-/// The present moment of a session, read for some scalars. What several scalars need is computed
-/// once, and the pressure only if a scalar asks for it.
+/// Reads scalars at the present moment of a session. Intermediate results that several scalars need are computed once,
+/// and the pressure only if a scalar needs it.
 #[derive(Debug)]
 pub struct Reading<'a> {
     session: &'a Session,
@@ -71,23 +69,80 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The scalar of this name; missing where there is none.
-    pub fn value(&self, name: &str) -> Value {
-        find(name).map_or(Value::Null, |scalar| scalar.read(self))
+    /// The value of a scalar; missing where it is not defined at this moment, and for columns that are none.
+    pub fn value(&self, scalar: Column) -> Value {
+        let (session, moment) = (self.session, &self.moment);
+        let (simulation, scenario) = (session.simulation(), session.scenario());
+        let stats = simulation.stats();
+        match scalar {
+            Column::Cycle => moment.cycle.into(),
+            Column::Time => moment.time.into(),
+            Column::Indentation => moment.depth.into(),
+            Column::Shift => moment.shift.into(),
+            Column::NormalForce => moment.normal_force.into(),
+            Column::TangentialForce => moment.tangential_force.into(),
+            Column::ContactRadius => moment.contact_radius.into(),
+            Column::StickRadius => moment.stick_radius.into(),
+            Column::PermanentStickRadius => moment.permanent_stick_radius.into(),
+            Column::WearVolume => moment.wear_volume.into(),
+            Column::DissipatedEnergy => moment.dissipated_energy.into(),
+            Column::EnergyResidual => moment.energy_residual.into(),
+            Column::MaxPressure => largest(self.pressure()).into(),
+            Column::PeriodEnergyResidual => session.log().period_residual().into(),
+            Column::ForceResidual => simulation.force_residual(self.pressure()).into(),
+            Column::Steps => simulation.steps().into(),
+            Column::Transforms => stats.transforms.into(),
+            Column::EvaluatedCycles => stats.evaluated_cycles.into(),
+            Column::RejectedJumps => stats.rejected_jumps.into(),
+            Column::StabilityMargin => moment.stability_margin.into(),
+            Column::Parts => stats.parts.into(),
+            Column::EnergyPerCycle => self.figure(|figures| Some(figures.energy)),
+            Column::ForceRatio => self.figure(|figures| figures.force_ratio),
+            Column::SlipRatio => self.figure(|figures| figures.slip_ratio),
+            Column::SlidingRatio => self.figure(|figures| figures.sliding_ratio),
+            Column::EnergyRatio => self.figure(|figures| figures.energy_ratio),
+            Column::EnergyRatioB => self.figure(|figures| figures.energy_ratio_b),
+            Column::Regime => self.figures().map(|figures| figures.regime.name()).into(),
+            Column::WearPerEnergy => moment.wear_per_energy().into(),
+            Column::RigDisplacement => moment.rig_displacement.into(),
+            Column::ScarDepth => largest(simulation.worn_depth()).into(),
+            Column::ScarRadius => scar_radius(simulation).into(),
+            Column::ForceAmplitude => self.figure(|figures| Some(figures.force_amplitude)),
+            Column::ShiftAmplitude => self.figure(|figures| Some(figures.displacement_amplitude)),
+            Column::MeanNormalForce => self.figure(|figures| Some(figures.normal_force)),
+            Column::Swt => self.swt(|peak| peak.value).into(),
+            Column::SwtX => self.swt(|peak| peak.x).into(),
+            Column::SwtZ => self.swt(|peak| peak.z).into(),
+            Column::SwtRatio => {
+                let limit = scenario.fatigue_limit();
+                let ratio = limit.and_then(|limit| Some(self.swt(|peak| peak.value)? / limit));
+                ratio.into()
+            }
+            Column::Crossland => self.crossland(|peak| peak.value).into(),
+            Column::CrosslandX => self.crossland(|peak| peak.x).into(),
+            Column::CrosslandZ => self.crossland(|peak| peak.z).into(),
+            Column::CrosslandRatio => {
+                let limits = self.limits();
+                let ratio =
+                    limits.and_then(|both| Some(self.crossland(|peak| peak.value)? / both.shear));
+                ratio.into()
+            }
+            stated => self.stated(stated).into(),
+        }
     }
 
     /// The same as a number; NaN where it is none at this moment.
-    pub fn number(&self, name: &str) -> f64 {
-        self.value(name).as_f64().unwrap_or(f64::NAN)
+    pub fn number(&self, scalar: Column) -> f64 {
+        self.value(scalar).as_f64().unwrap_or(f64::NAN)
     }
 
-    /// p(r), Pa: one transform the first time.
+    /// Returns p(r), Pa; computed once, by one transform.
     fn pressure(&self) -> &[f64] {
         self.pressure
             .get_or_init(|| self.session.simulation().pressure())
     }
 
-    /// A figure of the last complete period; after a jump, a period is stepped for it.
+    /// Returns a figure of the last complete period; after a jump, a period is stepped for it.
     fn figure(&self, of: fn(&CycleFigures) -> Option<f64>) -> Value {
         self.figures().as_ref().and_then(of).into()
     }
@@ -96,7 +151,7 @@ impl<'a> Reading<'a> {
         self.figures.get_or_init(|| self.session.cycle_figures())
     }
 
-    /// The loads of a steady cycle, which is stepped the first time.
+    /// Returns the loads of a steady-state cycle, which is stepped once.
     fn stresses(&self) -> Option<&StressCycle> {
         let simulation = self.session.simulation();
         let stresses = self.stresses.get_or_init(|| StressCycle::of(simulation));
@@ -107,17 +162,17 @@ impl<'a> Reading<'a> {
         let scenario = self.session.scenario();
         Some(Limits {
             tension: scenario.fatigue_limit()?,
-            shear: schema::read(&scenario.table, "material.shear_fatigue_limit")?,
+            shear: scenario.spec().material.shear_fatigue_limit?,
         })
     }
 
-    /// Where the Smith–Watson–Topper parameter is largest.
+    /// Finds where the Smith–Watson–Topper parameter is largest.
     fn swt(&self, of: fn(&Peak) -> f64) -> Option<f64> {
         let find = || Some(self.stresses()?.largest(|at| at.swt));
         self.swt.get_or_init(find).as_ref().map(of)
     }
 
-    /// Where Crossland's parameter is largest.
+    /// Finds where Crossland's parameter is largest.
     fn crossland(&self, of: fn(&Peak) -> f64) -> Option<f64> {
         let find = || {
             let limits = self.limits()?;
@@ -127,38 +182,17 @@ impl<'a> Reading<'a> {
     }
 
     /// The estimated error that the headers of the run's files state.
-    fn stated(&self, quantity: Quantity) -> Value {
+    fn stated(&self, error: Column) -> Option<f64> {
         let mut stated = self.session.statements().iter();
-        let found = stated.find(|(known, _)| known == quantity.column());
-        let number = found.and_then(|(_, value)| value.parse::<f64>().ok());
-        number.into()
-    }
-
-    fn worn(&self) -> &[f64] {
-        self.session.simulation().worn_depth()
+        let (_, value) = stated.find(|(known, _)| known == error.name())?;
+        value.parse().ok()
     }
 }
 
-/// A scalar that columns can name.
-#[derive(Debug, Clone, Copy)]
-pub struct Scalar {
-    /// The name of the column; ends with the unit, if there is one.
-    pub name: &'static str,
-    /// What it is, in one line.
-    pub meaning: &'static str,
-    read: fn(&Reading) -> Value,
-}
-
-impl Scalar {
-    /// Returns its value.
-    pub fn read(&self, reading: &Reading) -> Value {
-        (self.read)(reading)
-    }
-}
-
-/// Finds a scalar by its name.
-pub fn find(name: &str) -> Option<&'static Scalar> {
-    SCALARS.iter().find(|scalar| scalar.name == name)
+/// The columns that are scalars; those of `history.csv` stand first, in their order.
+pub fn all() -> impl Iterator<Item = Column> + Clone {
+    let history = Column::HISTORY.into_iter();
+    history.chain(Column::FURTHER).chain(Column::ERRORS)
 }
 
 /// Finds a scalar by its name.
@@ -166,91 +200,11 @@ pub fn find(name: &str) -> Option<&'static Scalar> {
 /// # Errors
 ///
 /// In one line, the unknown name with the nearest known one.
-pub fn named(name: &str) -> Result<&'static Scalar, String> {
-    find(name).ok_or_else(|| {
-        let hint = nearest::hint(name, SCALARS.iter().map(|scalar| scalar.name));
+pub fn named(name: &str) -> Result<Column, String> {
+    all().find(|scalar| scalar.name() == name).ok_or_else(|| {
+        let hint = nearest::hint(name, all().map(Column::name));
         format!("unknown column {}; {hint}", printable(name))
     })
-}
-
-/// Makes the list of all scalars, and of the names of those in every history.
-macro_rules! scalars {
-    (history { $($column:literal, $of:literal, |$row:ident| $value:expr;)* }
-     further { $($name:literal, $meaning:literal, |$r:ident| $read:expr;)* }
-     stated { $($quantity:ident),* }) => {
-        /// All scalars; those of `history.csv` stand first, in the order of its columns.
-        pub const SCALARS: &[Scalar] = &[
-            $(Scalar { name: $column, meaning: $of, read: |$row| Value::from($value) },)*
-            $(Scalar { name: $name, meaning: $meaning, read: |$r| Value::from($read) },)*
-            $(Scalar {
-                name: Quantity::$quantity.column(),
-                meaning: Quantity::$quantity.meaning(),
-                read: |r| r.stated(Quantity::$quantity),
-            },)*
-        ];
-
-        /// The columns of `history.csv`, in order.
-        pub const HISTORY: [&str; [$($column),*].len()] = [$($column),*];
-    };
-}
-
-scalars! {
-    history {
-        "cycle", "cycles since the start", |r| r.moment.cycle;
-        "time_s", "time", |r| r.moment.time;
-        "u_z_m", "indentation depth d", |r| r.moment.depth;
-        "u_x_m", "tangential displacement", |r| r.moment.shift;
-        "F_z_N", "normal force", |r| r.moment.normal_force;
-        "F_x_N", "tangential force", |r| r.moment.tangential_force;
-        "contact_radius_m", "contact radius a", |r| r.moment.contact_radius;
-        "stick_radius_m", "stick radius c at this moment", |r| r.moment.stick_radius;
-        "permanent_stick_radius_m", "smallest stick radius of the last period", |r| r.moment.permanent_stick_radius;
-        "wear_volume_m3", "worn volume V", |r| r.moment.wear_volume;
-        "dissipated_energy_J", "friction work E_d", |r| r.moment.dissipated_energy;
-        "energy_residual", "1 - V/(k E_d)", |r| r.moment.energy_residual;
-        "max_pressure_Pa", "largest pressure", |r| largest(r.pressure());
-        "period_energy_residual", "1 - V/(k E_d) of the last period", |r| r.session.log().period_residual();
-        "force_residual", "1 - (integral of p)/F_z",
-            |r| r.session.simulation().force_residual(r.pressure());
-        "steps", "steps taken", |r| r.session.simulation().steps();
-        "transforms", "transforms computed", |r| r.session.simulation().stats().transforms;
-        "evaluated_cycles", "cycles stepped in full for jumps", |r| r.session.simulation().stats().evaluated_cycles;
-        "rejected_jumps", "jumps rejected for their error", |r| r.session.simulation().stats().rejected_jumps;
-        "stability_margin", "largest stable stiffness divided by the stiffness of the last step",
-            |r| r.moment.stability_margin;
-        "parts", "sub-steps of stiff steps", |r| r.session.simulation().stats().parts;
-        "energy_per_cycle_J", "friction work of a cycle", |r| r.figure(|figures| Some(figures.energy));
-        "force_ratio", "Q*/(mu P)", |r| r.figure(|figures| figures.force_ratio);
-        "slip_ratio", "1 - Q*/(2 G* a U)", |r| r.figure(|figures| figures.slip_ratio);
-        "sliding_ratio", "D = delta_0/U", |r| r.figure(|figures| figures.sliding_ratio);
-        "energy_ratio", "A = E_d/(4 Q* U)", |r| r.figure(|figures| figures.energy_ratio);
-        "energy_ratio_B", "B = E_d/(4 Q* delta_0)", |r| r.figure(|figures| figures.energy_ratio_b);
-        "regime", "stick, partial, gross or open",
-            |r| r.figures().map(|figures| figures.regime.name());
-        "wear_per_energy_m3_per_J", "V/E_d", |r| r.moment.wear_per_energy();
-        "rig_displacement_m", "displacement of the rig's actuator", |r| r.moment.rig_displacement;
-        "scar_depth_m", "largest worn depth", |r| largest(r.worn());
-        "scar_radius_m", "outer radius of the wear scar", |r| scar_radius(r.session.simulation());
-    }
-    further {
-        "F_x_amplitude_N", "half the range of F_x in a cycle", |r| r.figure(|figures| Some(figures.force_amplitude));
-        "u_x_amplitude_m", "half the range of u_x in a cycle",
-            |r| r.figure(|figures| Some(figures.displacement_amplitude));
-        "mean_F_z_N", "mean normal force of a cycle", |r| r.figure(|figures| Some(figures.normal_force));
-        "swt_Pa", "largest Smith-Watson-Topper stress", |r| r.swt(|peak| peak.value);
-        "swt_x_m", "place of the largest SWT along the motion", |r| r.swt(|peak| peak.x);
-        "swt_z_m", "depth of the largest SWT", |r| r.swt(|peak| peak.z);
-        "swt_ratio", "SWT over the fatigue limit",
-            |r| r.session.scenario().fatigue_limit().and_then(|limit| Some(r.swt(|peak| peak.value)? / limit));
-        "crossland_Pa", "largest Crossland stress", |r| r.crossland(|peak| peak.value);
-        "crossland_x_m", "place of the largest Crossland stress along the motion", |r| r.crossland(|peak| peak.x);
-        "crossland_z_m", "depth of the largest Crossland stress", |r| r.crossland(|peak| peak.z);
-        "crossland_ratio", "Crossland over the shear fatigue limit",
-            |r| r.limits().and_then(|both| Some(r.crossland(|peak| peak.value)? / both.shear));
-    }
-    stated {
-        WornDepth, Deepest, Volume, Energy, Force, Loop, Pressure, ContactRadius, StickRadius
-    }
 }
 
 /// The outermost radius (m) at which the worn depth is at least a thousandth of the largest one.
@@ -262,21 +216,7 @@ pub fn scar_radius(simulation: &Simulation) -> Option<f64> {
     let Some(next) = nodes.get(outermost + 1) else {
         return Some(nodes[outermost]);
     };
-    // Between this node and the next the depth falls through the edge.
+    // Interpolates: the depth crosses the threshold between this node and the next.
     let share = (worn[outermost] - edge) / (worn[outermost] - worn[outermost + 1]);
     Some(nodes[outermost] + share * (next - nodes[outermost]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_scalar_stands_once_and_says_what_it_is() {
-        for (at, scalar) in SCALARS.iter().enumerate() {
-            assert!(!scalar.meaning.is_empty(), "{}", scalar.name);
-            let first = SCALARS.iter().position(|other| other.name == scalar.name);
-            assert_eq!(first, Some(at), "{} twice", scalar.name);
-        }
-    }
 }

@@ -1,6 +1,6 @@
-//! The description of a scenario key, and the look-up of keys.
+//! Describes the keys of a scenario, and looks them up.
 //!
-//! `keys.toml` describes each key once. That table feeds the reader, the errors and their hints, `--set`, the form of
+//! `keys.toml` describes each key once. That table serves the reader, the errors and their hints, `--set`, the form of
 //! the explorer, completion, written scenarios, the axes of figures and the documentation.
 
 use std::str::FromStr;
@@ -18,47 +18,46 @@ use crate::math::abel::AbelMethod;
 #[derive(Debug, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Parameter {
-    /// The dotted path, as `--set` takes it.
+    /// The dotted path, as for `--set`.
     pub path: &'static str,
-    /// The unit, or nothing for a pure number or a word.
+    /// The unit; empty for a pure number or a word.
     pub unit: &'static str,
-    /// What it means, in one line.
+    /// Its meaning, in one line.
     pub meaning: &'static str,
-    /// Its name on an axis of a figure, where its meaning is too long for one.
+    /// Its name on an axis of a figure, if its meaning is too long.
     pub label: Option<&'static str>,
-    /// What a greater value, or another word, does to the contact; empty where it cannot change
-    /// during a run.
+    /// The effect of a greater value, or of another word, on the contact; empty if it cannot change during a run.
     pub effect: &'static str,
-    /// Why it cannot change during a run; `None` where it can.
+    /// Why it cannot change during a run; `None` if it can.
     pub fixed: Option<&'static str>,
-    /// What its value looks like.
+    /// The kind of its value.
     pub kind: Kind,
-    /// The numbers that are allowed.
+    /// The allowed numbers.
     pub range: Range,
-    /// How many entries a list may have; `None`: any number.
+    /// Maximum number of entries of a list; `None` for any number.
     pub(super) most: Option<usize>,
-    /// What holds where it is not given.
+    /// Its default.
     pub default: Default,
-    /// The indenter shapes that take the key; empty where the shape does not matter.
+    /// The indenter shapes that take the key; empty for all shapes.
     pub shapes: Vec<&'static str>,
     /// A textbook's letter or another program's words for it.
     pub(super) also: Vec<&'static str>,
-    /// What stands behind its name where it is meant by one of these.
+    /// Remark after its name in a hint, if one of these words was given.
     pub(super) remark: &'static str,
 }
 
 impl Parameter {
-    /// The table the key stands in: everything before the last dot.
+    /// Returns the table that contains the key: everything before the last dot.
     pub fn section(&self) -> &'static str {
         split(self.path).0
     }
 
-    /// The key within its table: everything after the last dot.
+    /// Returns the key within its table: everything after the last dot.
     pub fn key(&self) -> &'static str {
         split(self.path).1
     }
 
-    /// What it means, with the unit.
+    /// Returns its meaning, with the unit.
     pub fn described(&self) -> String {
         match (self.kind, self.unit) {
             (Kind::Choice(_), _) => format!("{}, {}", self.meaning, self.kind.wanted()),
@@ -72,7 +71,7 @@ impl Parameter {
         self.shapes.is_empty() || self.shapes.contains(&shape)
     }
 
-    /// What `word` means as its value; `None` for words that it does not take.
+    /// Returns the meaning of `word` as its value; `None` for words that it does not accept.
     pub fn meaning_of(&self, word: &str) -> Option<&'static str> {
         let Kind::Choice(words) = self.kind else {
             return None;
@@ -84,7 +83,7 @@ impl Parameter {
         Some(known.meaning)
     }
 
-    /// Some value that is allowed, to see what else a scenario lacks; `None` for texts and lists.
+    /// Returns some allowed value, to find what else a scenario lacks; `None` for texts and lists.
     pub(super) fn any_value(&self) -> Option<Value> {
         let number = match self.range {
             Range::Within(least, most) => 1f64.clamp(least, most),
@@ -100,7 +99,7 @@ impl Parameter {
         }
     }
 
-    /// The range, to follow the name of the kind; empty where every number is allowed.
+    /// Describes the range, to follow the name of the kind; empty if every number is allowed.
     pub fn allowed(&self) -> String {
         match (self.kind, self.range) {
             (_, Range::Any) => String::new(),
@@ -110,7 +109,7 @@ impl Parameter {
         }
     }
 
-    /// Whether every number in `value`, which is of the right kind, is allowed.
+    /// Whether every number in `value`, which has the right kind, is allowed.
     pub(super) fn allows(&self, value: &Value) -> bool {
         let within = |value: &Value| number(value).is_none_or(|number| self.range.holds(number));
         match value {
@@ -120,20 +119,20 @@ impl Parameter {
     }
 }
 
-/// Keys that exclude each other: each of the first, each of the others.
+/// Keys that exclude each other: each of the first excludes each of the others.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Exclusive {
     pub keys: Vec<&'static str>,
     pub others: Vec<&'static str>,
-    /// What one of the keys conflicts with, `{}` for the one of the others, and what would be right.
+    /// Completes "conflicts with"; `{}` stands for the other key.
     pub rule: &'static str,
-    /// Whether they stand for the same thing, so that an assignment to one takes the place of the others.
+    /// Whether they have the same meaning, so that assigning one replaces the others.
     #[serde(default, rename = "twins")]
     pub are_twins: bool,
 }
 
-/// Keys whose assignment makes another one stale, which is dropped.
+/// Keys whose assignment makes another key stale, which is then dropped.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Stale {
@@ -141,10 +140,10 @@ pub(super) struct Stale {
     pub dropped: &'static str,
 }
 
-/// A list of numbers in a scenario, and the name of the column that it is read from.
+/// A list of numbers in a scenario, and the name of its column in a file.
 type List = (&'static str, &'static str);
 
-/// A key that names a file, and its two columns; of those that may stand for each, the first that the file has.
+/// A key that names a file, and its two columns. Of alternative names for a column, the first in the file counts.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Embedded {
@@ -152,7 +151,7 @@ pub(super) struct Embedded {
     pub lists: [Vec<List>; 2],
 }
 
-/// What `keys.toml` says.
+/// Contents of `keys.toml`.
 #[derive(Deserialize)]
 #[serde(bound(deserialize = "'de: 'static"))]
 pub(super) struct Schema {
@@ -168,22 +167,22 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
     toml::from_str(include_str!("keys.toml")).expect("the table of keys is whole")
 });
 
-/// All keys, in the order in which a scenario is written.
+/// Iterates over all keys, in the order of written scenarios.
 pub fn parameters() -> impl Iterator<Item = &'static Parameter> + Clone {
     SCHEMA.keys.iter()
 }
 
-/// The description of a key that the program names.
+/// Returns the description of a key that must exist.
 pub(super) fn known(path: &str) -> &'static Parameter {
     find(path).expect("a key of the table")
 }
 
-/// The parameter with this dotted path.
+/// Finds the parameter with this dotted path.
 pub fn find(path: &str) -> Option<&'static Parameter> {
     parameters().find(|parameter| parameter.path == path)
 }
 
-/// Whether `path` is a table that holds parameters, directly or in tables of its own.
+/// Whether `path` is a table that contains parameters, directly or in sub-tables.
 pub(super) fn is_section(path: &str) -> bool {
     parameters().any(|parameter| {
         let rest = parameter.path.strip_prefix(path);
@@ -191,13 +190,13 @@ pub(super) fn is_section(path: &str) -> bool {
     })
 }
 
-/// The value of a key or a whole section in `table` as a `T`, where one of that type is given.
+/// Returns the value of a key or a whole section in `table` as a `T`, if there is one of that type.
 pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
     debug_assert!(find(path).is_some() || is_section(path), "{path} is known");
     at(table, path)?.clone().try_into().ok()
 }
 
-/// What the word of a key in `table` names, where one is given.
+/// Parses the word of a key in `table`, if given.
 pub(super) fn named<T: FromStr>(table: &Table, path: &str) -> Option<T> {
     read::<String>(table, path)?.parse().ok()
 }
@@ -271,7 +270,7 @@ mod tests {
         assert_eq!(cycles, Range::Within(0.0, MOST_CYCLES));
         let snapshots = find("run.snapshot_at").expect("a key").most;
         assert_eq!(snapshots, Some(MOST_SNAPSHOTS));
-        // Both directions of the motion have the same keys, but for the rig and the gauge.
+        // Both directions of the motion have the same keys, except for the rig and the gauge.
         let of = |section: &'static str| {
             let keys = parameters().filter(move |known| known.section() == section);
             keys.filter(|known| !["rig_stiffness", "gauge_length"].contains(&known.key()))

@@ -6,29 +6,30 @@
 use thiserror::Error;
 
 use super::changes::{Change, MOST_CHANGES};
-use super::{Refusal, RunPlan, Scenario};
+use super::spec::Edits;
+use super::{Refusal, RunPlan, Scenario, Spec};
 use crate::reading::{Check, CycleFigures, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
 
 /// Why a session could not start, change or continue.
 #[derive(Debug, Error)]
 pub enum SessionError {
-    /// A value that is refused.
+    /// A refused value.
     #[error(transparent)]
     Scenario(#[from] Refusal),
     /// A contact that cannot continue.
     #[error(transparent)]
     Breakdown(#[from] Breakdown),
-    /// An accuracy for which nothing has been chosen yet.
+    /// An accuracy for which no resolution has been chosen yet.
     #[error(
         "numerics.accuracy = {0:e}: points and steps that meet it must be found before the run; \
          give numerics.points and numerics.steps_per_cycle instead"
     )]
     Unresolved(f64),
-    /// A search for an accuracy in which no level came to its end, and why the last one stopped.
+    /// A search for an accuracy in which no level finished, and why the last one stopped.
     #[error("no refinement level finished; the last one: {0}")]
     Unfinished(String),
-    /// The caller wanted it to stop.
+    /// The caller stopped it.
     #[error("interrupted")]
     Interrupted,
 }
@@ -36,32 +37,31 @@ pub enum SessionError {
 /// A scenario being run.
 #[derive(Debug, Clone)]
 pub struct Session {
-    /// As it was loaded, without the changes.
+    /// As loaded, without the changes.
     pub(super) loaded: Scenario,
-    /// As it is now, with the changes made so far.
+    /// As it is now, with the changes so far.
     pub(super) scenario: Scenario,
     pub(super) simulation: Simulation,
-    /// What is noted of it.
+    /// Notes on the run.
     pub(super) log: Log,
     pub(super) changes: Vec<Change>,
     pub(super) pending: Vec<Change>,
-    /// What steps were cut short for so far, in cycles.
+    /// Cycles at which steps were cut short so far.
     pub(super) goals: Vec<f64>,
-    /// The run before the changes of the present cycle, which are made together: each further one is made again with
-    /// those before it, from there.
+    /// The run before the changes of the current cycle, which are made together: each further change restarts from
+    /// there, with the earlier ones.
     pub(super) unchanged: Option<Box<Self>>,
     /// Statements for the file headers, such as the estimated error.
     pub(super) statements: Vec<(String, String)>,
 }
 
 impl Session {
-    /// Starts `scenario` from the unworn contact, or from its scar. Changes it has recorded are made again when their
-    /// cycle comes.
+    /// Starts `scenario` from the unworn contact, or from its scar. Recorded changes are made again at their cycles.
     ///
     /// # Errors
     ///
-    /// A contact that cannot be made, or a `numerics.accuracy` for which no points and steps have been found yet:
-    /// see [`refinement`](crate::studies::refinement).
+    /// If the contact cannot be made, or if no points and steps have been found yet for `numerics.accuracy`: see
+    /// [`refinement`](crate::studies::refinement).
     pub fn start(scenario: Scenario) -> Result<Self, SessionError> {
         if let Some(accuracy) = scenario.accuracy() {
             return Err(SessionError::Unresolved(accuracy));
@@ -82,12 +82,12 @@ impl Session {
         Ok(session)
     }
 
-    /// The scenario as it is now, changes included.
+    /// Returns the current scenario, including changes.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
     }
 
-    /// The scenario as it was loaded, ready to start again.
+    /// Returns the scenario as loaded, ready to start again.
     pub fn loaded(&self) -> &Scenario {
         &self.loaded
     }
@@ -97,36 +97,38 @@ impl Session {
         &self.simulation
     }
 
-    /// What is noted of the run.
+    /// Returns the notes on the run.
     pub fn log(&self) -> &Log {
         &self.log
     }
 
-    /// The [figures](Log::cycle_figures) of the last complete period of the motion.
+    /// Returns the [figures](Log::cycle_figures) of the last complete period of the motion.
     pub fn cycle_figures(&self) -> Option<CycleFigures> {
         self.log.cycle_figures(&self.simulation)
     }
 
-    /// Every certificate that the present moment has.
+    /// Returns all checks available at the present moment.
     pub fn checks(&self) -> Vec<Check> {
         self.simulation.checks(&self.log)
     }
 
-    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees.
+    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees, and for what was left out of its
+    /// files.
     pub fn warnings(&self) -> Vec<String> {
-        self.simulation.warnings(&self.log)
+        let notes = self.loaded.notes().iter().cloned();
+        notes.chain(self.simulation.warnings(&self.log)).collect()
     }
 
-    /// The changes made so far, in order.
+    /// Returns the changes made so far, in order.
     pub fn changes(&self) -> &[Change] {
         &self.changes
     }
 
-    /// One step or jump that ends at `cycle` at the latest, and where the next recorded change is to be
-    /// made; then the changes that are due.
+    /// Takes one step or jump, which ends at `cycle` or the next recorded change at the latest; then makes the changes
+    /// that are due.
     pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {
         let change = self.pending.first().map(|change| change.at_cycle);
-        // A scenario that records a run says where its steps were cut short.
+        // A scenario that records a run tells where its steps were cut short.
         let now = self.simulation.cycle();
         let recorded = self.loaded.run().shortened_at.iter().copied();
         let stops = recorded.filter(|&stop| stop > now).chain(change);
@@ -144,8 +146,8 @@ impl Session {
         self.make_due_changes()
     }
 
-    /// Where a run that ends at the cycle `end` is headed. That is further on for a scenario that
-    /// records a run which was stopped on its way there: its jumps were made with that goal.
+    /// Returns the goal of the steps in a run that ends at the cycle `end`. It lies further on if the scenario records
+    /// a run that was stopped on its way there, since its jumps were made with that goal.
     pub fn heading(&self, end: f64) -> f64 {
         let plan = self.loaded.run();
         let beyond = plan.shortened_at.iter().copied().filter(|&goal| goal > end);
@@ -160,12 +162,11 @@ impl Session {
         self.advance_while(cycle, |_| true)
     }
 
-    /// [`advance_to`](Self::advance_to) as long as `go_on`, which sees the session where it stands and after each step,
-    /// says so.
+    /// Runs [`advance_to`](Self::advance_to) while `go_on`, called before each step and at the end, returns true.
     ///
     /// # Errors
     ///
-    /// [`SessionError::Interrupted`] if it said no before `cycle`, and whatever stops the run.
+    /// [`SessionError::Interrupted`] if it returned false before `cycle`, or the error that stops the run.
     pub fn advance_while(
         &mut self,
         cycle: f64,
@@ -174,11 +175,11 @@ impl Session {
         self.advance_towards(cycle, cycle, go_on)
     }
 
-    /// [`advance_while`](Self::advance_while) by steps and jumps that are headed for `goal`, at `cycle` or beyond it.
+    /// Runs [`advance_while`](Self::advance_while) with steps and jumps towards `goal`, at `cycle` or beyond it.
     ///
     /// # Errors
     ///
-    /// As there.
+    /// As for [`advance_while`](Self::advance_while).
     pub fn advance_towards(
         &mut self,
         goal: f64,
@@ -197,18 +198,31 @@ impl Session {
         }
     }
 
+    /// Changes parts of the scenario now, carrying the state over; what differs is recorded, and returned.
+    ///
+    /// # Errors
+    ///
+    /// As [`change_all`](Self::change_all).
+    pub fn edit(&mut self, edit: impl FnOnce(&mut Spec)) -> Result<Edits, SessionError> {
+        let before = self.scenario.spec();
+        let mut after = before.clone();
+        edit(&mut after);
+        let edits = before.changes_to(&after);
+        self.change_all(&edits)?;
+        Ok(edits)
+    }
+
     /// Changes one key of the scenario now, carrying the state over, and records it.
     /// On an error nothing has changed.
     pub fn change(&mut self, key: &str, value: &str) -> Result<(), SessionError> {
         self.change_all(&[(key, value)])
     }
 
-    /// Changes several keys of the scenario at once, such as a control and the force that it is to hold.
+    /// Changes several keys of the scenario at once, such as a control and its force.
     ///
     /// # Errors
     ///
-    /// A value that is refused, a contact that cannot be held, or wear that would be lost; then nothing
-    /// has changed.
+    /// If a value is refused, the contact cannot be solved, or wear would be lost; nothing has changed then.
     pub fn change_all(
         &mut self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
@@ -218,7 +232,7 @@ impl Session {
         self.make(changes.map(|(key, value)| Change::new(cycle, key.as_ref(), value.as_ref())))
     }
 
-    /// Makes changes together with those that were made at this cycle already.
+    /// Makes changes together with those already made at this cycle.
     fn make(&mut self, changes: impl Iterator<Item = Change>) -> Result<(), SessionError> {
         let mut before = self.unchanged().unwrap_or(self).clone();
         before.unchanged = None;
@@ -230,7 +244,7 @@ impl Session {
         }
         let scenario = before.scenario.after(&made[before.changes.len()..])?;
         let mut simulation = before.simulation.clone();
-        // A domain that nobody changes may have grown.
+        // If no key changes the domain, it may have grown.
         let radius = |scenario: &Scenario| scenario.setup().grid.radius();
         let domain = match radius(&scenario) == radius(&before.scenario) {
             true => Domain::Derived,
@@ -246,34 +260,34 @@ impl Session {
         Ok(())
     }
 
-    /// The run before the changes of the present cycle, if there are any.
+    /// Returns the run before the changes of the current cycle, if there are any.
     pub(super) fn unchanged(&self) -> Option<&Self> {
         let before = self.unchanged.as_deref()?;
         (before.simulation.cycle() == self.simulation.cycle()).then_some(before)
     }
 
-    /// Notes statements, keys and values, that the files of this run carry in their headers, as `# key: value`; one
-    /// of the same key is replaced.
+    /// Adds statements, keys and values, for the headers of this run's files, as `# key: value`; replaces those with
+    /// the same key.
     pub fn state(&mut self, statements: Vec<(String, String)>) {
         let is_new = |key: &String| statements.iter().all(|(new, _)| new != key);
         self.statements.retain(|(known, _)| is_new(known));
         self.statements.extend(statements);
     }
 
-    /// The statements that files carry, in order.
+    /// Returns the statements in file headers, in order.
     pub fn statements(&self) -> &[(String, String)] {
         &self.statements
     }
 
-    /// The same run with a remark that its files carry.
+    /// Returns the same run with a remark for its files.
     #[must_use]
     pub fn noted(&self, note: &str) -> Self {
         let mut noted = self.clone();
-        noted.loaded.run.note = Some(note.to_owned());
+        noted.loaded.spec.run.note = Some(note.to_owned());
         noted
     }
 
-    /// The run so far as a scenario of its own: what was loaded, each change, and where it stands.
+    /// Returns the run so far as a scenario: as loaded, with each change, up to the present cycle.
     pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
         let end = self.simulation.cycle();
         // The end of the run cuts a step short anyway.
@@ -291,8 +305,8 @@ impl Session {
             .stating(&self.statements)
     }
 
-    /// Makes the recorded changes whose cycle has come. Those of one cycle are made together: a force and
-    /// the control that it belongs to are wrong one after the other.
+    /// Makes the recorded changes whose cycle has come. Changes of one cycle are made together: a force and its control
+    /// would be wrong one after the other.
     fn make_due_changes(&mut self) -> Result<(), SessionError> {
         let now = self.simulation.cycle();
         let pending = self.pending.iter();

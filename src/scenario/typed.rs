@@ -1,11 +1,11 @@
-//! Reads a TOML text into a struct, and says in one line what is wrong in which of its lines.
+//! Reads a TOML text into a struct; its errors say in one line what is wrong in which line.
 
 use serde::de::DeserializeOwned;
 
 use super::escape::printable;
 use super::{nearest, values};
 
-/// serde's words for the types that it expected, and a user's.
+/// serde's words for the types it expected, and a user's words.
 const WORDS: [(&str, &str); 6] = [
     ("a sequence", "a list"),
     ("a map", "a table"),
@@ -19,7 +19,7 @@ const WORDS: [(&str, &str); 6] = [
 ///
 /// # Errors
 ///
-/// One line, without the file: what is no TOML, an unknown key with the nearest known one, a value of the
+/// In one line, without the file's name: invalid TOML, an unknown key with the nearest known one, or a value of the
 /// wrong type.
 pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     values::parse(text).map_err(|error| {

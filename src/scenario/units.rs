@@ -1,16 +1,16 @@
 //! Numbers with units, as people write them: `radius = "10 mm"`, `phase = "45°"`.
 //!
-//! A text is a number and a unit made of known ones by `·`, `*`, `/`, powers and parentheses, with SI
-//! prefixes: `230.8 GPa`, `0.13 mm³/J`, `1.3e8 um^3/J`. It is taken where its dimension is that
-//! of the key. Powers of ten are put into the exponent of the number before it is read, so that
-//! `"10 mm"` is the same float as `0.01`. One hertz is 2π rad/s.
+//! A text is a number and a unit, which combines known units by `·`, `*`, `/`, powers and parentheses, with SI
+//! prefixes: `230.8 GPa`, `0.13 mm³/J`, `1.3e8 um^3/J`. It is accepted if its dimension is that of the key. Powers of
+//! ten go into the exponent of the number before it is parsed, so that `"10 mm"` is the same float as `0.01`. One hertz
+//! is 2π rad/s.
 
 use std::f64::consts::{PI, TAU};
 
 use super::escape::echo;
 use super::schema::{Kind, Parameter};
 
-/// A product of units: powers of metre, kilogram, second, radian and ten, and what else it is worth in SI units.
+/// A product of units: powers of metre, kilogram, second, radian and ten, and the remaining factor to SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Unit {
     powers: [i32; 5],
@@ -45,7 +45,7 @@ const UNITS: &[(&str, Unit, bool)] = &[
     ("W", unit([2, 1, -3, 0, 0], 1.0), true),
 ];
 
-/// The prefixes that numbers are shown with, smallest first: symbol, power of ten, and what it is worth.
+/// Prefixes for displayed numbers, smallest first: symbol, power of ten, and factor.
 pub const SHOWN_PREFIXES: [(&str, i32, f64); 8] = [
     ("p", -12, 1e-12),
     ("n", -9, 1e-9),
@@ -57,7 +57,7 @@ pub const SHOWN_PREFIXES: [(&str, i32, f64); 8] = [
     ("G", 9, 1e9),
 ];
 
-/// Prefixes that are read as well.
+/// Further prefixes that are read.
 const OTHER_PREFIXES: [(&str, i32); 2] = [("u", -6), ("c", -2)];
 
 impl Unit {
@@ -74,8 +74,8 @@ impl Unit {
         })
     }
 
-    /// [`named`](Self::named), or newtons and a length without a sign between them, as pin tests tell
-    /// their wear: `mm³/Nm`.
+    /// As [`named`](Self::named), but also accepts newtons and a length without a sign between them, as pin tests
+    /// report their wear: `mm³/Nm`.
     fn named_or_moment(symbol: &str) -> Option<Self> {
         Self::named(symbol).or_else(|| {
             let length = Self::named(symbol.strip_prefix('N')?)?;
@@ -84,7 +84,7 @@ impl Unit {
         })
     }
 
-    /// Whether it is of the same kind, whatever it is worth.
+    /// Whether it has the same dimension, whatever its factor.
     fn is_like(self, other: Self) -> bool {
         self.powers[..4] == other.powers[..4]
     }
@@ -98,14 +98,14 @@ impl Unit {
         unit(powers, self.factor * other.factor)
     }
 
-    /// `mantissa`·10^`exponent` of it in an `own` unit. The power of ten goes into the text that is read as a number.
+    /// Returns `mantissa`·10^`exponent` of it in an `own` unit. The power of ten goes into the text that is parsed.
     fn worth(self, mantissa: &str, exponent: i32, own: Self) -> Option<f64> {
         let power = exponent + self.powers[4] - own.powers[4];
         let value: f64 = format!("{mantissa}e{power}").parse().ok()?;
         Some(value * (self.factor / own.factor))
     }
 
-    /// Reads a whole unit; `None` if it is not one.
+    /// Parses a whole unit; `None` if it is not one.
     fn read(text: &str) -> Option<Self> {
         let text: String = text.trim().chars().map(one_spelling).collect();
         let mut rest = text.as_str();
@@ -114,7 +114,7 @@ impl Unit {
     }
 }
 
-/// The one of several characters for the same that the parser knows.
+/// Maps characters with the same meaning to the one that the parser knows.
 fn one_spelling(c: char) -> char {
     const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     match c {
@@ -128,7 +128,7 @@ fn one_spelling(c: char) -> char {
     }
 }
 
-/// Factors up to the end or to a closing parenthesis; `/` holds for the next factor alone.
+/// Parses factors up to the end or a closing parenthesis; `/` applies to the next factor only.
 fn product(rest: &mut &str) -> Option<Unit> {
     let mut unit = factor(rest)?;
     loop {
@@ -167,7 +167,7 @@ fn factor(rest: &mut &str) -> Option<Unit> {
     Some(unit.power(power(rest)?))
 }
 
-/// The power behind a symbol: `^3`, `3`, `^-1`; 1 where there is none.
+/// Parses the power after a symbol: `^3`, `3`, `^-1`; 1 if there is none.
 fn power(rest: &mut &str) -> Option<i32> {
     let plain = rest.strip_prefix('^').unwrap_or(rest);
     let end = plain.find(|c: char| !(c.is_ascii_digit() || c == '-'));
@@ -179,7 +179,7 @@ fn power(rest: &mut &str) -> Option<i32> {
     digits.parse().ok().filter(|power: &i32| power.abs() <= 9)
 }
 
-/// The number at the beginning of a text, as mantissa and exponent, and what follows it.
+/// Splits the number at the start of a text into mantissa and exponent, and returns the rest.
 fn number(text: &str) -> Option<(&str, i32, &str)> {
     let is_of_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let end = text.find(|c| !is_of_number(c)).unwrap_or(text.len());
@@ -189,10 +189,10 @@ fn number(text: &str) -> Option<(&str, i32, &str)> {
     Some((mantissa, exponent.parse().ok()?, rest))
 }
 
-/// The number that `text` stands for in `unit`; `None` if the text is no number with a unit.
+/// Returns the value of `text` in `unit`; `None` if the text is not a number with a unit.
 ///
 /// # Errors
-/// The rule that a unit of another dimension, or an unknown one, breaks.
+/// If the unit is unknown or of another dimension: the rule that it breaks.
 pub fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     let text = text.trim();
     if let Some(pointed) = with_decimal_point(text) {
@@ -221,13 +221,13 @@ pub fn in_unit(text: &str, unit: &str) -> Option<Result<f64, String>> {
     found.worth(mantissa, exponent, due).map(Ok)
 }
 
-/// What one `unit` is worth in `own`; `None` if they are not units of one kind.
+/// Returns the value of one `unit` in `own`; `None` if their dimensions differ.
 pub(super) fn ratio(unit: &str, own: &str) -> Option<f64> {
     let (unit, own) = (Unit::read(unit)?, Unit::read(own)?);
     unit.worth("1", 0, own).filter(|_| unit.is_like(own))
 }
 
-/// The text with a point for the decimal comma of its number; `None` where it has none.
+/// Returns the text with a point instead of the decimal comma of its number; `None` if it has no comma.
 pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     let (whole, fraction) = text.split_once(',')?;
     let digits = whole.strip_prefix(['+', '-']).unwrap_or(whole);
@@ -236,7 +236,7 @@ pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     (is_number && goes_on && !fraction.contains(',')).then(|| format!("{whole}.{fraction}"))
 }
 
-/// The units of keys: how a value may be written, and the unit that it is shown in where no prefix does.
+/// Units of keys: an example of a value, and the unit for display if prefixes do not suit.
 const USUAL: [(&str, &str, Option<&str>); 8] = [
     ("m", "\"10 mm\"", None),
     ("N", "\"5 mN\"", None),
@@ -249,23 +249,23 @@ const USUAL: [(&str, &str, Option<&str>); 8] = [
     ("m/s", "\"10 um/s\"", None),
 ];
 
-/// How a value of a unit may be written.
+/// Returns an example of a value in a unit.
 fn example(unit: &str) -> &'static str {
     let known = USUAL.iter().find(|(known, ..)| *known == unit);
     known.map_or("\"10 mm\" for a length", |(_, example, _)| example)
 }
 
-/// The unit that values of `unit` are shown in instead of it, and what one of that is worth; `None` where prefixes do.
+/// Returns the unit in which values of `unit` are displayed instead, and its factor; `None` if prefixes suit.
 pub fn shown_in(unit: &str) -> Option<(&'static str, f64)> {
     let (.., shown) = USUAL.iter().find(|(known, ..)| *known == unit)?;
     let shown = (*shown)?;
     Some((shown, ratio(shown, unit)?))
 }
 
-/// The unit of what a motion prescribes.
+/// Unit of a prescribed motion.
 pub(super) const PRESCRIBED: &str = "m, or N if control = \"force\"";
 
-/// The rule for a force where a motion prescribes a displacement, and the other way round; `None` for other texts.
+/// Returns the rule for a force where a motion prescribes a displacement, and vice versa; `None` for other texts.
 pub(super) fn of_other_control(text: &str, known: &Parameter) -> Option<&'static str> {
     let is_of = |unit| matches!(in_unit(text, unit), Some(Ok(_)));
     match known.unit {
@@ -277,7 +277,7 @@ pub(super) fn of_other_control(text: &str, known: &Parameter) -> Option<&'static
     }
 }
 
-/// The unit of a key, in a motion that prescribes a force or a displacement.
+/// Returns the unit of a key, in a motion that prescribes a force or a displacement.
 pub fn unit_of(known: &Parameter, is_force: bool) -> &'static str {
     match known.unit {
         unit if unit != PRESCRIBED => unit,
@@ -286,10 +286,10 @@ pub fn unit_of(known: &Parameter, is_force: bool) -> &'static str {
     }
 }
 
-/// The number that a text such as `5 um` stands for as a value of the key; `None` if it is no number with a unit.
+/// Returns the number that a text such as `5 um` means as a value of the key; `None` if it is not a number with a unit.
 ///
 /// # Errors
-/// The rule that a unit of another dimension, or an unknown one, breaks.
+/// If the unit is unknown or of another dimension: the rule that it breaks.
 pub fn quantity(text: &str, known: &Parameter, is_force: bool) -> Option<Result<f64, String>> {
     match known.kind {
         Kind::Number => of_other_coefficient(text, known)
@@ -299,8 +299,8 @@ pub fn quantity(text: &str, known: &Parameter, is_force: bool) -> Option<Result<
     }
 }
 
-/// The rule for a coefficient of wear per load and distance where one per friction work is due, and the other way round:
-/// both have the same dimension, and differ by the coefficient of friction.
+/// Returns the rule for a wear coefficient per load and distance where one per friction work is required, and vice
+/// versa: both have the same dimension, and differ by the coefficient of friction.
 fn of_other_coefficient(text: &str, known: &Parameter) -> Option<String> {
     let (.., unit) = number(text.trim())?;
     let is_volume = unit.contains(['3', '³']);
@@ -375,7 +375,7 @@ mod tests {
             let answer = in_unit(text, unit);
             assert!(matches!(answer, Some(Err(_))), "{text}: {answer:?}");
         }
-        // No number with a unit: the check of all keys has its own word.
+        // Not a number with a unit: the check of all keys reports it.
         for text in ["ten mm", "", "10", "mm", "nan m"] {
             assert_eq!(in_unit(text, "m"), None, "{text}");
         }

@@ -1,4 +1,4 @@
-//! The values in the table of a scenario, by the dotted paths of their keys, and as TOML has them.
+//! Values in the table of a scenario, by the dotted paths of their keys, and as TOML.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use super::escape::printable;
 
-/// A finite number, whole or not.
+/// Returns a finite number, whole or not.
 pub(crate) fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(whole) => Some(*whole as f64),
@@ -16,7 +16,7 @@ pub(crate) fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// Whether a text is a whole number that no 64 bits hold, but a float may.
+/// Whether a text is a whole number that 64 bits cannot hold, but a float may.
 pub(super) fn is_large_whole(text: &str) -> bool {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     digits.len() > 18
@@ -24,10 +24,10 @@ pub(super) fn is_large_whole(text: &str) -> bool {
         && text.parse::<i64>().is_err()
 }
 
-/// The most numbers of a text that [`parse`] makes floats.
+/// Maximum number of whole numbers that [`parse`] turns into floats.
 const MOST_WIDENED: usize = 100;
 
-/// Parses a TOML text; a whole number that no 64 bits hold is a float.
+/// Parses a TOML text; whole numbers beyond 64 bits become floats.
 pub(super) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, toml::de::Error> {
     let mut text = Cow::Borrowed(text);
     for _ in 0..MOST_WIDENED {
@@ -47,7 +47,7 @@ pub(super) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, toml::de::Erro
     toml::from_str(&text)
 }
 
-/// The value at a dotted path.
+/// Returns the value at a dotted path.
 pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     match path.split_once('.') {
         None => table.get(path),
@@ -55,8 +55,8 @@ pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     }
 }
 
-/// Writes the value, making the tables on the way. Where something else stands in the way of a
-/// table, it stays, and the check of all keys will find it.
+/// Writes the value, creating tables on the way. If a value that is not a table is in the way, it stays, and the check
+/// of all keys finds it.
 pub(super) fn insert(table: &mut Table, path: &str, value: Value) {
     let Some((first, rest)) = path.split_once('.') else {
         table.insert(path.to_owned(), value);
@@ -68,7 +68,7 @@ pub(super) fn insert(table: &mut Table, path: &str, value: Value) {
     }
 }
 
-/// Takes the value at a dotted path away.
+/// Removes and returns the value at a dotted path.
 pub(super) fn remove(table: &mut Table, path: &str) -> Option<Value> {
     match path.split_once('.') {
         None => table.remove(path),
@@ -76,7 +76,7 @@ pub(super) fn remove(table: &mut Table, path: &str) -> Option<Value> {
     }
 }
 
-/// The dotted path of a key in the table at `path`.
+/// Returns the dotted path of a key in the table at `path`.
 pub(crate) fn join(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
@@ -89,7 +89,7 @@ pub(crate) fn split(path: &str) -> (&str, &str) {
     path.rsplit_once('.').unwrap_or(("", path))
 }
 
-/// One value, as it may stand after `=`.
+/// Formats one value as it may follow `=`.
 pub(crate) fn literal(value: &Value) -> String {
     match value {
         Value::Float(number) => float(*number),
@@ -102,13 +102,13 @@ pub(crate) fn literal(value: &Value) -> String {
     }
 }
 
-/// Whether a terminal or a line of a header would not show a character as it is: controls, spaces and
-/// marks that cannot be seen, what turns the direction of text.
+/// Whether a terminal or a header line would not show a character unchanged: controls, invisible spaces and marks, and
+/// characters that change the direction of text.
 fn is_rude(c: char) -> bool {
     !matches!(c, '"' | '\'' | '\\') && printable(&String::from_iter(['a', c])).chars().count() > 2
 }
 
-/// A basic string on one line, all that is not plain escaped: TOML has the escapes of JSON.
+/// Formats a basic string on one line, escaping special characters: TOML has the escapes of JSON.
 fn escaped(text: &str) -> String {
     let escaped = |c| match is_rude(c) {
         true => format!("\\U{:08X}", u32::from(c)),
@@ -118,7 +118,7 @@ fn escaped(text: &str) -> String {
     quoted.chars().map(escaped).collect()
 }
 
-/// The shortest form that reads back to the same bits, and as a float.
+/// Returns the shortest form that reads back to the same bits, and as a float.
 fn float(number: f64) -> String {
     let size = number.abs();
     if number != 0.0 && number.is_finite() && !(1e-3..1e6).contains(&size) {

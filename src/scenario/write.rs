@@ -1,4 +1,4 @@
-//! A scenario as TOML: all numbers to the last bit, keys in the order of the schema.
+//! Writes a scenario as TOML: exact numbers, keys in the order of the schema.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use super::schema::{Kind, Parameter, parameters};
 use super::values::{at, literal};
 
-/// Writes keys in the order of the schema under the headings of their sections, each as `line` says, if it does.
+/// Writes keys in the order of the schema under their section headings; `line` gives each key's line, if any.
 pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
     let (mut text, mut open) = (String::new(), "");
     for known in parameters() {
@@ -21,8 +21,8 @@ pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
     text
 }
 
-/// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path
-/// and a value, becomes a comment where the table does not give it, which ends with its `source`.
+/// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path and a value, becomes
+/// a comment if the table does not give it; the comment ends with its `source`.
 pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) -> String {
     let mut text = sections(|known| {
         let Some(value) = at(table, known.path) else {

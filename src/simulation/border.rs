@@ -1,13 +1,12 @@
-//! Makes the graded grid before the run: cells where the wear will be.
+//! Makes the graded grid before the run, with cells where the wear will be.
 //!
-//! A pilot run looks where that is. Without a permanent stick zone of prescribed displacements, cells are
-//! [placed](super::placing) by the wear of its first two periods.
+//! A pilot run finds out where that is. If there is no permanent stick zone known from prescribed displacements, cells
+//! are [placed](super::placing) by the wear of its first two periods.
 //!
-//! Melan's theorem gives the depth g(c) at the border. If the springs shake down during a first
-//! cycle that is not yet periodic, there is some wear inside it, and the border ends up slightly
-//! further in: 0.416435 → 0.415865 a₀ for Fig. 3 of the paper at K = 1. A pilot run over one period
-//! of the motion finds it. One node of the graded grid is placed just inside: a node outside would
-//! wear and distort the cell before it.
+//! Melan's theorem gives the depth g(c) at the border. If the springs shake down during a first cycle that is not yet
+//! periodic, some wear occurs inside the border, which ends up slightly further in: 0.416435 → 0.415865 a₀ for Fig. 3
+//! of the paper at K = 1. A pilot run over one period of the motion finds it. One node of the graded grid is placed
+//! just inside: a node outside would wear and distort the cell before it.
 
 use super::choices::{Integrator, Spacing};
 use super::drive::Control;
@@ -16,36 +15,36 @@ use super::unworn::Unworn;
 use super::{Setup, Simulation};
 use crate::math::grid::RadialGrid;
 
-/// The fewest and the most cells of a pilot run.
+/// Minimum and maximum cells of a pilot run.
 const PILOT_CELLS: [usize; 2] = [64, 200];
 
-/// The most steps a cycle of the pilot run that finds the border.
+/// Maximum steps per cycle of the pilot run that finds the border.
 const BORDER_STEPS: u32 = 200;
 
-/// Periods, and steps a cycle, of the pilot run that cells are placed by: during the first period the springs shake
-/// down. The steps are not those of the run, so that finer steps have the same cells.
+/// Periods, and steps per cycle, of the pilot run that places cells: the springs shake down during the first period.
+/// The steps are independent of the run's, so that finer steps keep the same cells.
 const SCAR_PERIODS: u32 = 2;
 const SCAR_STEPS: u32 = 48;
 
-/// The most steps of a pilot run in all, where it still has the fewest a cycle; sub-steps of stiff wear count too. A
-/// pilot that needs more is given up: the run itself then begins on the cells that need none.
+/// Maximum number of steps of a pilot run, which still takes the minimum per cycle; sub-steps of stiff wear count too.
+/// A pilot that needs more is abandoned: the run then begins on cells that need no pilot.
 const PILOT_WORK: u32 = 20_000;
 const FEWEST_STEPS: u32 = 24;
 
-/// How far inside the border its node lies: as a fraction of the domain, of the cell outside it, and of the distance
-/// by which wear has moved the border, where the pilot errs by 2 %. A node outside would slip a little once per
-/// cycle and, since its pressure is the highest, by a multiple of that in each following one.
+/// How far inside the border its node lies: as a fraction of the domain, of the cell outside it, and of the distance by
+/// which wear has moved the border, where the pilot errs by 2 %. A node outside would slip a little once per cycle and,
+/// since its pressure is the highest, by a multiple of that in every later one.
 const INSIDE_DOMAIN: f64 = 2e-6;
 const INSIDE_CELL: f64 = 0.02;
 const INSIDE_MOVED: f64 = 0.05;
 
-/// The fewest cells between the stick border and the contact's edge, as far as there are cells.
+/// Minimum number of cells between the stick border and the contact's edge, if the grid has enough cells.
 const RING_CELLS: usize = 20;
 
-/// The thinnest ring of slip that cells are made for, in units of the domain.
+/// Thinnest ring of slip that gets its own cells, in units of the domain.
 const THINNEST: f64 = 1e-7;
 
-/// Whether a grid graded for `before` serves `after` as well.
+/// Whether a grid graded for `before` also suits `after`.
 pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
     let alike = |setup: &Setup| {
         (
@@ -61,8 +60,8 @@ pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
         && before.geometry == after.geometry
 }
 
-/// The same setup, its grid graded towards where wear is steep, where it asks for that and the pilot run succeeds;
-/// otherwise uniform. `from` is the run that continues on it, unless the run is new.
+/// Returns the setup on a grid graded towards steep wear, if it asks for one and the pilot run succeeds; otherwise on a
+/// uniform grid. `from` is the run that continues on it, unless the run is new.
 pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
     if setup.spacing == Spacing::Given {
         return setup.clone();
@@ -78,8 +77,8 @@ pub(super) fn graded(setup: &Setup, from: Option<&Simulation>) -> Setup {
     graded.unwrap_or(uniform)
 }
 
-/// Graded towards the border of the permanent stick zone, where g is `depth` (m), and where the `unworn` indenter has
-/// it (m).
+/// Grades the grid towards the border of the permanent stick zone, where g is `depth` (m). `unworn` (m) is that radius
+/// on the unworn indenter.
 fn around_border(
     uniform: &Setup,
     from: Option<&Simulation>,
@@ -95,8 +94,8 @@ fn around_border(
     with_border(uniform, border, unworn - border, cells)
 }
 
-/// For a held normal load: towards the border of the unworn contact where wear will move it under a held force, and where
-/// the ring of slip is too thin for uniform cells. No node is the border's own.
+/// Grades the grid for a held normal load, towards the border of the unworn contact: if wear will move that border
+/// under a held force, and if the ring of slip is too thin for uniform cells. No node counts as the border.
 fn around_ring(uniform: &Setup) -> Option<Setup> {
     let ring = Unworn::of(uniform).ring()?;
     let (border, edge, grid) = (ring.stick_radius, ring.contact_radius, &uniform.grid);
@@ -110,7 +109,7 @@ fn around_ring(uniform: &Setup) -> Option<Setup> {
     Some(uniform.on(graded.ok()?.without_border()))
 }
 
-/// With cells placed by the scar of a coarser run.
+/// Places cells by the scar of a coarser run.
 fn around_scar(uniform: &Setup, from: Option<&Simulation>) -> Option<Setup> {
     uniform.wear?;
     uniform.drive.tangential()?;
@@ -126,18 +125,18 @@ fn cells_of_pilot(cells: usize) -> usize {
     cells.clamp(fewest, most)
 }
 
-/// How many cells a ring from `border` to `edge` (m) is to get that has fewer than [`RING_CELLS`] on a `grid`; none
-/// where it has enough, or is thinner than any cell.
+/// Returns the number of cells for a ring from `border` to `edge` (m) with fewer than [`RING_CELLS`] on a `grid`;
+/// `None` if it has enough, or is thinner than any cell.
 fn thin_ring(grid: &RadialGrid, border: f64, edge: f64) -> Option<usize> {
     let (cells, radius) = (grid.cells(), grid.radius());
     let seen = grid.nodes().iter().filter(|&&r| r > border && r <= edge);
     let room = border > 0.0 && edge < radius && edge - border >= THINNEST * radius;
     let within = RING_CELLS.max(2 * cells / 5).min(cells / 2);
-    // On a coarse grid, cells taken from elsewhere would cost more than they bring.
+    // On a coarse grid, taking cells from elsewhere would cost more than it gains.
     (room && seen.count() < RING_CELLS.min(cells / 5)).then_some(within)
 }
 
-/// The width, m, of the ring of slip of a held load, where it is thinner than any cell can be.
+/// Returns the width, m, of the ring of slip of a held load, if it is thinner than any cell can be.
 pub(crate) fn unseen_ring(setup: &Setup) -> Option<f64> {
     let ring = Unworn::of(setup).ring()?;
     let width = ring.contact_radius - ring.stick_radius;
@@ -149,7 +148,7 @@ fn uniform(setup: &Setup) -> Setup {
     setup.on(grid.unwrap_or_else(|_| setup.grid.clone()))
 }
 
-/// g at the border of the permanent stick zone, and the radius at which the unworn indenter has it.
+/// Returns g at the border of the permanent stick zone, and the radius of that border on the unworn indenter.
 fn melan(setup: &Setup) -> Option<(f64, f64)> {
     setup.wear?;
     // The border moves while friction runs in.
@@ -159,8 +158,8 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
     found.filter(|(_, border)| *border < setup.grid.radius())
 }
 
-/// A setup with `cells` cells and a node a hair inside `border`, which wear has `moved` inwards (m). A ring of
-/// slip that is thin gets cells of its own.
+/// Returns a setup with `cells` cells and a node just inside `border`, which wear has `moved` inwards (m). A thin ring
+/// of slip gets its own cells.
 fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<Setup> {
     let radius = setup.grid.radius();
     let rough = RadialGrid::graded(cells, border, radius).ok()?;
@@ -178,11 +177,11 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
         RadialGrid::graded(cells, inside(hair), radius)
     };
     let grid = grid.ok()?;
-    // The basis with a root at the border has no kernel of a line yet.
+    // The basis with a root at the border is not available for line contacts yet.
     Some(setup.on(if is_line { grid.without_border() } else { grid }))
 }
 
-/// Runs `setup` over `periods` of the motion, with at most `steps` steps a cycle.
+/// Runs `setup` over `periods` of the motion, with at most `steps` steps per cycle.
 fn pilot(setup: &Setup, from: Option<&Simulation>, periods: u32, steps: u32) -> Option<Simulation> {
     let cycles = periods * setup.drive.cycles_to_settle();
     let affordable = PILOT_WORK / (cycles * setup.drive.turns_of_the_faster());
@@ -206,8 +205,8 @@ fn pilot(setup: &Setup, from: Option<&Simulation>, periods: u32, steps: u32) -> 
     Some(run)
 }
 
-/// The radius, m, where g reaches `depth` after a pilot `run`: by a parabola in x² through the last three nodes inside,
-/// which no longer wear.
+/// Returns the radius, m, at which g reaches `depth` after a pilot `run`: by a parabola in x² through the last three
+/// nodes inside, which no longer wear.
 fn border(run: &Simulation, depth: f64) -> Option<f64> {
     let (g, t) = (&run.profile_1d(), run.setup().grid.squares());
     let k = g

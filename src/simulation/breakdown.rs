@@ -6,7 +6,7 @@ use super::Setup;
 use super::choices::Stability;
 use crate::math::abel::AbelMethod;
 
-/// A step that could not be taken. The state is that of the last good step.
+/// A step that failed. The state after the last good step remains.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("stopped after {cycle} cycles: {cause}")]
 pub struct Breakdown {
@@ -16,18 +16,18 @@ pub struct Breakdown {
     pub cause: Cause,
 }
 
-/// What can happen.
+/// Causes of a breakdown.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Cause {
-    /// A NaN or an infinity in the contact or in the worn profile.
+    /// NaN or infinity in the contact or in the worn profile.
     #[error("the {quantity} is not finite; {advice}")]
     NotFinite {
-        /// Which quantity was seen first.
+        /// The quantity that showed it first.
         quantity: &'static str,
         /// What may help.
         advice: &'static str,
     },
-    /// A contact whose force no f64 holds.
+    /// A contact force that overflows an f64.
     #[error(
         "the normal force at the depth {depth:.4e} m overflows; are the units right? Plain \
          numbers are SI: indenter in m, material in Pa, motion in m or N"
@@ -36,7 +36,7 @@ pub enum Cause {
         /// u_z, m.
         depth: f64,
     },
-    /// The worn profile stands far above what can touch.
+    /// A worn profile far above anything that can touch.
     #[error(
         "wear diverges: {} times the largest depth at r = {radius:.4e} m; {advice}",
         short(*worn)
@@ -44,12 +44,12 @@ pub enum Cause {
     Runaway {
         /// Largest worn depth in units of the largest depth of indentation.
         worn: f64,
-        /// Where it stands, m.
+        /// Its radius, m.
         radius: f64,
         /// What may help.
         advice: &'static str,
     },
-    /// The contact has grown to the last node.
+    /// A contact that has grown to the last node.
     #[error(
         "the contact has reached the domain's edge at {domain_radius:.4e} m; \
          increase numerics.domain_radius"
@@ -58,7 +58,7 @@ pub enum Cause {
         /// L, m.
         domain_radius: f64,
     },
-    /// The contact has grown to where the unworn indenter stands too high to touch.
+    /// A contact that has grown to where the unworn indenter is too high to touch.
     #[error(
         "the contact reaches {radius:.4e} m, where nothing can touch at this depth: the profile \
          has diverged; {advice}"
@@ -69,7 +69,7 @@ pub enum Cause {
         /// What may help.
         advice: &'static str,
     },
-    /// A prescribed normal force that no depth carries.
+    /// A prescribed normal force that no depth can carry.
     #[error(
         "the normal force {force:.4e} N needs a contact larger than the domain, \
          {domain_radius:.4e} m; increase numerics.domain_radius or reduce motion.normal"
@@ -80,18 +80,18 @@ pub enum Cause {
         /// L, m.
         domain_radius: f64,
     },
-    /// A change to a domain that does not hold the wear there is.
+    /// A change to a domain too small for the existing wear.
     #[error(
         "the domain would end at {radius:.4e} m and cut off wear, which reaches {reach:.4e} m; \
          numerics.domain_radius or the indenter must be at least that large"
     )]
     WearCutOff {
-        /// The outermost radius that is worn, m.
+        /// Outermost worn radius, m.
         reach: f64,
-        /// The end of the new domain, m.
+        /// End of the new domain, m.
         radius: f64,
     },
-    /// A change to a grid too coarse for the wear there is.
+    /// A change to a grid too coarse for the existing wear.
     #[error(
         "{cells} cells are too few for the worn profile: its volume would change by {:.1} %; \
          increase numerics.points",
@@ -100,7 +100,7 @@ pub enum Cause {
     WearBlurred {
         /// Cells of the new grid.
         cells: usize,
-        /// By how much the volume would differ, relative to it.
+        /// Relative change of the volume.
         share: f64,
     },
     /// A prescribed tangential force beyond friction.
@@ -123,7 +123,7 @@ impl Cause {
     }
 }
 
-/// A number of any size in a few characters.
+/// Formats a number of any size in a few characters.
 fn short(value: f64) -> String {
     if value < 1e4 {
         format!("{value:.1}")
@@ -132,7 +132,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// What is likely behind a state that blows up, by method.
+/// Returns the likely remedy for a state that diverges, by method.
 pub(super) fn advice(setup: &Setup) -> &'static str {
     match setup.method {
         AbelMethod::Benad => {

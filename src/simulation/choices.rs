@@ -1,26 +1,27 @@
 //! Choices of numerics that a user makes by name: where the nodes lie, and how time is stepped.
 
+use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 /// Where the nodes lie.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[derive(Display, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Spacing {
-    /// Narrow cells where wear is steep: towards the border of a permanent stick zone, one node on it, or where a
+    /// Narrow cells where wear is steep: towards the border of a permanent stick zone, with a node on it, or where a
     /// pilot run wears.
     Graded,
     /// Cells of equal width, as in the paper.
     Uniform,
-    /// Where the scenario says: a coarser run has placed them where the wear is.
+    /// As listed in the scenario: a coarser run has placed them where the wear is.
     Given,
 }
 
 /// How a step in time is taken.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[derive(Display, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Scheme {
     /// Extrapolated profile, mean stress of the step, turning points met exactly: second order.
@@ -30,26 +31,26 @@ pub enum Scheme {
 }
 
 /// What is done about steps whose wear answers too stiffly to the stress.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[derive(Display, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Stability {
-    /// They are taken in parts.
+    /// Split into sub-steps.
     SubStep,
-    /// Nothing: the raw method, as the paper saw it.
+    /// Not at all: the raw method, as in the paper.
     Off,
 }
 
-/// How cycles are gone through.
+/// How cycles are integrated.
 #[derive(Debug, Clone, Copy, PartialEq, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Integrator {
-    /// Every step of every cycle.
+    /// Steps through every cycle.
     Direct,
-    /// Jumps over many settled cycles at once where cycles are alike; direct elsewhere.
+    /// Jumps over many steady-state cycles at once if cycles are alike; steps otherwise.
     CycleJump {
-        /// The error of the worn profile to aim at, in units of the largest depth.
+        /// Target error of the worn profile, in units of the largest depth.
         tolerance: f64,
     },
 }

@@ -14,34 +14,34 @@ use crate::math::abel::field::Field;
 use crate::math::root;
 use crate::math::scan::largest;
 
-/// What places of the indenter are rounded to, relative to them.
+/// Relative rounding of the indenter's position.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// A contact that is being made or lost bends a rig by less than this part of its actuator's place. The few springs on the
-/// roughness that rounding leaves on a worn profile then tell no force, and the rig counts as stiff.
+/// A contact that is being made or lost bends a rig by less than this fraction of its actuator's position. The few
+/// springs on the rounding noise of a worn profile then give no meaningful force, and the rig counts as stiff.
 const HARDLY_BENT: f64 = 1e-6;
 
-/// A solved contact: all that the springs are and carry at one moment.
+/// A solved contact: the state and loads of all springs at one moment.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contact {
-    /// Depth d = u_z, m; of a line contact that of its springs, P/(E*L).
+    /// Depth d = u_z, m; in a line contact the depth of its springs, P/(E*L).
     pub depth: f64,
-    /// Tangential displacement of the indenter u_x⁽⁰⁾, m; of a line contact against a point at the gauge length.
+    /// Tangential displacement of the indenter u_x⁽⁰⁾, m; in a line contact against a point at the gauge length.
     pub shift: f64,
     /// The edge of the contact and its largest load.
     pub normal: NormalContact,
-    /// The stick radius, m; none without tangential motion.
+    /// The stick radius, m; `None` without tangential motion.
     pub stick_radius: Option<f64>,
     /// q_z, N/m.
     pub load: Field,
     /// u_x of the tangential springs, m; empty without tangential motion.
     pub spring: Field,
-    /// What each tangential spring did in the last step; empty without tangential motion.
+    /// State of each tangential spring in the last step; empty without tangential motion.
     pub spring_state: Vec<SpringState>,
 }
 
 impl Contact {
-    /// An unloaded contact with `nodes` nodes and `springs` tangential springs.
+    /// Returns an unloaded contact with `nodes` nodes and `springs` tangential springs.
     pub(super) fn new(nodes: usize, springs: usize) -> Self {
         Self {
             load: Field::zeros(nodes),
@@ -65,8 +65,8 @@ impl Contact {
         model.setup.material.tangential_modulus() * springs
     }
 
-    /// How far the springs of a line contact move the indenter against a point at the gauge length, m: what of
-    /// the displacement is no rigid slip.
+    /// Returns how far the springs of a line contact move the indenter against a point at the gauge length, m: the
+    /// displacement without the rigid slip.
     pub(super) fn elastic_shift(&self, model: &Model) -> f64 {
         let gauge = model.setup.drive.gauge_length().unwrap_or_default();
         model.foundation.shift_against(gauge, &self.spring)
@@ -87,12 +87,12 @@ impl Contact {
     }
 }
 
-/// What the contact of a moment is solved from.
+/// The input of a contact problem.
 #[derive(Clone, Copy)]
 pub(super) struct Problem<'a> {
     model: &'a Model,
     profile: &'a Profile,
-    /// Where the springs stood.
+    /// The previous contact.
     before: &'a Contact,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Presses and shifts the indenter to what the drive asks for. Writes the contact `after`, and how far each
+    /// Presses and shifts the indenter to the targets of the drive. Writes the contact `after`, and how far each
     /// tangential spring slips, m.
     pub fn solve(
         self,
@@ -140,7 +140,7 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// Presses the indenter to a target. The tangential springs stay as they are.
+    /// Presses the indenter to a target, leaving the tangential springs unchanged.
     fn press(self, target: Target, contact: &mut Contact) -> Result<(), Cause> {
         let Self { model, profile, .. } = self;
         let setup = &model.setup;
@@ -161,7 +161,8 @@ impl<'a> Problem<'a> {
         if setup.indenter.rim().is_none() && normal.nodes > last && at_end > 1e-9 * modulus * depth
         {
             let radius = setup.grid.radius();
-            // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches. A line has no such end.
+            // Wear only lowers the surface: where f₀ exceeds the depth, nothing ever touches. A line contact has no
+            // such limit.
             let has_end = !setup.geometry.is_line();
             return Err(if has_end && model.unworn[last] >= depth * (1.0 - 1e-9) {
                 Cause::BlownUp {
@@ -179,7 +180,7 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// The depth, m: prescribed, or the one that carries the prescribed force.
+    /// Returns the depth, m: prescribed, or the one that carries the prescribed force.
     fn depth_at(self, target: Target, contact: &mut Contact) -> Result<f64, Cause> {
         let Self {
             model,
@@ -196,7 +197,7 @@ impl<'a> Problem<'a> {
             return Ok(force / (modulus * length));
         }
         let deepest = match setup.indenter.rim() {
-            // A punch carries any load; its springs yield at most what the load needs.
+            // A punch carries any load; its springs yield at most as much as the load needs.
             Some(rim) => largest(g) + 2.0 * (force / (2.0 * modulus * rim)).abs(),
             None => g[setup.grid.cells()],
         };
@@ -217,7 +218,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Moves the tangential springs by `increment` (m) from where they stood before.
+    /// Moves the tangential springs by `increment` (m) from their previous displacements.
     fn shift_by(self, increment: f64, after: &mut Contact, slip: &mut [f64]) {
         let Self {
             model,
@@ -236,7 +237,7 @@ impl<'a> Problem<'a> {
         };
         let (spring, states) = (&mut after.spring, &mut after.spring_state);
         tangential::slide(input, increment, &mut spring.nodal, slip, states);
-        // The published scheme is of first order anyway, and stays as it was published.
+        // The published scheme is first-order anyway, and stays as published.
         if model.setup.scheme == Scheme::Trapezoid {
             let depths = [before.depth, after.depth];
             let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
@@ -300,8 +301,8 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// The increment of displacement (m) that a rig leaves to the contact where its actuator stands at
-    /// `target` (m): u + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
+    /// Returns the increment of displacement (m) that a rig leaves to the contact if its actuator is at `target` (m):
+    /// u + C F_x(u) = U. F_x rises with u and never exceeds μF_z, which brackets the root.
     fn increment_on_rig(
         self,
         after: &mut Contact,
@@ -313,8 +314,8 @@ impl<'a> Problem<'a> {
         let compliance = setup.drive.rig_compliance();
         let limit = setup.material.friction() * after.normal_force(model);
         let (wanted, span) = (target - before.shift, 1.1 * compliance * limit);
-        // A contact that is being lost or made bends the rig by less than its actuator's place is rounded to: nothing
-        // would be bracketed.
+        // A contact that is being lost or made bends the rig by less than the rounding of its actuator's position, so
+        // there is no bracket.
         if span <= ROUNDING * (target.abs() + before.shift.abs()) {
             return Ok(wanted);
         }
@@ -335,7 +336,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The increment of displacement (m) that brings the tangential force to `target` (N).
+    /// Returns the increment of displacement (m) that brings the tangential force to `target` (N).
     fn increment_for_force(
         self,
         after: &mut Contact,
@@ -352,7 +353,7 @@ impl<'a> Problem<'a> {
         if target.abs() >= limit {
             return Err(exceeded);
         }
-        // Twice the largest strain a spring can hold turns every spring over.
+        // Twice the largest strain of a spring reverses every spring.
         let reach = material.reach();
         let span = 2.0 * after.normal.strongest * reach;
         root::bracketed(

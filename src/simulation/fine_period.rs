@@ -1,40 +1,40 @@
-//! The last period of the motion, finely stepped on the profile as it is.
+//! Steps finely through the last period of the motion, on the present profile.
 //!
 //! Steps of a run are as long as its wear allows. A loop drawn through their ends is a polygon: at 12 steps its area is
-//! 4 % below the friction work, and whoever fits a stiffness to it reads the missing corners as compliance. Here the
-//! springs alone are stepped, which is cheap, since nothing wears and no transform is needed.
+//! 4 % below the friction work, and a stiffness fitted to it takes the missing corners for compliance. Here only the
+//! springs are stepped, which is cheap, since nothing wears and no transform is needed.
 //!
 //! # Method
 //!
-//! - The springs start as the state left them. A first passage through the period settles them, the second one is the
-//!   result: a steady cycle on the present profile, after jumps and after direct steps alike.
+//! - The springs start from the state. A first passage through the period settles them, the second one is the
+//!   result: a steady-state cycle on the present profile, after jumps and direct steps alike.
 //! - Steps end where the motion turns and where contact is made or lost. Between these, a step is halved until the
 //!   triangle of its ends and its middle in the (u, F_x) plane is small compared with the loop's area.
 //! - Without a common period of the two motions, the passage covers the last tangential cycle, and the springs settle
 //!   during the cycles before it.
 //!
-//! At a held depth each point is exact but for the grid, so that the area is that of the closed forms; with a moving
-//! depth the error is of second order in the step.
+//! At a held depth each point is exact except for the grid, so the area matches the closed forms; with a moving depth
+//! the error is of second order in the step.
 
 use super::contact::{Contact, Problem};
 use super::moments::{Touch, rounding};
 use super::profile::{Profile, even_end};
 use super::{Cause, Simulation};
 
-/// Pairs of steps per cycle of the faster motion, before any is halved.
+/// Pairs of steps per cycle of the faster motion, before halving.
 const FEWEST: f64 = 20.0;
 
-/// The same in the first passage where the depth is held: there only the turning points settle the springs, and the
-/// others tell the loop's area.
+/// The same in the first passage at a held depth: only the turning points settle the springs, the other points merely
+/// trace the loop.
 const FEWEST_TO_SETTLE: f64 = 4.0;
 
-/// Steps are halved until they miss about this part of the loop's area.
+/// Steps are halved until they miss about this fraction of the loop's area.
 const MISSED: f64 = 1e-4;
 
-/// A loop thinner than this part of its bounding box is a line: nothing is halved for its area.
+/// A loop thinner than this fraction of its bounding box counts as a line: no step is halved for its area.
 const THINNEST: f64 = 1e-3;
 
-/// How often a step is halved at most.
+/// Maximum number of halvings of a step.
 const MOST_HALVINGS: i32 = 6;
 
 /// The period that ends at the present moment of a simulation.
@@ -42,7 +42,7 @@ const MOST_HALVINGS: i32 = 6;
 pub struct FinePeriod {
     /// Its moments, from its beginning to its end, at least two.
     pub points: Vec<PeriodPoint>,
-    /// How many cycles it has.
+    /// Number of cycles.
     pub cycles: f64,
 }
 
@@ -53,7 +53,7 @@ pub struct PeriodPoint {
     pub cycle: f64,
     /// u_x⁽⁰⁾, m.
     pub shift: f64,
-    /// What the sensor of a rig sees, the displacement of its actuator, m: u_x⁽⁰⁾ on a stiff one.
+    /// Displacement of the rig's actuator, m, which its sensor sees: u_x⁽⁰⁾ on a stiff rig.
     pub sensed: f64,
     /// F_x, N.
     pub tangential_force: f64,
@@ -71,14 +71,14 @@ impl FinePeriod {
         area(&self.points).abs() / self.cycles
     }
 
-    /// Half the range of what `of` picks, such as F_x, N.
+    /// Returns half the range of the values that `of` picks, such as F_x, N.
     pub fn amplitude(&self, of: fn(&PeriodPoint) -> f64) -> f64 {
         let values = || self.points.iter().map(of);
         let highest = values().fold(f64::NEG_INFINITY, f64::max);
         0.5 * (highest - values().fold(f64::INFINITY, f64::min))
     }
 
-    /// F_x, N, at a `cycle` of the period, on a straight line between its moments.
+    /// Returns F_x, N, at a `cycle` of the period, by linear interpolation.
     pub fn force_at(&self, cycle: f64) -> f64 {
         let last = self.points.len() - 1;
         let next = self.points.partition_point(|point| point.cycle < cycle);
@@ -105,7 +105,7 @@ impl Simulation {
         let period = setup.drive.repeats_after();
         let now = self.cycle();
         let cycles = f64::from(period.unwrap_or(1));
-        // Phases are those of the run; a periodic motion may as well be followed into the next periods.
+        // Phases are the run's; a periodic motion may as well continue into the next periods.
         let (start, begin) = match period {
             Some(_) => (now, now + cycles),
             None if now < 1.0 => (now, now),
@@ -130,14 +130,14 @@ impl Simulation {
     }
 }
 
-/// A way through the motion, step by step.
+/// A passage through the motion, step by step.
 struct Passage<'a> {
     simulation: &'a Simulation,
     profile: Profile,
     touch: Touch,
     cycle: f64,
     contact: Contact,
-    /// What further contacts, and the slip of the springs, are written into.
+    /// Buffers for further contacts, and for the slip of the springs.
     spare: [Contact; 2],
     slip: Vec<f64>,
 }
@@ -187,7 +187,7 @@ impl<'a> Passage<'a> {
         let longest = (pairs * f64::from(setup.drive.turns_of_the_faster())).recip();
         let shortest = longest * 0.5_f64.powi(MOST_HALVINGS);
         let mut points = vec![self.point(&self.contact, self.cycle)];
-        // Ends of steps that wait for those before them.
+        // Ends of steps that follow later.
         let mut waiting = Vec::new();
         while self.cycle < end {
             let next = match waiting.pop() {
@@ -214,7 +214,7 @@ impl<'a> Passage<'a> {
         Ok(points)
     }
 
-    /// The end of the next step: at most `longest` cycles away and at `end`, where the motion turns or touches.
+    /// Returns the end of the next step: at most `longest` away and at `end`, or where the motion turns or touches.
     fn next_stop(&self, longest: f64, end: f64) -> f64 {
         let (setup, now) = (self.simulation.setup(), self.cycle);
         let rounding = rounding(setup, now);
@@ -259,7 +259,7 @@ fn area(points: &[PeriodPoint]) -> f64 {
     sum
 }
 
-/// The area of the smallest upright rectangle round points, J.
+/// Returns the area of the smallest upright rectangle around points, J.
 fn bounding_box(points: &[PeriodPoint]) -> f64 {
     let span = |of: fn(&PeriodPoint) -> f64| {
         let values = points.iter().map(of);

@@ -1,6 +1,6 @@
 //! The simulation: the loop of Fig. 1 of the paper, one step at a time.
 //!
-//! It takes parts that are already valid and knows nothing of scenarios, files or screens.
+//! It takes valid parts and knows nothing of scenarios, files or screens.
 //!
 //! Each round has four values: the worn profile and its 1D image in the [`State`], the
 //! [`Contact`](contact::Contact) of the springs, their stress, and the
@@ -89,19 +89,19 @@ pub use unworn::Unworn;
 #[derive(Debug, Clone)]
 pub struct Simulation {
     model: Model,
-    /// After the last good step.
+    /// State after the last good step.
     state: State,
-    /// What the next step and its sub-steps are written into; the first is the state before the last step.
+    /// Buffers for the next step and its sub-steps; the first holds the state before the last step.
     spare: [State; 2],
     scratch: Scratch,
     /// Where the next step ends, and whether the motion turns there.
     next: (f64, bool),
-    /// Whether the last step or jump would have ended elsewhere without its goal.
+    /// Whether the last step or jump was cut short by its goal.
     is_shortened: bool,
 }
 
 impl Setup {
-    /// Brings friction and wear to what use has made of them in `state`.
+    /// Updates friction and wear to their run-in values in `state`.
     fn run_in(&mut self, state: &State) {
         if let Some(running_in) = &self.running_in {
             let (cycle, energy) = (state.cycle, state.ledger.dissipated_energy);
@@ -116,7 +116,7 @@ impl Simulation {
         Self::begin(border::graded(&setup, None))
     }
 
-    /// A new run on the grid of `setup` as it is.
+    /// Begins a new run on the grid of `setup`.
     fn begin(setup: Setup) -> Result<Self, Breakdown> {
         let model = Model::new(setup, None);
         let mut state = State::new(model.nodes(), model.springs() > 0);
@@ -130,7 +130,7 @@ impl Simulation {
         Self::continued(model, state)
     }
 
-    /// Continues from a saved state, on the grid of `setup` as it is.
+    /// Continues from a saved state, on the grid of `setup`.
     pub fn resume(setup: Setup, state: State) -> Result<Self, Breakdown> {
         Self::continued(Model::new(setup, None), state)
     }
@@ -152,7 +152,7 @@ impl Simulation {
         }
     }
 
-    /// The parts in use; the grid is the one that is computed on.
+    /// Returns the parts in use, with the grid of the computation.
     pub fn setup(&self) -> &Setup {
         &self.model.setup
     }
@@ -162,7 +162,7 @@ impl Simulation {
         &self.state.wear
     }
 
-    /// What f has grown by in the last step, m, at the nodes; 0 after a jump.
+    /// Returns the growth of f in the last step, m, at the nodes; 0 after a jump.
     pub fn last_wear(&self) -> &[f64] {
         &self.state.last.wear
     }
@@ -172,12 +172,12 @@ impl Simulation {
         self.state.steps
     }
 
-    /// How much has been computed so far.
+    /// Returns counts of the computations so far.
     pub fn stats(&self) -> Stats {
         self.state.stats
     }
 
-    /// The operators of the run, for those who read its state.
+    /// Returns the operators of the run, for readers of its state.
     pub(crate) fn model(&self) -> &Model {
         &self.model
     }
@@ -197,23 +197,22 @@ impl Simulation {
         self.step_until(f64::INFINITY)
     }
 
-    /// Takes one step or jump that ends at `cycle` at the latest; nothing if that has been reached.
+    /// Takes one step or jump that ends at `cycle` at the latest; does nothing if that is reached already.
     pub fn step_until(&mut self, cycle: f64) -> Result<(), Breakdown> {
         self.is_shortened = false;
         if self.state.cycle >= cycle || self.jump(cycle - self.state.cycle)? {
             return Ok(());
         }
         let (next, turns) = self.next;
-        // A step that would end within rounding of the goal ends at the goal.
+        // A step that would end within rounding of the goal ends exactly at the goal.
         let reached = next > cycle - self.rounding();
         self.is_shortened |= reached && next.to_bits() != cycle.to_bits();
         let at_turn = turns && next < cycle + self.rounding();
         self.step_to(if reached { cycle } else { next }, at_turn)
     }
 
-    /// Whether the goal of the last [`step_until`](Self::step_until) has changed that step or jump:
-    /// without it, the run would have gone on in other steps. A run is repeated to the last bit only
-    /// with the same goal.
+    /// Whether the goal of the last [`step_until`](Self::step_until) has changed that step or jump. Without it, the run
+    /// would have taken other steps, so it is reproduced bit for bit only with the same goal.
     pub fn was_shortened(&self) -> bool {
         self.is_shortened
     }
@@ -231,7 +230,7 @@ impl Simulation {
         step::is_possible(self.setup(), &self.state)
     }
 
-    /// Jumps over at most `most` cycles, where that is wanted and pays.
+    /// Jumps over at most `most` cycles, if jumps are wanted and pay.
     fn jump(&mut self, most: f64) -> Result<bool, Breakdown> {
         if !self.may_jump() {
             return Ok(false);
@@ -241,7 +240,7 @@ impl Simulation {
         let jumped = step::jump(&self.model, state, spare, &mut self.scratch, most)
             .map_err(|cause| self.refused(cause))?;
         std::mem::swap(&mut self.state, &mut self.spare[0]);
-        // A jump leaves buffers of its own.
+        // A jump uses other buffers.
         self.spare[0].clone_from(&self.state);
         if jumped == Jumped::WithoutRoom && self.grow()? {
             return self.jump(most);
@@ -253,7 +252,7 @@ impl Simulation {
         Ok(jumped)
     }
 
-    /// Cycles that are less than this apart are the same moment.
+    /// Returns the difference in cycles below which two moments count as the same.
     pub fn rounding(&self) -> f64 {
         moments::rounding(self.setup(), self.state.cycle)
     }
@@ -264,7 +263,7 @@ impl Simulation {
         self.next.0
     }
 
-    /// Looks for the end of the next step.
+    /// Finds the end of the next step.
     fn look_ahead(&self) -> (f64, bool) {
         let g = self.model.profile_from_axis(&self.state.image);
         let (setup, state) = (self.setup(), &self.state);
@@ -273,7 +272,7 @@ impl Simulation {
         moments::next(setup, touch, state.cycle, state.steps > 0, turning)
     }
 
-    /// One step into the spare state, which becomes the present one if all went well.
+    /// Takes one step into the spare state, which becomes the present one on success.
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
         let (state, spare) = (&self.state, &mut self.spare);
         if let Err(cause) = step::step(&mut self.model, state, spare, &mut self.scratch, cycle) {
@@ -293,12 +292,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Brings friction and wear to what use has made of them.
+    /// Updates friction and wear to their run-in values.
     fn run_in(&mut self) {
         self.model.setup.run_in(&self.state);
     }
 
-    /// Solves the contact at the present cycle, without wear and without passing time.
+    /// Solves the contact at the present cycle, without wear and without advancing time.
     fn settle(&mut self) -> Result<(), Breakdown> {
         self.run_in();
         step::settle(&self.model, &mut self.state, &mut self.scratch)
@@ -309,7 +308,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// The state is still that of the last good step.
+    /// The state remains that of the last good step.
     fn refused(&self, cause: Cause) -> Breakdown {
         Breakdown {
             cycle: self.state.cycle,
@@ -317,8 +316,8 @@ impl Simulation {
         }
     }
 
-    /// The present contact in a simulation of its own that wears no more and steps every cycle: a steady cycle on
-    /// the present profile. `None` if the contact cannot be held so.
+    /// Returns the present contact as a separate simulation that steps every cycle without wear: a steady-state cycle
+    /// on the present profile. `None` if the contact cannot be solved.
     pub fn without_wear(&self) -> Option<Self> {
         let setup = Setup {
             wear: None,
@@ -328,12 +327,12 @@ impl Simulation {
         Self::continued(Model::new(setup, Some(&self.model)), self.state.clone()).ok()
     }
 
-    /// Whether the last thing done was a jump over cycles: nothing has been stepped or changed since.
+    /// Whether the last action was a jump over cycles: nothing has been stepped or changed since.
     pub(crate) fn has_jumped(&self) -> bool {
         self.state.jump.settled.is_some()
     }
 
-    /// The model as it was in the last step: friction and wear may have run in since.
+    /// Returns the model as it was in the last step: friction and wear may have run in since.
     pub(crate) fn model_of_last_step(&self) -> Model {
         let mut model = self.model.clone();
         model.setup.run_in(&self.spare[0]);
@@ -355,13 +354,13 @@ impl Simulation {
         Some(contact)
     }
 
-    /// g at the nodes, m, of the present profile.
+    /// Returns g at the nodes, m, of the present profile.
     pub(crate) fn profile_1d(&self) -> Vec<f64> {
         let state = &self.state;
         Profile::of_worn(&self.model, [&state.wear, &state.image], self.even_end()).g
     }
 
-    /// p(r), Pa, of the present moment: one transform.
+    /// Returns p(r), Pa, at the present moment, by one transform.
     pub fn pressure(&self) -> Vec<f64> {
         let mut pressure = vec![0.0; self.setup().grid.len()];
         traction::pressure(&self.model, &self.state.contact, &mut pressure);
@@ -378,7 +377,7 @@ impl Simulation {
         self.model.foundation.shift_against(gauge, &spring)
     }
 
-    /// Worn volume, m³: 2π∫(f − f₀) r dr, or 2L∫(f − f₀) dr of a line.
+    /// Returns the worn volume, m³: 2π∫(f − f₀) r dr, or 2L∫(f − f₀) dr in a line contact.
     pub fn wear_volume(&self) -> f64 {
         match self.setup().scar {
             None => scar_volume(&self.model, &self.state.wear, self.even_end()),
@@ -387,7 +386,7 @@ impl Simulation {
         }
     }
 
-    /// 2π∫ r dr of what f has grown by since the run began, m³.
+    /// Returns 2π∫ r dr of the growth of f since the run began, m³.
     fn volume_since_start(&self) -> f64 {
         scar_volume(&self.model, &self.worn_since_start(), self.even_end())
     }
@@ -397,7 +396,7 @@ impl Simulation {
         even_end(&self.model, &self.state.contact.load)
     }
 
-    /// What f has grown by since the run began, m, at the nodes.
+    /// Returns the growth of f since the run began, m, at the nodes.
     pub fn worn_since_start(&self) -> Vec<f64> {
         let initial = self.setup().initial_wear(&self.setup().grid);
         let worn = self.state.wear.iter().zip(initial);

@@ -1,7 +1,7 @@
 //! Everything planned once per run: the parts, the operators, and the 1D image of the indenter.
 
 use std::ops::Deref;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
@@ -10,26 +10,27 @@ use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
 use crate::math::vector::{vectorized, write_each};
 
-/// The parts of a run with the operators that they are computed by.
+/// The parts of a run with their operators.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
     pub setup: Setup,
     operators: Arc<Operators>,
 }
 
-/// What depends on the grid, the method and the indenter alone; clones of a [`Model`] share it.
+/// Operators that only depend on grid, method and indenter; clones of a [`Model`] share them.
 #[derive(Debug)]
 pub(crate) struct Operators {
     pub plan: AbelPlan,
     pub foundation: WinklerFoundation,
     pub grid: RadialGrid,
-    /// 1/h, h the width of the cell around each node, 1/m.
+    /// 1/h, with h the width of the cell around each node, 1/m.
     pub per_width: Vec<f64>,
-    /// Weights of the volume 2π∫ y r dr, or 2L∫ y dr of a line, m².
+    /// Weights of the volume 2π∫ y r dr, or 2L∫ y dr in a line contact, m².
     pub volume_weights: Vec<f64>,
     /// f₀ and its 1D image g₀, m.
     pub unworn: Arc<[f64]>,
     unworn_1d: Vec<f64>,
+    near_response: OnceLock<Vec<[f64; 3]>>,
 }
 
 impl Operators {
@@ -54,7 +55,48 @@ impl Operators {
             plan,
             unworn,
             unworn_1d,
+            near_response: OnceLock::new(),
         }
+    }
+}
+
+/// Every so many nodes one is worn at the same time: where the next one is, its answer has died down.
+const PROBES: usize = 24;
+
+impl Operators {
+    /// The three diagonals of M of a contact that reaches to the edge, row by row: by how much p (in E*) falls at a node for
+    /// a depth worn at the one before it, at itself and at the one behind, 1/m. Half of what the rest of the row sums up to
+    /// is added to its own.
+    pub fn near_response(&self) -> &[[f64; 3]] {
+        self.near_response.get_or_init(|| {
+            let nodes = self.grid.len();
+            let mut image = vec![0.0; nodes];
+            let mut respond = |worn: &[f64]| {
+                let mut pressure = vec![0.0; nodes];
+                self.plan.image(worn, &mut image);
+                self.plan.stress(&image, &mut pressure);
+                pressure
+            };
+            let mut rows = vec![[0.0; 3]; nodes];
+            for first in 0..PROBES.min(nodes) {
+                let mut worn = vec![0.0; nodes];
+                worn[first..]
+                    .iter_mut()
+                    .step_by(PROBES)
+                    .for_each(|w| *w = 1.0);
+                let pressure = respond(&worn);
+                for j in (first..nodes).step_by(PROBES) {
+                    for k in j.saturating_sub(1)..(j + 2).min(nodes) {
+                        rows[k][j + 1 - k] = pressure[k];
+                    }
+                }
+            }
+            let all = respond(&vec![1.0; nodes]);
+            for (row, all) in rows.iter_mut().zip(all) {
+                row[1] += 0.5 * (all - row.iter().sum::<f64>());
+            }
+            rows
+        })
     }
 }
 
@@ -67,7 +109,7 @@ impl Deref for Model {
 }
 
 impl Model {
-    /// Plans the operators of a setup; those of a model `before` serve again where they fit.
+    /// Plans the operators of a setup; reuses those of the model `before` if they fit.
     pub fn new(setup: Setup, before: Option<&Self>) -> Self {
         let fits = |before: &&Self| {
             before.setup.grid == setup.grid
@@ -87,12 +129,12 @@ impl Model {
         self.grid.len()
     }
 
-    /// Tangential springs: one a node, none without tangential motion.
+    /// Returns the number of tangential springs: one per node, 0 without tangential motion.
     pub fn springs(&self) -> usize {
         self.setup.springs()
     }
 
-    /// g = g₀ + `image`, m, and `ahead` times the `growth` of the image on top of it.
+    /// Writes g = g₀ + `image`, m, plus `ahead` times the `growth` of the image.
     pub fn profile(&self, image: &[f64], ahead: f64, growth: &[f64], g: &mut [f64]) {
         if ahead == 0.0 {
             return write_each(
@@ -114,18 +156,18 @@ impl Model {
         );
     }
 
-    /// g = g₀ + `image`, m, node by node.
+    /// Iterates over g = g₀ + `image`, m, node by node.
     pub fn profile_from_axis(&self, image: &[f64]) -> impl Iterator<Item = f64> {
         let parts = self.unworn_1d.iter().zip(image);
         parts.map(|(unworn, image)| unworn + image)
     }
 
-    /// The volume, m³, of a nodal depth (m).
+    /// Returns the volume, m³, of a nodal depth (m).
     pub fn volume(&self, depth: &[f64]) -> f64 {
         weighted(&self.volume_weights, depth)
     }
 
-    /// A length of time in cycles, in s.
+    /// Converts cycles to s.
     pub fn seconds(&self, cycles: f64) -> f64 {
         cycles * self.setup.drive.period()
     }

@@ -8,23 +8,23 @@ use super::choices::Scheme;
 use super::drive::Targets;
 use super::state::State;
 
-/// A turning point this close to a regular moment, in steps, takes its place.
+/// A turning point this close to a regular moment, in steps, replaces it.
 const SLIVER: f64 = 0.1;
 
-/// What the contact has to do with when the motion turns.
+/// The properties of the contact that determine when the motion turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Touch {
-    /// What says where the motion turns: κ, and what an amplitude of each direction is in displacement.
+    /// What determines turning points: κ, and the displacement per amplitude of each direction.
     turning: (f64, [f64; 2]),
-    /// The lowest point of the 1D profile, m; −∞ where the motion never comes up to the axis.
+    /// Lowest point of the 1D profile, m; −∞ if the motion never rises to the axis.
     tip: f64,
 }
 
 impl Touch {
-    /// That of the contact after a step, on the 1D profile `g` (m), from the axis outwards.
+    /// Reads them from the contact after a step, on the 1D profile `g` (m), from the axis outwards.
     pub fn on(setup: &Setup, state: &State, mut g: impl Iterator<Item = f64>) -> Self {
         let axis = g.next().unwrap_or(f64::INFINITY);
-        // What never leaves the axis never leaves a lower point.
+        // If the motion never leaves the axis, it never leaves a lower point.
         let tip = if setup.drive.normal().oscillation().lowest() > axis {
             f64::NEG_INFINITY
         } else {
@@ -37,26 +37,27 @@ impl Touch {
         }
     }
 
-    /// The lowest point of the 1D profile, m; −∞ where the motion never comes up to the axis.
+    /// Returns the lowest point of the 1D profile, m; −∞ if the motion never rises to the axis.
     pub fn tip(self) -> f64 {
         self.tip
     }
 
-    /// The first turning point after `from` and up to `until`.
+    /// Returns the first turning point after `from` and up to `until`.
     pub fn turning_point(self, setup: &Setup, from: f64, until: f64) -> Option<f64> {
         let (stick_ratio, yields) = self.turning;
         (setup.drive).turning_point(stick_ratio, yields, from, until)
     }
 }
 
-/// Cycles that are less than this apart are the same moment.
+/// Returns the difference in cycles below which two moments count as the same.
 pub(super) fn rounding(setup: &Setup, cycle: f64) -> f64 {
     (1e-6 / setup.steps_in_a_cycle()).max(8.0 * f64::EPSILON * cycle)
 }
 
-/// The end of the step that begins at the cycle `now`, and whether the motion turns or touches there: the next
-/// even part of a cycle, or before it the next such point, if the scheme minds; `turning` finds the first of the turning
-/// points after a moment and up to another one. Only a run `under_way` passes over a part that is very near.
+/// Returns the end of the step that begins at the cycle `now`, and whether the motion turns or touches there: the next
+/// regular fraction of a cycle, or a turning or touching point before it, unless the scheme ignores those. `turning`
+/// finds the first turning point after one moment and up to another. Only a run `under_way` skips a fraction that is
+/// very near.
 pub(super) fn next(
     setup: &Setup,
     touch: Touch,
@@ -66,14 +67,14 @@ pub(super) fn next(
 ) -> (f64, bool) {
     let steps = setup.steps_in_a_cycle();
     let rounding = rounding(setup, now);
-    // The tolerance outgrows the rounding of late cycles, so that every step gets on.
+    // The tolerance exceeds the rounding of late cycles, so that every step advances.
     let multiple = ((now + rounding) * steps).floor() + 1.0;
     let regular = multiple / steps;
     if setup.scheme == Scheme::Euler {
         return (regular, false);
     }
     let sliver = SLIVER / steps;
-    // The end of a cycle is never passed over: histories count on it.
+    // The end of a cycle is never skipped: histories rely on it.
     let passable = |moment: f64| moment.fract() != 0.0;
     let next = |regular: f64| {
         let (from, until) = (now + rounding, regular + sliver);
@@ -95,18 +96,18 @@ pub(super) fn next(
     next(regular)
 }
 
-/// The ends of all steps of a period of the motion, in cycles from its beginning, and what the motion asks for there:
-/// found once as long as the contact leaves the turns where they are.
+/// The ends of all steps in a period of the motion, in cycles from its beginning, with the targets there; reused while
+/// the contact leaves the turning points unchanged.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Period {
     touch: Option<Touch>,
-    /// Where the motion turns, in cycles: where contact is lost, only the touches move.
+    /// Turning points, in cycles: if contact is lost, only the touching points move.
     turns: Vec<f64>,
     moments: Arc<[(f64, Targets)]>,
 }
 
 impl Period {
-    /// Those of a period of `cycles`.
+    /// Returns the moments of a period of `cycles`.
     pub fn moments(&mut self, setup: &Setup, touch: Touch, cycles: f64) -> Arc<[(f64, Targets)]> {
         let before = self.touch.replace(touch);
         if before.map(|before| before.turning) != Some(touch.turning) {

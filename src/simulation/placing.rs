@@ -1,37 +1,37 @@
-//! Places the nodes of a run by the worn depth of a coarser one.
+//! Places the nodes of a run according to the worn depth of a coarser one.
 //!
 //! # Formula
 //!
-//! A run cannot be more accurate than the interpolation on its cells. The worn depth w is linear in t = r²
-//! between nodes, so cells whose widths share the integral of a monitor equally,
+//! A run cannot be more accurate than the interpolation on its cells. The worn depth w is linear in t = r² between
+//! nodes, so cells with equal shares of the integral of a monitor,
 //!
 //! ```text
 //! M = |d²w/dt²|^(2/5)                        equal shares of ∫M dt: least error of P1 in the L2 norm
 //! ```
 //!
 //! have the least error for their number (C. de Boor 1973, Good approximation by splines with variable knots; W. Huang,
-//! R. D. Russell 2011, Adaptive Moving Mesh Methods, §2.2). M is read from second differences of w at the nodes of the coarser
-//! run and smoothed once by [¼ ½ ¼]. Half of the cells follow it, and half are uniform in r: not all error is that of
-//! interpolation, and what the coarser run did not see still gets cells.
+//! R. D. Russell 2011, Adaptive Moving Mesh Methods, §2.2). M comes from second differences of w at the nodes of the
+//! coarser run, smoothed once by [¼ ½ ¼]. Half of the cells follow it, and half are uniform in r: not all error is due
+//! to interpolation, and regions that the coarser run did not resolve still get cells.
 //!
 //! - **Order**: second in N where w has an integrable monitor: also next to the stick border, where w rises like a root.
-//! - **Known failure**: a coarser run with too few cells to show the scar at all (8 or so) places them at random.
+//! - **Known failure**: if the coarser run has too few cells to show the scar (8 or so), cells are placed at random.
 
 use crate::contact::indenter::Indenter;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::second_differences;
 
-/// The share of the cells that follow the monitor; the others are uniform. Shares of 0.4 to 0.65 take 6 to 25 % more time
+/// Share of the cells that follow the monitor; the others are uniform. Shares of 0.4 to 0.65 take 6 to 25 % more time
 /// over 200 random scenarios at 1e-2.
 const FOLLOWING: f64 = 0.5;
 
-/// The narrowest cell, in units of the radius: 1/N^1.4, so that a few narrow cells do not force every step into
-/// sub-steps, but never below 1/15000, where the rounding of w would show in M.
+/// Width of the narrowest cell, in units of the radius: 1/N^1.4, so that a few narrow cells do not force every step
+/// into sub-steps, but at least 1/15000, below which the rounding of w would show in M.
 const NARROWEST_POWER: f64 = 1.4;
 const NARROWEST: f64 = 1.0 / 15_000.0;
 
-/// The grid of `cells` cells for a scar like that of `wear` (m) on the coarser `grid`. A node stands on the flat tip's edge
-/// of the `indenter`. `None` if nothing has worn.
+/// Returns the grid of `cells` cells for a scar like `wear` (m) on the coarser `grid`. The edge of a flat tip of the
+/// `indenter` gets a node. `None` if nothing has worn.
 pub(crate) fn place(
     grid: &RadialGrid,
     wear: &[f64],
@@ -64,7 +64,7 @@ pub(crate) fn place(
     RadialGrid::restored(placed, None).ok()
 }
 
-/// The share of ∫M dt of each cell.
+/// Returns each cell's share of ∫M dt.
 fn shares(grid: &RadialGrid, wear: &[f64]) -> Option<Vec<f64>> {
     let (t, cells) = (grid.squares(), grid.cells());
     let second = second_differences(t, wear).into_iter();
@@ -79,7 +79,7 @@ fn shares(grid: &RadialGrid, wear: &[f64]) -> Option<Vec<f64>> {
     (total > 0.0 && total.is_finite()).then(|| shares.iter().map(|one| one / total).collect())
 }
 
-/// The radius at which the growing `sum` over `nodes` reaches a value.
+/// Returns the radius at which the growing `sum` over `nodes` reaches a value.
 fn inverse(sum: &[f64], nodes: &[f64], value: f64) -> f64 {
     let k = sum.partition_point(|&s| s <= value).clamp(1, sum.len() - 1) - 1;
     let within = ((value - sum[k]) / (sum[k + 1] - sum[k])).clamp(0.0, 1.0);
@@ -104,7 +104,7 @@ mod tests {
         }
     }
 
-    /// The rms distance of the interpolant on `grid` from the truth.
+    /// Returns the rms difference between the interpolant on `grid` and the truth.
     fn error(grid: &RadialGrid) -> f64 {
         let on: Vec<f64> = grid.nodes().iter().map(|&r| root(r)).collect();
         let squares = (0..4000).map(|i| f64::from(i) / 4000.0 * 1.2);
@@ -125,7 +125,7 @@ mod tests {
                 placed < 0.6 * uniform || cells == 50,
                 "{cells}: {placed} {uniform}"
             );
-            // Second order, where uniform cells have less than first.
+            // Second order, while uniform cells have less than first.
             assert!(placed < 0.45 * last, "{cells}: {placed} after {last}");
             last = placed;
         }

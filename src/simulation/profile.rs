@@ -1,4 +1,4 @@
-//! The 1D profile that the springs are pressed on, Eq. (1), and where its scar ends.
+//! The 1D profile under the springs, Eq. (1), and where its scar ends.
 //!
 //! Where the contact slips as a whole, the scar ends with a slope, at a place t_s that lies between two nodes. The worn
 //! depth falls to zero there on the line in t = r² through the last two worn nodes, and not at the next node. The tail down
@@ -23,12 +23,12 @@ const ROUNDS: usize = 2;
 pub(super) struct Profile {
     /// g at the nodes, m.
     pub g: Vec<f64>,
-    /// The end t_s of the scar, m²; `None` without a scar that ends with a slope.
+    /// The end t_s of the scar, m²; `None` unless there is a scar that ends with a slope.
     pub scar: Option<f64>,
 }
 
 impl Profile {
-    /// Zero, as long as the grid of `model`.
+    /// Returns a zero profile on the grid of `model`.
     pub fn new(model: &Model) -> Self {
         Self {
             g: vec![0.0; model.nodes()],
@@ -49,7 +49,8 @@ impl Profile {
         self.end_scar(model, |j| wear[j], even);
     }
 
-    /// Becomes that of a worn depth (m) and its 1D image (m), with `ahead` times what both grew by in the last step on top.
+    /// Sets the profile of a worn depth (m) and its 1D image (m),
+    /// plus `ahead` times the growth of both in the last step.
     pub fn extrapolate(
         &mut self,
         model: &Model,

@@ -1,4 +1,4 @@
-//! Other parts for a run under way: what has been worn, and where the springs stand, is carried over to them.
+//! Changes the parts of a run under way, carrying over the wear and the springs.
 
 use super::breakdown::{Breakdown, Cause};
 use super::model::Model;
@@ -8,32 +8,31 @@ use super::{Setup, Simulation, border};
 use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 
-/// Who says where the domain of a [`Setup`] ends.
+/// Who determines the end of a [`Setup`]'s domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Domain {
-    /// The scenario, by a radius or by the rim of a punch: it ends there.
+    /// The scenario, by a radius or by the rim of a punch; the domain ends there.
     Given,
-    /// The program, by what can touch: it may end further out.
+    /// The program, by what can touch; the domain may end further out.
     Derived,
 }
 
-/// By how much a domain grows at once, in radii.
+/// Factor by which a domain grows.
 const GROWTH: f64 = 1.25;
 
-/// The widest domain, in units of the depth of indentation: far beyond any contact of small slopes.
+/// Widest domain, in units of the depth of indentation: far beyond any contact of small slopes.
 const WIDEST: f64 = 1e9;
 
-/// The most that the worn volume may differ on another grid, relative to it.
+/// Maximum relative change of the worn volume on another grid.
 const MOST_LOST: f64 = 0.02;
 
 impl Simulation {
-    /// Replaces the parts mid-run. The worn profile, the springs and the counters are carried over;
-    /// on another grid they are interpolated. A derived domain does not shrink while wear lies outside
-    /// of the new one.
+    /// Replaces the parts mid-run. Carries over the worn profile, the springs and the counters, and interpolates them
+    /// on another grid. A derived domain does not shrink while wear lies outside the new one.
     ///
     /// # Errors
     ///
-    /// The new parts cannot hold the contact, or would lose wear; the simulation stays as it was.
+    /// If the new parts cannot hold the contact, or would lose wear; the simulation stays unchanged.
     pub fn reconfigure(&mut self, setup: Setup, domain: Domain) -> Result<(), Breakdown> {
         let setup = self.holding_wear(setup, domain)?;
         let setup = if border::stays(self.setup(), &setup) {
@@ -54,8 +53,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Makes the domain wider, for a contact that has come to its edge: as many cells, each wider by as much. The
-    /// worn profile is interpolated, and its volume kept. False where the indenter ends.
+    /// Widens the domain for a contact that has reached its edge, by stretching all cells. Interpolates the worn
+    /// profile and preserves its volume. Returns false if the indenter ends there.
     pub(super) fn grow(&mut self) -> Result<bool, Breakdown> {
         let before = self.setup();
         let room = before.indenter.end().unwrap_or(f64::INFINITY);
@@ -79,11 +78,11 @@ impl Simulation {
         Ok(true)
     }
 
-    /// The setup on a domain that all wear fits into.
+    /// Returns the setup on a domain that contains all wear.
     fn holding_wear(&self, setup: Setup, domain: Domain) -> Result<Setup, Breakdown> {
         let (nodes, wear) = (self.setup().grid.nodes(), &self.state.wear);
         let reach = match wear.iter().rposition(|&worn| worn != 0.0) {
-            // Between the last node that is worn and the next one, wear falls to zero.
+            // Between the last worn node and the next one, wear falls to zero.
             Some(last) => nodes[(last + 1).min(nodes.len() - 1)],
             None => 0.0,
         };
@@ -98,9 +97,9 @@ impl Simulation {
         }
     }
 
-    /// The present state with other operators. Interpolation on another grid neither wears nor heals: what has worn
-    /// since the beginning keeps its volume, and what was worn before is read anew from its table. Returns as well by how
-    /// much interpolation would have changed the volume, m³.
+    /// Returns the present state with other operators. Interpolation on another grid neither adds nor removes wear:
+    /// wear since the beginning keeps its volume, and the initial scar is read again from its table. Also returns the
+    /// change of volume that interpolation alone would have caused, m³.
     fn moved_to(&self, model: Model) -> (Self, f64) {
         let mut state = self.state_on(&model.setup);
         if model.grid == self.model.grid {
@@ -122,7 +121,7 @@ impl Simulation {
         (Self::with(model, state), (worn - blurred).abs())
     }
 
-    /// The present state on the grid of another setup.
+    /// Returns the present state on the grid of another setup.
     pub(super) fn state_on(&self, setup: &Setup) -> State {
         let (grid, springs) = (&self.setup().grid, setup.springs());
         if setup.grid == *grid && springs == self.model.springs() {
@@ -145,7 +144,7 @@ impl Simulation {
             .for_each(|(worn, initial)| *worn -= initial);
         state.wear = self.setup().initial_wear(&setup.grid);
         for (worn, &r) in state.wear.iter_mut().zip(nodes) {
-            // Between nodes the interpolant may swing below zero by a little.
+            // Between nodes the interpolant may dip slightly below zero.
             *worn += worn::interpolate(grid, &since, r).max(0.0);
         }
         if springs > 0 && self.model.springs() > 0 {

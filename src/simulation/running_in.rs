@@ -1,9 +1,9 @@
-//! Running in: friction and wear coefficients as functions of accumulated cycles or dissipated
-//! energy, and an energy threshold below which nothing wears.
+//! Running in: friction and wear coefficients as functions of accumulated cycles or dissipated energy, and an energy
+//! threshold for wear.
 //!
-//! A step is of second order in them: springs slip by the friction at its end, and it wears by the mean of friction
-//! and of k over it. The work of a step is known before its wear, so that of k over energy, and of a threshold that is
-//! passed inside it, the mean is exact: V = k(E_d − E_th) holds over the whole run. Cycles are jumped only after the
+//! A step is of second order in them: springs slip by the friction at its end, and the step wears by the mean friction
+//! and the mean k. The work of a step is known before its wear, so the mean of k over energy is exact, even if a
+//! threshold is passed within the step: V = k(E_d − E_th) holds over the whole run. Cycles are jumped only after the
 //! values have settled.
 
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use crate::contact::material::Material;
 use crate::math::invalid::{Invalid, check_table, non_negative, positive};
 use crate::wear::WearLaw;
 
-/// Closer to its end than this share of its way, an exponential counts as settled.
+/// An exponential counts as settled within this fraction of its range from its end.
 const SETTLED: f64 = 1e-6;
 
-/// The most rows of a table.
+/// Maximum number of rows of a table.
 const MOST_ROWS: usize = 10_000_000;
 
-/// What a value runs in over.
+/// The variable over which a value runs in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Over {
     /// Cycles since the start.
@@ -27,7 +27,7 @@ pub enum Over {
     Energy,
 }
 
-/// What the contact has been through at the two ends of a step.
+/// The history of the contact at the two ends of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stretch {
     /// Cycles since the start.
@@ -37,7 +37,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// A moment, after `cycles` and `energy` (J).
+    /// Makes a moment, after `cycles` and `energy` (J).
     pub fn moment(cycles: f64, energy: f64) -> Self {
         Self {
             cycles: [cycles; 2],
@@ -45,7 +45,7 @@ impl Stretch {
         }
     }
 
-    /// Its end.
+    /// Returns its end.
     pub fn end(&self) -> Self {
         Self::moment(self.cycles[1], self.energy[1])
     }
@@ -62,20 +62,20 @@ impl Stretch {
 pub enum Course {
     /// last + (first − last) exp(−x/constant).
     Exponential {
-        /// The value at first.
+        /// Initial value.
         first: f64,
-        /// The value that it approaches.
+        /// Value that it approaches.
         last: f64,
-        /// Cycles or J after which it is nearer by a factor of e.
+        /// Cycles or J after which the distance falls by a factor of e.
         constant: f64,
-        /// What x is.
+        /// The variable x.
         over: Over,
     },
-    /// Straight lines between the rows of a table; beyond its ends the values there.
+    /// Straight lines between the rows of a table, constant beyond its ends.
     Table {
-        /// x and the value, by x.
+        /// x and the value, sorted by x.
         rows: Arc<[(f64, f64)]>,
-        /// What x is.
+        /// The variable x.
         over: Over,
     },
 }
@@ -83,21 +83,22 @@ pub enum Course {
 /// Everything that changes with use.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunningIn {
-    /// μ; none: it stays as it is.
+    /// μ; `None` if constant.
     pub friction: Option<Course>,
-    /// k; none: it stays as it is, or follows friction.
+    /// k; `None` if constant, or if it follows friction.
     pub wear: Option<Course>,
-    /// kμ, 1/Pa: k follows friction, which is then always greater than 0. None: it does not.
+    /// kμ, 1/Pa, if k follows friction, which is then always greater than 0.
     pub wear_per_load: Option<f64>,
-    /// The friction work below which nothing wears, J.
+    /// Friction work below which nothing wears, J.
     pub threshold: f64,
 }
 
 impl Course {
-    /// From `first` to `last`, both 0 or greater, nearer by a factor of e after each `constant`.
+    /// Makes an exponential from `first` to `last`, both 0 or greater, whose distance falls by a factor of e per
+    /// `constant`.
     ///
     /// # Errors
-    /// The field `settled`, or `constant`, is out of range.
+    /// If the field `settled`, or `constant`, is out of range.
     pub fn exponential(first: f64, last: f64, constant: f64, over: Over) -> Result<Self, Invalid> {
         Ok(Self::Exponential {
             first,
@@ -107,7 +108,7 @@ impl Course {
         })
     }
 
-    /// Through `values` (0 or greater) at increasing `at`.
+    /// Makes a table of `values` (0 or greater) at increasing `at`.
     ///
     /// # Errors
     /// The field is `at_cycle`, `at_energy` or `values`.
@@ -123,7 +124,7 @@ impl Course {
         })
     }
 
-    /// The least of its values.
+    /// Returns the smallest value.
     pub fn least(&self) -> f64 {
         match self {
             Self::Exponential { first, last, .. } => first.min(*last),
@@ -131,7 +132,7 @@ impl Course {
         }
     }
 
-    /// The value after `cycles` cycles and `energy` J.
+    /// Returns the value after `cycles` cycles and `energy` J.
     pub fn after(&self, cycles: f64, energy: f64) -> f64 {
         match self {
             Self::Exponential {
@@ -155,7 +156,7 @@ impl Course {
         }
     }
 
-    /// The mean of its values over a stretch, by Simpson's rule.
+    /// Returns the mean value over a stretch, by Simpson's rule.
     fn mean(&self, stretch: Stretch) -> f64 {
         if stretch.is_moment() {
             return self.after(stretch.cycles[0], stretch.energy[0]);
@@ -174,8 +175,8 @@ impl Course {
         }
     }
 
-    /// The first corner of a table over cycles after `from` and up to `until`, unless another row is nearer to it than
-    /// `apart` cycles.
+    /// Returns the first corner of a table over cycles after `from` and up to `until`, ignoring rows closer together
+    /// than `apart` cycles.
     fn corner(&self, from: f64, until: f64, apart: f64) -> Option<f64> {
         let Self::Table {
             rows,
@@ -196,7 +197,7 @@ impl Course {
             .map(|(_, cycle)| cycle)
     }
 
-    /// Whether it does not change any more.
+    /// Whether it no longer changes.
     fn is_settled(&self, cycles: f64, energy: f64) -> bool {
         match self {
             Self::Exponential { constant, over, .. } => {
@@ -210,7 +211,7 @@ impl Course {
 }
 
 impl Over {
-    /// The name of the column of a table over it.
+    /// Returns the name of the column of this variable in a table.
     fn column(self) -> &'static str {
         match self {
             Self::Cycles => "at_cycle",
@@ -250,15 +251,15 @@ impl RunningIn {
         }
     }
 
-    /// Whether the friction at the end of a step that begins after `energy` (J) depends on the work in it.
+    /// Whether the friction at the end of a step that begins after `energy` (J) depends on the work of that step.
     pub(super) fn friction_follows_work(&self, energy: f64) -> bool {
         let course = self.friction.as_ref();
         course
             .is_some_and(|course| course.over() == Over::Energy && !course.is_settled(0.0, energy))
     }
 
-    /// Sets k of a law to its mean over the work of a stretch, 0 for what is done below the threshold; `material` has the
-    /// mean friction.
+    /// Sets k of a law to its mean over the work of a stretch, counting 0 for work below the threshold; `material` has
+    /// the mean friction.
     pub(super) fn set_wear(&self, stretch: Stretch, material: &Material, law: &mut WearLaw) {
         let [from, until] = stretch.energy;
         let work = until - from;
@@ -278,7 +279,7 @@ impl RunningIn {
         *law = law.with_coefficient((1.0 - below) * coefficient);
     }
 
-    /// The mean of k over a stretch above the threshold, 1/Pa; `None` if it stays as it is.
+    /// Returns the mean of k over a stretch above the threshold, 1/Pa; `None` if it does not change.
     fn coefficient(&self, stretch: Stretch, material: &Material) -> Option<f64> {
         match (&self.wear, self.wear_per_load) {
             (Some(course), _) => Some(course.mean(stretch)),
@@ -287,8 +288,8 @@ impl RunningIn {
         }
     }
 
-    /// The first cycle after `from` and up to `until` at which friction or wear bends, if steps of the length `apart`
-    /// see it.
+    /// Returns the first cycle after `from` and up to `until` at which friction or wear has a corner, if steps of
+    /// length `apart` resolve it.
     pub(super) fn corner(&self, from: f64, until: f64, apart: f64) -> Option<f64> {
         let courses = [&self.friction, &self.wear].into_iter().flatten();
         let corners = courses.filter_map(|course| course.corner(from, until, apart));

@@ -1,9 +1,8 @@
-//! A saved run, which continues with the same bits.
+//! A saved run, which continues bit for bit.
 //!
-//! Saved are the nodes, since a pilot run may have chosen them; the state; and those workspace
-//! values of the last good step that follow from neither state nor setup. Everything else is
-//! recomputed, so that the next step and every observation are the same as without the
-//! interruption.
+//! It contains the nodes, since a pilot run may have chosen them; the state; and those buffers of the last good step
+//! that cannot be derived from state and setup. Everything else is recomputed, so that the next step and every
+//! observation are the same as without the interruption.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -14,7 +13,7 @@ use super::{Setup, Simulation, State};
 use crate::math::abel::kink::are_hats;
 use crate::math::grid::RadialGrid;
 
-/// A simulation at rest, without the setup that it runs on.
+/// A saved simulation, without its setup.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Saved {
     nodes: Vec<f64>,
@@ -34,7 +33,7 @@ impl Saved {
     }
 }
 
-/// A saved run that does not belong to a setup, or to none at all.
+/// A saved run that does not fit its setup, or is invalid.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the saved {what} {rule}")]
 pub struct Unfit {
@@ -50,7 +49,7 @@ impl Unfit {
 }
 
 impl Simulation {
-    /// Puts the run away as it stands.
+    /// Saves the run.
     pub fn save(&self) -> Saved {
         Saved {
             nodes: self.setup().grid.nodes().to_vec(),
@@ -59,7 +58,7 @@ impl Simulation {
         }
     }
 
-    /// Continues a saved run; `setup` is the one that it ran on, except for the grid.
+    /// Continues a saved run; `setup` must be the one it ran on, except for the grid.
     pub fn restore(setup: Setup, saved: Saved) -> Result<Self, Unfit> {
         let grid = RadialGrid::restored(saved.nodes, saved.border)
             .map_err(|invalid| Unfit::new("grid", invalid.rule))?;
@@ -77,15 +76,17 @@ impl Simulation {
     }
 }
 
-/// The most cycles and steps of a run: beyond, a float no longer tells one from the next.
+/// Maximum number of cycles and steps of a run: beyond, a float no longer tells one from the next.
 const MOST: f64 = 1e15;
 
-/// Refuses what cannot have come out of a step on this setup.
+/// Refuses a state that cannot result from a step on this setup.
 fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
     let contact: &Contact = &state.contact;
     let (nodes, springs) = (setup.grid.len(), setup.springs());
     let settled = state.jump.settled.as_ref();
-    let of_cycle = settled.map_or(nodes, |settled| settled.wear.len());
+    let [of_cycle, stiff] = settled.map_or([nodes; 2], |settled| {
+        [settled.wear.len(), settled.stiffness.len()]
+    });
     for (what, length, due) in [
         ("wear", state.wear.len(), nodes),
         ("image of the wear", state.image.len(), nodes),
@@ -94,6 +95,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
         ("growth of g", state.last.growth.len(), nodes),
         ("growth of f", state.last.wear.len(), nodes),
         ("wear of a cycle", of_cycle, nodes),
+        ("stiffness of a cycle", stiff, nodes),
         ("line load", contact.load.nodal.len(), nodes),
         ("pressure", state.pressure.nodal.len(), springs),
     ] {
@@ -155,7 +157,7 @@ fn check(setup: &Setup, state: &State) -> Result<(), Unfit> {
             "does not lie in the grid",
         ));
     }
-    if contact.normal.nodes > nodes {
+    if contact.normal.nodes > nodes || settled.is_some_and(|settled| settled.touching > nodes) {
         return Err(Unfit::new("contact", "reaches beyond the grid"));
     }
     Ok(())

@@ -11,12 +11,12 @@ use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
 use crate::wear::WearLaw;
 
-/// The parts that a run is assembled from, each validated on its own floor.
+/// The parts that a run is assembled from, each validated in its own layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
-    /// Nodes of the 3D and of the 1D contact.
+    /// Nodes of the 3D and the 1D contact.
     pub grid: RadialGrid,
-    /// Round, or a line; the drive and the material are [of the same](Drive::on).
+    /// Geometry of the contact; drive and material must be [made for it](Drive::on).
     pub geometry: Geometry,
     /// Moduli and friction.
     pub material: Material,
@@ -24,31 +24,31 @@ pub struct Setup {
     pub indenter: Indenter,
     /// The motion.
     pub drive: Drive,
-    /// The law of wear; none: nothing wears, and no stress is computed for it.
+    /// The wear law; `None` if nothing wears, and then no stress is computed for it.
     pub wear: Option<WearLaw>,
-    /// What changes with use; none: friction and wear stay as they are.
+    /// Coefficients that change with use; `None` if friction and wear are constant.
     pub running_in: Option<RunningIn>,
-    /// What is worn when the run begins; none: nothing is.
+    /// Initial wear; `None` if unworn.
     pub scar: Option<Scar>,
-    /// The pressure that the softer body bears, Pa; none: no pressure is computed to be held against it.
+    /// The pressure that the softer body can bear, Pa; `None` to skip the comparison.
     pub hardness: Option<f64>,
-    /// The way to compute the transforms.
+    /// The transform method.
     pub method: AbelMethod,
-    /// How the nodes are placed; where they are graded towards the stick border, only the number of cells and the radius
+    /// How the nodes are placed; if they are graded towards the stick border, only the number of cells and the radius
     /// of [`grid`](Self::grid) count.
     pub spacing: Spacing,
-    /// How a step in time is taken.
+    /// The time-stepping scheme.
     pub scheme: Scheme,
-    /// What is done about steps that are too harsh.
+    /// How too stiff steps are treated.
     pub stability: Stability,
     /// Steps per period of the faster of the two motions, at least 1.
     pub steps_per_cycle: u32,
-    /// How cycles are gone through.
+    /// How cycles are integrated.
     pub integrator: Integrator,
 }
 
 impl Setup {
-    /// The same on another grid.
+    /// Returns the same setup on another grid.
     pub(super) fn on(&self, grid: RadialGrid) -> Self {
         Self {
             grid,
@@ -56,7 +56,7 @@ impl Setup {
         }
     }
 
-    /// Tangential springs: one a node, none without tangential motion.
+    /// Returns the number of tangential springs: one per node, 0 without tangential motion.
     pub fn springs(&self) -> usize {
         if self.drive.tangential().is_some() {
             self.grid.len()
@@ -65,28 +65,28 @@ impl Setup {
         }
     }
 
-    /// The depth that is worn when the run begins, m, at the nodes of a grid.
+    /// Returns the initially worn depth, m, at the nodes of a grid.
     pub(super) fn initial_wear(&self, grid: &RadialGrid) -> Vec<f64> {
         let scar = self.scar.as_ref();
         let depth = |&r: &f64| scar.map_or(0.0, |scar| scar.depth(r));
         grid.nodes().iter().map(depth).collect()
     }
 
-    /// The largest depth of the springs, m, where their motion is prescribed.
+    /// Returns the largest depth of the springs, m, if their motion is prescribed.
     pub fn largest_depth(&self) -> Option<f64> {
         self.drive
             .depth_of_springs()
             .map(|depth| SpringMotion::highest(&depth))
     }
 
-    /// Steps in a cycle, but for those that end where the motion turns: a normal motion that is faster than the
-    /// tangential one is resolved as well.
+    /// Returns the number of steps per cycle, not counting those that end at turning points. A normal motion that is
+    /// faster than the tangential one is resolved as well.
     pub fn steps_in_a_cycle(&self) -> f64 {
         f64::from(self.steps_per_cycle) * f64::from(self.drive.turns_of_the_faster())
     }
 
-    /// The depth that wear is measured in, m: the largest of the motion, or the `present` one where the
-    /// force is prescribed.
+    /// Returns the depth to which wear is relative, m: the largest of
+    /// the motion, or the `present` one if the force is prescribed.
     pub fn depth_scale(&self, present: f64) -> f64 {
         self.largest_depth().unwrap_or(present)
     }

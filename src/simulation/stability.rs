@@ -1,4 +1,4 @@
-//! The stiffness that each method tolerates, known before the step is taken.
+//! The largest stiffness that each method tolerates, known before a step is taken.
 //!
 //! # Formula
 //!
@@ -12,16 +12,16 @@
 //! trapezoid:  λ³ − λ² + ½z (2λ² + λ − 1) = 0                  stable for z < 2/√3
 //! ```
 //!
-//! the second for the mean of two stresses, each on an extrapolated profile. For methods product,
-//! a, a+b and benad, all eigenvalues of M are positive; for method b some are close to 0.
+//! the second for the mean of two stresses, each on an extrapolated profile. For the methods product, a, a+b and benad,
+//! all eigenvalues of M are positive; for method b some are close to 0.
 //!
-//! ρ holds on graded cells with the slip of a step as it is: the largest eigenvalue of diag(∂Δf/∂τ) μE*M on the grid
+//! ρ also holds on graded cells with the actual slip of a step: the largest eigenvalue of diag(∂Δf/∂τ) μE*M on the grid
 //! of a run is 0.9 to 1.05 of the largest z of its nodes, unworn and worn (Fig. 3, methods product and a).
 
 use super::choices::Scheme;
 use crate::math::abel::AbelMethod;
 
-/// ρ: the largest eigenvalue of the response of p to wear, times the cell's width.
+/// Returns ρ: the largest eigenvalue of the response of p to wear, times the cell width.
 pub fn response(method: AbelMethod) -> f64 {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB | AbelMethod::Benad => 1.51,
@@ -29,7 +29,7 @@ pub fn response(method: AbelMethod) -> f64 {
     }
 }
 
-/// The largest z of a stable step.
+/// Returns the largest z of a stable step.
 pub fn limit(scheme: Scheme) -> f64 {
     match scheme {
         Scheme::Euler => 2.0,
@@ -44,7 +44,7 @@ mod tests {
     use crate::math::grid::RadialGrid;
     use nalgebra::DMatrix;
 
-    /// M h on equal cells, within a contact of three quarters of them; r = 0, which never wears, left out.
+    /// Returns M h on equal cells, with a contact of three quarters of them; leaves out r = 0, which never wears.
     fn response_matrix(method: AbelMethod, cells: usize) -> DMatrix<f64> {
         let grid = RadialGrid::uniform(cells, 1.0).expect("a grid");
         let plan = AbelPlan::new(method, &grid);

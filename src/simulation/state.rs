@@ -1,63 +1,62 @@
-//! The state of a run: everything that the next step needs and that cannot be computed again.
+//! The state of a run: everything that the next step needs and that cannot be recomputed.
 
 use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
 use super::traction::Pressure;
 
-/// What is saved, restored, and carried over when a method or a law is switched.
+/// What is saved, restored, and carried over when a method or a law changes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Cycles since the start.
     pub cycle: f64,
     /// Steps taken since the start.
     pub steps: u64,
-    /// Worn depth f − f₀, m, at the nodes. Kept by itself: a mild step adds 1e-20 m to it, which
-    /// would be lost in f.
+    /// Worn depth f − f₀, m, at the nodes. Kept separately: a mild step adds 1e-20 m to it, which would be lost in f.
     pub wear: Vec<f64>,
-    /// Its 1D image by Eq. (1), m, as the steps have added it up.
+    /// Its 1D image by Eq. (1), m, accumulated by the steps.
     pub image: Vec<f64>,
     /// The contact as the last step solved it.
     pub contact: Contact,
-    /// Its pressure; on no nodes without springs.
+    /// Its pressure; unknown without springs.
     pub pressure: Pressure,
-    /// What a step of second order remembers of the one before.
+    /// Memory of the previous step for a second-order scheme.
     pub last: LastStep,
-    /// What jumps over cycles go on from.
+    /// Memory of jumps over cycles.
     pub jump: JumpMemory,
-    /// How much has been done so far.
+    /// Counts of the computations so far.
     pub stats: Stats,
-    /// Its sums.
+    /// Accumulated quantities.
     pub ledger: Ledger,
 }
 
-/// The work done since the start, in counts that do not depend on the machine.
+/// The work done since the start, counted independently of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Stats {
     /// Contact problems solved.
     pub contacts: u64,
     /// Transforms between the 3D contact and its 1D image.
     pub transforms: u64,
-    /// Sub-steps of steps that were too stiff to be taken whole.
+    /// Sub-steps of steps that were too stiff to take whole.
     pub parts: u64,
     /// Cycles stepped through on a frozen profile, for jumps.
     pub evaluated_cycles: u64,
     /// Jumps made.
     pub jumps: u64,
-    /// Jumps thrown away because their error was too large.
+    /// Jumps rejected because their error was too large.
     pub rejected_jumps: u64,
 }
 
-/// What a jump over cycles leaves for the next one.
+/// Memory of a jump over cycles for the next one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct JumpMemory {
     /// How many cycles the next jump should cover; 0 before the first one.
     pub length: f64,
-    /// Cycles are stepped directly until this one.
+    /// Cycles are stepped directly up to this one.
     pub rest_until: f64,
-    /// Periods to rest the next time that a jump does not pay.
+    /// Periods to step directly the next time a jump does not pay.
     pub patience: u32,
-    /// What a steady-state cycle wears and does at the present state; none if it has changed since.
+    /// Wear and work of a steady-state cycle at the present state; `None` if that has changed since.
     pub settled: Option<SteadyCycle>,
 }
 
@@ -70,41 +69,43 @@ pub struct SteadyCycle {
     pub friction_work: f64,
     /// The largest compression of a spring, m.
     pub elastic_depth: f64,
-    /// The largest stiffness of a node: h cycles at once are explicitly stable for h times this < 2.
-    pub stiffness: f64,
+    /// The stiffness of each node: h cycles at once are explicitly stable for h times the largest < 2.
+    pub stiffness: Vec<f64>,
+    /// How many springs touch at the largest depth, or nearly do.
+    pub touching: usize,
     /// The smallest stick radius, m.
     pub stick_radius: f64,
 }
 
-/// The step before, as far as the next one builds on it.
+/// The previous step, as far as the next one needs it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct LastStep {
-    /// Its length in cycles; 0 where the motion turned, or something else broke the smoothness, so
-    /// that nothing is to be extrapolated from it.
+    /// Its length in cycles; 0 where the motion turned, or smoothness was broken otherwise, so that nothing must be
+    /// extrapolated from it.
     pub duration: f64,
     /// The largest stiffness z of a node in it, or in its stiffest sub-step; 0 without wear.
     pub stiffness: f64,
-    /// What f grew by, m, nodal.
+    /// Growth of f, m, nodal.
     pub wear: Vec<f64>,
-    /// What g grew by, m, nodal.
+    /// Growth of g, m, nodal.
     pub growth: Vec<f64>,
 }
 
-/// What a run has summed up since it began.
+/// Sums over the run since it began.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Work of friction since the start, E_d, J.
     pub dissipated_energy: f64,
-    /// The part of the volume that a law in proportion to friction work must have worn, ∫k dE_d, m³.
+    /// The volume that laws in proportion to friction work must have worn, ∫k dE_d, m³.
     pub expected_volume: f64,
-    /// Volume that no work of friction explains, m³: worn before the run, or under other laws. Left out where wear is
+    /// Volume not explained by friction work, m³: worn before the run, or under other laws. Excluded when wear is
     /// compared with work.
     pub unexplained_volume: f64,
     /// Volume that was worn before the run, m³.
     pub initial_volume: f64,
-    /// The smallest stick radius since the period of the motion began, m.
+    /// Smallest stick radius since the current period of the motion began, m.
     pub smallest_stick_radius: f64,
-    /// The smallest stick radius of the last complete period, m; none before there is one.
+    /// Smallest stick radius of the last complete period, m; `None` before the first.
     pub settled_stick_radius: Option<f64>,
 }
 
@@ -141,7 +142,7 @@ impl State {
         }
     }
 
-    /// Takes over the counters and sums of another state, but not its nodal values.
+    /// Copies the counters and sums of another state, but not its nodal values.
     pub(super) fn carry_sums(&mut self, from: &Self) {
         self.cycle = from.cycle;
         self.steps = from.steps;
@@ -153,7 +154,7 @@ impl State {
         };
     }
 
-    /// The permanent stick radius, m: the smallest of the last complete period, or so far in the first.
+    /// Returns the permanent stick radius, m: the smallest of the last complete period, or so far in the first.
     pub fn permanent_stick_radius(&self) -> f64 {
         let ledger = &self.ledger;
         ledger

@@ -7,29 +7,29 @@ use super::model::Model;
 use crate::math::abel::field::Field;
 use crate::math::vector::vectorized;
 
-/// p of a solved contact, Pa, at the nodes: as far inwards as a step has needed it.
+/// p of a solved contact, Pa, at the nodes: as far inwards as steps have needed it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Pressure {
-    /// The innermost node with a value of this contact.
+    /// Innermost node whose value belongs to this contact.
     pub from: usize,
-    /// One value a node; 0 before that one.
+    /// One value per node; 0 before that node.
     pub nodal: Vec<f64>,
 }
 
 impl Pressure {
-    /// Of no contact yet, on `nodes` nodes.
+    /// Makes a pressure without values, on `nodes` nodes.
     pub(super) fn unknown(nodes: usize) -> Self {
         let nodal = vec![0.0; nodes];
         Self { from: nodes, nodal }
     }
 
-    /// Forgets the contact, which has become another one.
+    /// Forgets the values, because the contact has changed.
     pub(super) fn forget(&mut self) {
         self.from = self.nodal.len();
         self.nodal.fill(0.0);
     }
 
-    /// Becomes that of a contact from the node `first` on. `rest` is overwritten.
+    /// Computes the pressure of a contact from the node `first` on. Overwrites `rest`.
     pub(super) fn find(
         &mut self,
         model: &Model,
@@ -43,13 +43,13 @@ impl Pressure {
     }
 }
 
-/// p, Pa, of the solved contact, to be read.
+/// Computes p, Pa, of the solved contact, for output.
 pub(crate) fn pressure(model: &Model, contact: &Contact, out: &mut [f64]) {
     stress(model, contact, &contact.load, 0, (out, &mut Vec::new()));
     smooth_end(&contact.load, out);
 }
 
-/// τ, Pa, of the solved contact, to be read.
+/// Computes τ, Pa, of the solved contact, for output.
 pub(crate) fn shear_to_read(model: &Model, contact: &Contact, out: &mut [f64]) {
     shear(model, contact, 0, (out, &mut Vec::new()));
     smooth_end(&contact.spring, out);
@@ -58,8 +58,8 @@ pub(crate) fn shear_to_read(model: &Model, contact: &Contact, out: &mut [f64]) {
 /// A stress that rises by more from one of the last nodes to the next does so for a reason.
 const RISES: f64 = 1.1;
 
-/// Takes down the stress at the last node of a scar over which a jump has passed: until it has worn, it bears more
-/// than its share. Where the stress rises towards the edge, as under a load that oscillates, it is left as it is.
+/// Limits the stress at the last node of a scar over which the edge has just passed: until it has worn, it carries more
+/// than its share. Leaves stress that rises towards the edge, as under an oscillating load.
 fn smooth_end(field: &Field, stress: &mut [f64]) {
     let Some(dome) = field.dome else { return };
     if let [before, next, end] = &mut stress[dome.last.saturating_sub(2)..=dome.last]
@@ -80,7 +80,7 @@ fn stress(
     field.stress_from(first, &model.plan, &model.grid, contact.normal.nodes, out)
 }
 
-/// τ, Pa, of the solved contact, from the node `first` on. `rest` is overwritten.
+/// Computes τ, Pa, of the solved contact, from the node `first` on. Overwrites `rest`.
 pub(crate) fn shear(
     model: &Model,
     contact: &Contact,

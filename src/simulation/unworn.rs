@@ -1,5 +1,5 @@
-//! The contact of the unworn indenter, by quadrature of its closed 1D profile: independent of
-//! grids, steps and transforms, so that these can be checked against it.
+//! The contact of the unworn indenter, by quadrature of its closed 1D profile: independent of grids, steps and
+//! transforms, so that it can check them.
 //!
 //! # Formulas
 //!
@@ -8,10 +8,10 @@
 //! ```text
 //! F_z(d) = 2E* ∫ (d − g)₊ dx
 //! F_x    = μ [F_z(d) − F_z(d_c)],   d_c = d − U/λ under a displacement amplitude U
-//! E_d    = 8G* ∫ y (U − y) dx over the springs with y = λ(d − g) < U, of a settled cycle
+//! E_d    = 8G* ∫ y (U − y) dx over the springs with y = λ(d − g) < U, in a steady-state cycle
 //! ```
 //!
-//! Of a line of the length L, with dx/(πx) in the place of dx and U = Q/(E*L),
+//! In a line contact of length L, with dx/(πx) instead of dx and U = Q/(E*L),
 //!
 //! ```text
 //! F_z(d) = L E* d
@@ -31,20 +31,20 @@ use crate::math::geometry::Geometry;
 use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
 
-/// What makes a contact, before anything is worn.
+/// The parts that determine a contact before wear.
 #[derive(Clone, Copy)]
 pub struct Unworn<'a> {
-    /// Round, or a line.
+    /// Geometry of the contact.
     pub geometry: Geometry,
     /// The unworn shape.
     pub indenter: &'a Indenter,
-    /// What both bodies are made of.
+    /// Moduli and friction.
     pub material: &'a Material,
     /// The motion.
     pub drive: &'a Drive,
 }
 
-/// A contact that slips in a ring, under a normal load that is held.
+/// A contact that slips in a ring, under a held normal load.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ring {
     /// a, m.
@@ -53,12 +53,12 @@ pub(crate) struct Ring {
     pub stick_radius: f64,
     /// The amplitude of F_x, N.
     pub force: f64,
-    /// E_d of a settled cycle, J.
+    /// E_d of a steady-state cycle, J.
     pub energy: f64,
 }
 
 impl<'a> Unworn<'a> {
-    /// The unworn contact of a setup.
+    /// Returns the unworn contact of a setup.
     pub fn of(setup: &'a Setup) -> Self {
         Self {
             geometry: setup.geometry,
@@ -68,13 +68,13 @@ impl<'a> Unworn<'a> {
         }
     }
 
-    /// a, m, where g(a) is the `depth` (m), or the rim.
+    /// Returns a, m, where g(a) is the `depth` (m), or the rim.
     pub fn radius(&self, depth: f64) -> f64 {
         let indenter = self.indenter;
         if let Some(rim) = indenter.rim() {
             return if depth > 0.0 { rim } else { 0.0 };
         }
-        // f₀ < g₀: what touches at all reaches no further.
+        // f₀ < g₀: the contact reaches no further.
         let end = indenter.radius_at(depth);
         root::first([0.0, end], |x| self.image(x) >= depth)
     }
@@ -99,7 +99,7 @@ impl<'a> Unworn<'a> {
         self.force(depth) / area.max(f64::MIN_POSITIVE)
     }
 
-    /// The depth, m, that carries a `force` (N); infinite where none does.
+    /// Returns the depth, m, that carries a `force` (N); infinite if no depth does.
     pub fn depth(&self, force: f64) -> f64 {
         let modulus = self.material.normal_modulus();
         if let Some(length) = self.geometry.length() {
@@ -120,7 +120,7 @@ impl<'a> Unworn<'a> {
         depth.unwrap_or(f64::INFINITY)
     }
 
-    /// The deepest indentation of the motion, m.
+    /// Returns the deepest indentation of the motion, m.
     pub fn deepest(&self) -> f64 {
         match self.drive.normal() {
             Control::Displacement(depth) => depth.highest(),
@@ -128,8 +128,8 @@ impl<'a> Unworn<'a> {
         }
     }
 
-    /// How far a line contact that sticks at a `depth` (m) and slides in full moves over μ against a point at the gauge
-    /// length, m; 0 of a round one.
+    /// Returns the displacement of a line contact at a `depth` (m) in full sliding against a point at the gauge length,
+    /// divided by μ, m; 0 for a round one.
     fn shift_over_friction(&self, depth: f64) -> f64 {
         let gauge = self.drive.gauge_length().unwrap_or_default();
         let edge = self.radius(depth);
@@ -140,16 +140,16 @@ impl<'a> Unworn<'a> {
         FRAC_2_PI * (depth * (2.0 * gauge / edge).ln() + own)
     }
 
-    /// The displacement of the actuator, m, under which a held load slips from where the unworn contact of the `border`
-    /// depth (m) ends: the largest without gross slip at 0.
+    /// Returns the displacement of the actuator, m, under which a held load slips outside the border of the unworn
+    /// contact at the depth `border` (m); with `border` = 0 it is the largest without gross slip.
     pub(crate) fn line_shift(&self, depth: f64, border: f64) -> f64 {
         let own = self.shift_over_friction(depth) - self.shift_over_friction(border);
         let in_rig = self.drive.rig_compliance() * (self.force(depth) - self.force(border));
         self.material.friction() * (own + in_rig)
     }
 
-    /// The depth, m, at the stick border of a line contact at a `depth` (m) whose actuator swings; below 0 in gross slip,
-    /// by what it slides as a whole over μ.
+    /// Returns the depth, m, at the stick border of a line contact at a `depth` (m) whose actuator oscillates; in gross
+    /// slip negative, the distance that it slides as a whole divided by μ.
     fn line_border(&self, depth: f64, swing: &Oscillation) -> f64 {
         let (friction, amplitude) = (self.material.friction(), swing.amplitude());
         let beyond = |border: f64| self.line_shift(depth, border) / amplitude - 1.0;
@@ -160,8 +160,8 @@ impl<'a> Unworn<'a> {
         root::bracketed(beyond, 0.0, depth, 1e-13 * depth).unwrap_or(depth)
     }
 
-    /// By Melan's theorem, where the motion of the springs is prescribed: g at the border of the permanent stick zone, m, and
-    /// the radius c at which the unworn indenter has it, m. `None` without such a zone.
+    /// Applies Melan's theorem if the motion of the springs is prescribed: returns g at the border of the permanent
+    /// stick zone, m, and the radius c of that border on the unworn indenter, m. `None` without such a zone.
     pub(crate) fn melan(&self) -> Option<(f64, f64)> {
         let ratio = self.material.stick_ratio();
         let depth = self.drive.shakedown_depth(ratio);
@@ -169,8 +169,8 @@ impl<'a> Unworn<'a> {
         Some((depth, self.radius(depth)))
     }
 
-    /// The depth d_c of the stick border, m, at a held `depth` (m) where the actuator moves by `amplitude` (m): the rig
-    /// takes C F_x of it.
+    /// Returns the depth d_c of the stick border, m, at a held `depth` (m) if the actuator moves by `amplitude` (m), of
+    /// which the rig takes C F_x.
     fn border_on_rig(&self, depth: f64, amplitude: f64) -> Option<f64> {
         let (friction, compliance) = (self.material.friction(), self.drive.rig_compliance());
         let yields = friction * self.material.normal_modulus() / self.material.tangential_modulus();
@@ -186,7 +186,7 @@ impl<'a> Unworn<'a> {
         root::bracketed(excess, stiff, depth, 1e-14 * depth)
     }
 
-    /// The contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
+    /// Returns the contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
     pub(crate) fn ring(&self) -> Option<Ring> {
         let normal = self.drive.normal().oscillation();
         if normal.amplitude() != 0.0 || normal.mean() <= 0.0 {
@@ -216,7 +216,7 @@ impl<'a> Unworn<'a> {
         } else {
             0.0
         };
-        // A line slides by the rest, with all of its force.
+        // A line slides by the rest, with its full force.
         let (reach, sliding) = match self.geometry {
             Geometry::Round => (yields * (depth - border), 0.0),
             Geometry::Line { .. } => (yields * (depth - border.max(0.0)), -border.min(0.0)),
@@ -252,7 +252,7 @@ mod tests {
         })
     }
 
-    /// Of Hertz, for R = 10 mm and d = 1 µm.
+    /// Hertz, for R = 10 mm and d = 1 µm.
     const FORCE: f64 = 4.0 / 3.0 * 2.3077e11 * 0.1 * 1e-9;
 
     fn is_near(found: f64, due: f64, error: f64) {
@@ -291,7 +291,7 @@ mod tests {
                 let [radius, carried] = with(&indenter, |contact| {
                     [contact.radius(depth), contact.force(depth)]
                 });
-                // A flat tip of 1 mm bears a nanonewton at a depth that its radius has no digits for.
+                // A flat tip of 1 mm carries a nanonewton at a depth too small to change the digits of its radius.
                 assert!(
                     depth > 0.0 && radius > 0.0 && (carried / force - 1.0).abs() < 0.02,
                     "{indenter:?} {force}: {depth:e} {radius:e} {carried:e}"

@@ -9,14 +9,14 @@ use std::sync::Arc;
 
 use crate::math::invalid::{Invalid, check_table};
 
-/// The most corners of a waveform.
+/// Maximum number of corners.
 const MOST_CORNERS: usize = 100_000;
 
-/// By how much of its span a table may miss its beginning and still counts as closed.
+/// A table still counts as closed if its ends differ by no more than this fraction of its amplitude.
 const CLOSED: f64 = 1e-6;
 
-/// The most periods that a table is tried for, the phases at which they are compared, and by how much of the amplitude
-/// they may differ.
+/// Search for a repetition within a table: maximum number of periods, number of phases compared, and allowed difference
+/// in amplitudes.
 const MOST_REPEATS: u32 = 50;
 const REPEAT_PLACES: u32 = 211;
 const ALIKE: f64 = 0.02;
@@ -40,29 +40,29 @@ pub struct Polyline {
     values: Vec<f64>,
 }
 
-/// A table of one period: its shape, and the motion that it was taken from.
+/// A table of one period: its shape, and its original scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tabled {
     /// The shape, between −1 and 1.
     pub waveform: Waveform,
-    /// Half the sum of the lowest and the highest value.
+    /// Mean of the lowest and the highest value.
     pub mean: f64,
-    /// Half their difference.
+    /// Half of their difference.
     pub amplitude: f64,
     /// 2π over the time from the first row to the last, rad/s.
     pub angular_frequency: f64,
 }
 
 impl Waveform {
-    /// Constant speed there and back.
+    /// Moves at constant speed there and back.
     pub fn triangle() -> Self {
         Self::polyline(vec![0.25, 0.75], vec![1.0, -1.0])
     }
 
-    /// Constant speed, with rests at both ends that take the share `hold` of a period, between 0 and 1.
+    /// Moves at constant speed and rests at both ends, together for the share `hold` of a period, between 0 and 1.
     ///
     /// # Errors
-    /// Another share.
+    /// If the share is outside that range.
     pub fn trapezoid(hold: f64) -> Result<Self, Invalid> {
         if !(hold > 0.0 && hold < 1.0) {
             let rule = "must be greater than 0 and less than 1";
@@ -74,10 +74,10 @@ impl Waveform {
         Ok(Self::polyline(phases, values))
     }
 
-    /// One period from a table: `times` (s) that increase, and `values`, of which the last is the first.
+    /// Makes one period from a table: increasing `times` (s), and `values`, the last of which equals the first.
     ///
     /// # Errors
-    /// Rows that are no closed motion; the field is `times` or `values`.
+    /// If the rows are not a closed motion; the field is `times` or `values`.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Tabled, Invalid> {
         let number = times.len();
         check_table(("times", times), ("values", values), 3..=MOST_CORNERS)?;
@@ -118,7 +118,7 @@ impl Waveform {
         })
     }
 
-    /// How often it repeats within its period; `None` if it does not.
+    /// Returns how often it repeats within its period; `None` if it does not.
     fn repeats(&self) -> Option<u32> {
         let Self::Polyline(line) = self else {
             return None;
@@ -135,7 +135,7 @@ impl Waveform {
         Self::Polyline(Arc::new(Polyline { phases, values }))
     }
 
-    /// Whether it goes from one end to the other and back, resting there or not: one stroke each way.
+    /// Whether it goes from one end to the other and back, with or without rests: one stroke each way.
     pub fn has_two_strokes(&self) -> bool {
         match self {
             Self::Sine => true,
@@ -143,7 +143,7 @@ impl Waveform {
         }
     }
 
-    /// The fastest that it moves, relative to a sine.
+    /// Returns its greatest speed, relative to a sine.
     pub fn fastest(&self) -> f64 {
         match self {
             Self::Sine => 1.0,
@@ -156,26 +156,26 @@ impl Waveform {
 }
 
 impl Polyline {
-    /// The value at a phase from 0 to 1.
+    /// Returns the value at a phase from 0 to 1.
     pub fn at(&self, phase: f64) -> f64 {
         let k = self.segment(phase);
         let since = (phase - self.phases[k]).rem_euclid(1.0);
         self.values[k] + self.slope(k) * since
     }
 
-    /// The slope per period at a phase, behind a corner that stands there.
+    /// Returns the slope per period at a phase; at a corner, the slope behind it.
     pub fn rate(&self, phase: f64) -> f64 {
         self.slope(self.segment(phase))
     }
 
-    /// The slope per period at a phase, or the last one before a rest that it lies in.
+    /// Returns the slope per period at a phase; during a rest, the last slope before it.
     pub fn last_rate(&self, phase: f64) -> f64 {
         let (corners, k) = (self.phases.len(), self.segment(phase));
         let mut slopes = (0..corners).map(|back| self.slope((k + corners - back) % corners));
         slopes.find(|slope| *slope != 0.0).unwrap_or(0.0)
     }
 
-    /// How far ahead of `phase` the next corner is, in periods: greater than 0, at most 1.
+    /// Returns the distance from `phase` to the next corner, in periods: greater than 0, at most 1.
     pub fn to_next_corner(&self, phase: f64) -> f64 {
         let next = self.phases.partition_point(|&corner| corner <= phase);
         match self.phases.get(next) {
@@ -184,7 +184,7 @@ impl Polyline {
         }
     }
 
-    /// The segment, named by the corner at which it begins, that holds a phase.
+    /// Returns the segment that contains a phase, as the index of the corner at which it begins.
     fn segment(&self, phase: f64) -> usize {
         let behind = self.phases.partition_point(|&corner| corner <= phase);
         (behind + self.phases.len() - 1) % self.phases.len()
@@ -199,7 +199,7 @@ impl Polyline {
         (self.values[next] - self.values[k]) / width
     }
 
-    /// How often it turns in a period.
+    /// Returns how often it turns per period.
     fn turns(&self) -> usize {
         let slopes = (0..self.phases.len()).map(|k| self.slope(k));
         let signs: Vec<f64> = slopes.filter(|s| *s != 0.0).map(f64::signum).collect();

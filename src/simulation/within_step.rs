@@ -1,9 +1,9 @@
-//! Follows springs within a step in which their load changes: when they touch, begin to slip, and leave.
+//! Follows springs through a step in which their load changes: when they touch, begin to slip, and leave.
 //!
 //! # Formula
 //!
-//! Over a step, the load and the indenter move at constant rates, q(σ) = q₀ + σ Δq and U(σ) = σ ΔU with σ from 0 to 1. A
-//! spring that stands at u₀ sticks until it meets its limit, and then slips to the end of the step, or to where it leaves:
+//! Over a step, the load and the indenter move at constant rates, q(σ) = q₀ + σ Δq and U(σ) = σ ΔU with σ from 0 to 1.
+//! A spring displaced by u₀ sticks until it meets its limit, and then slips to the end of the step, or until it leaves:
 //!
 //! ```text
 //! ±(u₀ + σ ΔU) = (μ/G*) q(σ)               where slip begins
@@ -11,27 +11,28 @@
 //! work         = μ (q_begin + q_end)/2 · |s|
 //! ```
 //!
-//! That is exact for a spring on its own, however long the step. The mean load of the whole step is not: what a spring
-//! holds when it leaves, G* u²/2, is lost in friction for any μ, at loads that are small and over a slip that is short,
-//! and what the indenter moves before a spring touches or after it leaves rubs nothing.
+//! This is exact for a single spring, however long the step. Using the mean load of the whole step is not: when a
+//! spring leaves, it loses the energy G* u²/2 to friction for any μ, at small loads and over a short slip, and the
+//! indenter's motion before a spring touches or after it leaves rubs nothing.
 
 use super::contact::Contact;
 use super::model::Model;
 use crate::contact::tangential::SpringState;
+use crate::math::geometry::Geometry;
 
-/// What a spring slips under load within a step.
+/// The slip of a spring under load within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Slip {
     /// Signed, m.
     length: f64,
-    /// The mean load during it, N/m.
+    /// Mean load during the slip, N/m.
     load: f64,
-    /// Whether the spring stuck before.
+    /// Whether the spring stuck first.
     is_late: bool,
 }
 
-/// The slip of a spring at `before` (m) whose load goes from one of `loads` to the other (N/m), negative where it is out
-/// of contact, while the indenter moves by `increment` (m). `reach` is μ/G*. `None` if it does not slip.
+/// Returns the slip of a spring at `before` (m) while its load changes between the two `loads` (N/m), negative out of
+/// contact, and the indenter moves by `increment` (m). `reach` is μ/G*. `None` if it does not slip.
 fn slip_of(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> Option<Slip> {
     let [from, to] = loads;
     let change = to - from;
@@ -42,7 +43,7 @@ fn slip_of(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> Option<S
         (false, true) => (passes_zero, 1.0),
         (false, false) => return None,
     };
-    // A spring stands at zero when it touches.
+    // A spring is at zero when it touches.
     let held = if from > 0.0 { before } else { 0.0 };
     let limit = reach * from.max(0.0);
     let begins = |sign: f64| {
@@ -62,24 +63,24 @@ fn slip_of(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> Option<S
     })
 }
 
-/// What springs that slip, touch or leave within a step bear meanwhile.
+/// Springs that slip, touch or leave within a step, and their loads meanwhile.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Within {
-    /// What each spring did while it was in contact.
+    /// State of each spring while it was in contact.
     pub states: Vec<SpringState>,
-    /// What it bore while it slipped, relative to the mean load of the step.
+    /// Its load while it slipped, relative to the mean load of the step.
     pub share: Vec<f64>,
-    /// The slip that does work, m.
+    /// Slip that does work, m.
     pub slip: Vec<f64>,
-    /// Whether springs stick for a part of the step and then leave, or too few slip to show where slip ends between them.
+    /// Whether springs stick for part of the step and then leave, or too few slip to show where slip ends between them.
     pub is_ragged: bool,
 }
 
-/// So few springs do not show where slip begins and ends between them.
+/// Up to this many springs do not show where slip begins and ends between them.
 const FEW: usize = 2;
 
 impl Within {
-    /// For as many `springs`.
+    /// Allocates for this many `springs`.
     pub fn new(springs: usize) -> Self {
         Self {
             states: vec![SpringState::Open; springs],
@@ -90,8 +91,8 @@ impl Within {
     }
 
     /// Follows the springs from one of two contacts to the other, whose friction at the mean load is `friction` (N/m).
-    /// Corrects the slip (m) and the friction where springs stick for a part of the step before they slip and leave; where
-    /// all of them slip from the beginning, the mean load serves as it is.
+    /// Corrects slip (m) and friction if springs stick for part of the step before they slip and leave; if all of them
+    /// slip from the beginning, the mean load is used unchanged.
     pub fn follow(
         &mut self,
         model: &Model,
@@ -101,11 +102,15 @@ impl Within {
     ) {
         let material = &model.setup.material;
         let (coefficient, reach) = (material.friction(), material.reach());
-        let increment = after.shift - before.shift;
+        // The displacement of a line contact is told against a gauge: its springs move by less.
+        let increment = match model.setup.geometry {
+            Geometry::Round => after.shift - before.shift,
+            Geometry::Line { .. } => slip[0] + after.spring.nodal[0] - before.spring.nodal[0],
+        };
         let sinks = material.normal_modulus() * (after.depth - before.depth);
         let end = before.normal.nodes.max(after.normal.nodes);
         let loads = |j: usize| [before.load.nodal[j], after.load.nodal[j]];
-        // Of a spring that touches or leaves in the step.
+        // Slip of a spring that touches or leaves during the step.
         let follow = |j: usize| {
             let changed = match (loads(j), loads(j).map(|load| load > 0.0)) {
                 ([from, _], [true, false]) => [from, (from + sinks).min(0.0)],
@@ -119,7 +124,7 @@ impl Within {
         let (mut is_late, mut slipping) = (false, 0);
         for (j, slip) in slip[..end].iter_mut().enumerate() {
             match follow(j) {
-                // What the indenter moved before it took the spring along is no slip.
+                // Motion of the indenter before it takes the spring along is not slip.
                 Some(None) => *slip = 0.0,
                 Some(Some(found)) => is_late |= found.is_late,
                 None => {}
@@ -155,12 +160,12 @@ impl Within {
         if self.is_ragged {
             self.end_slip(friction, end);
         } else if at_edge == 0.0 {
-            // What is open moves with the indenter and rubs nothing next to a spring that sticks.
+            // Next to a spring that sticks, open springs move with the indenter and rub nothing.
             self.slip[end..].fill(0.0);
         }
     }
 
-    /// Lets the work fall to zero on a line towards springs that do none: what they bear is none of it.
+    /// Lets the work fall linearly to zero towards springs that do none, whatever they carry.
     fn end_slip(&mut self, friction: &mut [f64], end: usize) {
         self.slip[end..].fill(0.0);
         for j in 0..friction.len().min(end + 1) {
@@ -181,7 +186,7 @@ impl Within {
 mod tests {
     use super::*;
 
-    /// Coulomb's rule in many small steps: the work per μ, N m/m, and the slip under load, m.
+    /// Applies Coulomb's rule in many small steps: returns the work per μ, N m/m, and the slip under load, m.
     fn stepped(loads: [f64; 2], before: f64, increment: f64, reach: f64) -> [f64; 2] {
         let steps = 200_000;
         let load = |i: i32| loads[0] + (loads[1] - loads[0]) * f64::from(i) / f64::from(steps);
@@ -216,7 +221,7 @@ mod tests {
             let found = slip_of(loads, before, increment, reach).expect("slip");
             let [work, slid] = stepped(loads, before, increment, reach);
             let [of_work, of_slip] = [found.load * found.length.abs() - work, found.length - slid];
-            // Small steps know the load to its change in one of them.
+            // Small steps know the load only to its change per step.
             let change = (loads[1] - loads[0]).abs() / 200_000.0;
             assert!(
                 of_work.abs() < 2e-4 * work + change * slid.abs()

@@ -1,15 +1,13 @@
-//! Curves to lay beside a simulation: what somebody measured, the files of a run, a state that was frozen.
+//! Curves to draw beside a simulation: measurements, the files of a run, or a frozen state.
 
 use std::path::Path;
 
 use super::measured::{Kind, Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
-use crate::scenario::columns::Columns;
+use crate::reading::Column;
+use crate::scenario::columns::{Columns, Naming};
 use crate::scenario::{Refusal, printable};
 use crate::traces::{Axes, Loop, Table};
-
-/// The column of standard errors.
-const ERRORS: &str = "error";
 
 /// One curve of a source.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,17 +16,17 @@ pub struct Trace<'a> {
     pub xs: &'a [f64],
     /// Ordinates; NaN is a gap.
     pub ys: &'a [f64],
-    /// Standard errors of the ordinates, where they are known.
+    /// Standard errors of the ordinates, if known.
     pub errors: Option<&'a [f64]>,
 }
 
 impl Trace<'_> {
-    /// The ordinate at `x`, between the neighbouring points that have it between them; none outside.
+    /// Returns the ordinate at `x`, interpolated between neighbouring points; `None` outside.
     pub fn value_at(&self, x: f64) -> Option<f64> {
         value_at(self.xs, self.ys, x)
     }
 
-    /// The force of a loop at a displacement on one of its strokes; none beyond its ends.
+    /// Returns the force of a loop at a displacement on one of its strokes; `None` beyond its ends.
     pub fn force_at(&self, displacement: f64, rising: bool) -> Option<f64> {
         let points = self.xs.iter().copied().zip(self.ys.iter().copied());
         let points = points.filter(|(shift, force)| shift.is_finite() && force.is_finite());
@@ -39,7 +37,7 @@ impl Trace<'_> {
     }
 }
 
-/// What has worn, over the radius.
+/// Worn depth over the radius.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worn {
     /// r, m.
@@ -55,16 +53,16 @@ pub struct Worn {
 /// Columns of one source.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ghost {
-    /// What legends call it.
+    /// Name in legends.
     pub name: String,
-    /// Whether the values were measured, at points that say nothing of what lies between them.
+    /// Whether the values were measured, so that nothing is known between the points.
     pub is_measured: bool,
-    /// What is known of it.
+    /// The data it contains.
     pub tables: Vec<Table>,
 }
 
 impl Ghost {
-    /// A ghost of which nothing is known.
+    /// Makes an empty ghost.
     pub fn new(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -72,18 +70,19 @@ impl Ghost {
         }
     }
 
-    /// Reads measured data or a table of a run from a CSV file, or all tables of a run's directory.
+    /// Reads measured data, whose columns `naming` may name, or a table of a run from a CSV file, or all tables of a run's
+    /// directory.
     ///
     /// # Errors
     /// One line: what cannot be read, holds nothing that could be drawn, or is refused as measured data.
-    pub fn read(path: &Path) -> Result<Self, Refusal> {
+    pub fn read(path: &Path, naming: &Naming) -> Result<Self, Refusal> {
         let name = path.file_name().unwrap_or(path.as_os_str());
         let name = printable(&name.to_string_lossy());
         if !path.is_dir() {
-            return Self::of_columns(&name, &Columns::read(path)?);
+            return Self::of_columns(&name, &Columns::read_as(path, naming)?);
         }
         let mut ghost = Self::new(&name);
-        // The loop of a snapshot has its own file.
+        // The loop of a snapshot is in its own file.
         for file in ["state.csv", "history.csv", "loop.csv"] {
             let file = path.join(file);
             if file.is_file() {
@@ -99,14 +98,17 @@ impl Ghost {
         Ok(ghost)
     }
 
-    /// The traces of a table, by its columns: a state or a history of this program, else measured data.
+    /// Makes a ghost from columns: a state or a history of this program, or else measured data.
     ///
     /// # Errors
-    /// Columns that make nothing that could be drawn; gaps and more in measured data.
+    /// If the columns contain nothing to draw, or for gaps and other faults of measured data.
     pub fn of_columns(name: &str, columns: &Columns) -> Result<Self, Refusal> {
         let mut ghost = Self::new(name);
-        let has = |name| columns.has(name);
-        if ["f0_m", "u_z_m", "scar_depth_m"].into_iter().any(has) {
+        let has = |column: Column| columns.has(column);
+        if [Column::Unworn, Column::Indentation, Column::ScarDepth]
+            .into_iter()
+            .any(has)
+        {
             ghost.take(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
@@ -127,21 +129,20 @@ impl Ghost {
         }
     }
 
-    /// The curve of these columns, if it has a finite value.
+    /// Returns the curve of these columns, if it has a finite value.
     pub fn trace(&self, axes: Axes) -> Option<Trace<'_>> {
         let mut traces = self.tables.iter().filter_map(|table| {
             Some(Trace {
                 xs: table.column(axes.x)?,
                 ys: table.column(axes.y)?,
-                errors: table.column(ERRORS),
+                errors: table.column(Column::StandardError),
             })
         });
         let is_there = |trace: &Trace| trace.ys.iter().any(|value| value.is_finite());
         traces.find(is_there)
     }
 
-    /// What has worn of it: as its traces say, or by its profile less `unworn`, m at r; `None` if
-    /// neither is known.
+    /// Returns its worn depth: from its own curve, or as its profile minus `unworn`, m at r; `None` if it has neither.
     pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<Worn> {
         let (profile, wear) = (self.trace(Axes::PROFILE), self.trace(Axes::WEAR));
         let trace = wear.or(profile)?;
@@ -162,15 +163,15 @@ impl Ghost {
         })
     }
 
-    /// The last cycle that it tells of.
+    /// Returns the last cycle of its histories.
     pub fn end(&self) -> f64 {
         let tables = self.tables.iter();
-        let histories = tables.filter(|table| table.column("r_m").is_none());
+        let histories = tables.filter(|table| table.column(Column::Radius).is_none());
         histories.filter_map(Table::last_cycle).fold(0.0, f64::max)
     }
 
-    /// Says so where its radii and the `reach` of the contact, m, differ by so much that one of them is
-    /// in another unit.
+    /// Checks whether its radii and the `reach` of the contact, m,
+    /// differ so much that one of them must be in another unit.
     ///
     /// # Errors
     /// A line that names both.
@@ -187,7 +188,7 @@ impl Ghost {
         }
     }
 
-    /// Adds one of this program's own tables, with the loop of its last cycle where it has one.
+    /// Adds one of this program's own tables, and the loop of its last cycle, if any.
     pub fn take(&mut self, table: Table) {
         if let Some(one) = Loop::of(&table, table.last_cycle()) {
             self.take_loop(one.shifts, one.forces);
@@ -203,7 +204,7 @@ impl Ghost {
     }
 
     fn add(&mut self, axes: Axes, xs: Vec<f64>, ys: Vec<f64>, errors: Option<Vec<f64>>) {
-        let errors = errors.map(|errors| (ERRORS, errors));
+        let errors = errors.map(|errors| (Column::StandardError, errors));
         let columns = [(axes.x, xs), (axes.y, ys)].into_iter().chain(errors);
         self.tables.push(Table::of_columns(Vec::new(), columns));
     }

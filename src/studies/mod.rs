@@ -1,5 +1,5 @@
-//! Studies: many runs and transforms made into one table. They know scenarios and closed forms, but
-//! neither files nor screens: printing, drawing and writing is left to the layers above.
+//! Studies: many runs and transforms, gathered in one table. They use scenarios and closed forms, but neither files nor
+//! screens: printing, drawing and writing are left to higher layers.
 
 pub mod fit;
 pub mod ghost;

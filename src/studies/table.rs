@@ -5,14 +5,14 @@ use serde::{Serialize, Serializer};
 use crate::scenario::escape::csv_line;
 use crate::scenario::scalars::{self, Value};
 
-/// How a column is written as text; files always get every digit.
+/// How a column is formatted as text; files always get every digit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Words, to the left.
+    /// Words, aligned left.
     Words,
-    /// Numbers, to the right: whole ones as they are, others in two digits and an exponent, 1.2e-3.
+    /// Numbers, aligned right: whole ones unchanged, others with two digits and an exponent, 1.2e-3.
     Rough,
-    /// Two digits after the point.
+    /// Two decimals.
     Fixed,
 }
 
@@ -32,14 +32,14 @@ impl Format {
         }
     }
 
-    /// Whether a cell goes across all columns of the group from here on: words among numbers.
+    /// Whether a cell spans all following columns of its group: words among numbers.
     fn is_spanned_by(self, cell: &Value) -> bool {
         self != Self::Words && cell.is_string()
     }
 }
 
-/// A heading that neighbouring columns share, empty for none and in texts only; a column's own heading, which is its key
-/// in files; how it is written.
+/// A column: a heading shared with its neighbours, only in texts and empty if there is none; its own heading, which is
+/// the key in files; and its format.
 pub type Column = (&'static str, &'static str, Format);
 
 /// Columns and rows.
@@ -50,8 +50,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table without rows, of columns by the headings that they share, their names with blanks between them, and how
-    /// they are written.
+    /// Makes a table without rows, from groups of columns: their shared heading, their names separated by blanks, and
+    /// their format.
     pub fn of(columns: &[Column]) -> Self {
         let columns = columns.iter().flat_map(|&(group, names, format)| {
             let names = names.split(' ');
@@ -63,8 +63,8 @@ impl Table {
         }
     }
 
-    /// Adds a row, a list or a tuple: cells that are not given are missing, cells beyond the columns are dropped. Words in
-    /// a column of numbers go across all columns of its group from there on, whose own cells are then not shown.
+    /// Adds a row, a list or a tuple: absent cells are missing, cells beyond the columns are dropped. Words in a column
+    /// of numbers span all following columns of its group, whose own cells are then hidden.
     pub fn push(&mut self, row: impl Serialize) {
         let row = serde_json::to_value(row).expect("numbers and words");
         let mut row = row.as_array().cloned().unwrap_or_default();
@@ -76,14 +76,14 @@ impl Table {
         self.columns.iter().map(|(_, name, _)| *name).collect()
     }
 
-    /// Comma-separated values under a line of names.
+    /// Formats comma-separated values after a line of names.
     pub fn csv(&self) -> String {
         let rows = self.rows.iter();
         let rows = rows.map(|row| csv_line(row.iter().map(scalars::cell)));
         csv_line(self.names()) + &rows.collect::<String>()
     }
 
-    /// Aligned columns under their headings, no trailing blanks.
+    /// Formats aligned columns under their headings, without trailing blanks.
     pub fn text(&self) -> String {
         let columns = &self.columns;
         let widths: Vec<usize> = (0..columns.len()).map(|at| self.width(at)).collect();
@@ -119,17 +119,17 @@ impl Table {
         widths.fold(name.chars().count(), usize::max)
     }
 
-    /// One past the last column of the group that column `at` belongs to.
+    /// Returns one past the last column of the group of column `at`.
     fn group_end(&self, at: usize) -> usize {
         let is_of_it = |other: &&Column| other.0 == self.columns[at].0;
         at + self.columns[at..].iter().take_while(is_of_it).count()
     }
 }
 
-/// Between columns.
+/// Between two columns.
 const GAP: &str = " ";
 
-/// A line of pieces, each of which goes from its column to the one before `end`, and is as wide as these.
+/// Formats a line of pieces, each of which spans from its column to the one before `end`, over these widths.
 fn line(
     widths: &[usize],
     end: impl Fn(usize) -> usize,
@@ -146,14 +146,14 @@ fn line(
 }
 
 impl Serialize for Table {
-    /// A list of objects, keys in the order of the columns.
+    /// Writes a list of objects, with keys in the order of the columns.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let names = self.names();
         serializer.collect_seq(self.rows.iter().map(|row| Object(&names, row)))
     }
 }
 
-/// A row as an object: names of columns, and cells.
+/// A row as an object: column names and cells.
 pub struct Object<'a>(pub &'a [&'a str], pub &'a [Value]);
 
 impl Serialize for Object<'_> {

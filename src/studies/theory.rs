@@ -1,5 +1,4 @@
-//! Closed forms for the scenario on the screen, where they exist, to draw over the plots and to
-//! check the run.
+//! Closed forms for the scenario on the screen, if there are any, to draw over the plots and to check the run.
 
 use crate::contact::indenter::Indenter;
 use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
@@ -14,19 +13,61 @@ use crate::simulation::{Setup, Unworn};
 /// The closed forms that apply.
 #[derive(Debug, Clone, Default)]
 pub struct Theory {
-    /// The permanent stick radius by Melan's theorem, m; none if there is no such zone.
+    /// The permanent stick radius by Melan's theorem, m; `None` without a permanent stick zone.
     pub stick_radius: Option<f64>,
     limit: Option<LimitingProfile>,
-    /// Of a line: a cylinder under the largest load, and whether it wears to a limit.
-    cylinder: Option<(Cylinder, bool)>,
+    line: Option<Line>,
     unworn: Option<(PowerLaw, f64)>,
     cattaneo: Option<CattaneoMindlin>,
-    /// 1/κ = μE*/G*: u_x over depth from which the unworn indenter slips as a whole.
+    /// 1/κ = μE*/G*: the ratio of u_x to depth at which gross slip of the unworn indenter begins.
     pub slip_per_depth: f64,
 }
 
+/// A cylinder on a flat, under its largest load.
+#[derive(Debug, Clone)]
+struct Line {
+    cylinder: Cylinder,
+    /// Whether it wears to a limit.
+    is_limited: bool,
+    /// The length of the contact and the depth of the gauge, m.
+    length: f64,
+    gauge: f64,
+    /// The amplitude of a tangential force from rest under a held load, N/m.
+    amplitude: Option<f64>,
+}
+
+impl Line {
+    /// The same under another load, N/m.
+    fn under(&self, load: f64) -> Cylinder {
+        Cylinder {
+            load: load.max(0.0),
+            ..self.cylinder
+        }
+    }
+}
+
+/// Whether the closed forms of a sine hold at all its moments.
+fn is_sine(swing: &Oscillation) -> bool {
+    *swing.waveform() == Waveform::Sine || swing.amplitude() == 0.0
+}
+
+/// Whether the tangential motion begins at rest and swings about it, under a normal one that is held.
+fn is_from_rest(normal: &Oscillation, tangential: &Oscillation) -> bool {
+    let is_centred = tangential.mean() == 0.0 && tangential.phase() == 0.0;
+    normal.amplitude() == 0.0 && is_centred && is_sine(tangential)
+}
+
+/// Where in a cycle from rest the tangential motion is.
+fn branch(cycle: f64) -> Branch {
+    match cycle {
+        first if first <= 0.25 => Branch::Loading,
+        later if (0.25..0.75).contains(&later.fract()) => Branch::Unloading,
+        _ => Branch::Reloading,
+    }
+}
+
 impl Theory {
-    /// What applies to the parts of a simulation.
+    /// Finds the closed forms for the parts of a simulation.
     pub fn of(setup: &Setup) -> Self {
         let e_star = setup.material.normal_modulus();
         if let Some(length) = setup.geometry.length() {
@@ -42,10 +83,8 @@ impl Theory {
         let Some((normal, tangential)) = drive.normal().displacement().zip(tangential) else {
             return theory;
         };
-        // The closed forms begin with the unworn indenter on a stiff rig. For other waveforms than sines they hold at
-        // the turning points alone.
-        let is_sine =
-            |swing: &Oscillation| *swing.waveform() == Waveform::Sine || swing.amplitude() == 0.0;
+        // The closed forms begin with the unworn indenter on a stiff rig. For waveforms other than sines they only hold
+        // at the turning points.
         let is_stiff = setup.drive.rig_compliance() == 0.0;
         if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
             return theory;
@@ -62,8 +101,7 @@ impl Theory {
             stick_radius,
         };
         theory.limit = theory.stick_radius.filter(|_| wears).map(limit);
-        let from_rest =
-            normal.amplitude() == 0.0 && tangential.mean() == 0.0 && tangential.phase() == 0.0;
+        let from_rest = is_from_rest(normal, tangential);
         let cattaneo = CattaneoMindlin {
             e_star,
             g_star: setup.material.tangential_modulus(),
@@ -76,40 +114,54 @@ impl Theory {
         theory
     }
 
-    /// What applies to a line of this `length` (m).
+    /// Finds the closed forms for a line contact of this `length` (m).
     fn of_line(setup: &Setup, length: f64) -> Self {
         let is_worn = setup.scar.is_some();
         let melan = Unworn::of(setup).melan().filter(|_| !is_worn);
         let stick_radius = melan.map(|(_, radius)| radius);
         let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
-        let load = setup.drive.normal().oscillation().highest() / length;
-        let cylinder = |radius| Cylinder {
-            e_star: setup.material.normal_modulus(),
-            radius,
-            friction: setup.material.friction(),
-            load,
+        let normal = setup.drive.normal().oscillation();
+        let load = normal.highest() / length;
+        let held = setup.material.friction() * load;
+        let amplitude = match setup.drive.tangential() {
+            Some(Control::Force(force)) if !is_worn && is_from_rest(normal, force) => {
+                Some(force.amplitude() / length)
+            }
+            _ => None,
         };
-        let cylinder = setup.indenter.ball_radius().map(cylinder);
+        let line = |radius| Line {
+            cylinder: Cylinder {
+                e_star: setup.material.normal_modulus(),
+                radius,
+                friction: setup.material.friction(),
+                load,
+            },
+            is_limited: wears && stick_radius.is_some(),
+            length,
+            gauge: setup.drive.gauge_length().unwrap_or_default(),
+            amplitude: amplitude.filter(|amplitude| *amplitude < held),
+        };
         Self {
             stick_radius,
-            cylinder: cylinder.map(|cylinder| (cylinder, wears && stick_radius.is_some())),
+            line: setup.indenter.ball_radius().map(line),
             slip_per_depth: setup.material.stick_ratio().recip(),
             ..Self::default()
         }
     }
 
-    /// f∞(r), m: what wear leads to.
+    /// Returns f∞(r), m: the limiting profile of wear.
     pub fn limiting_profile(&self, radii: &[f64]) -> Option<Vec<f64>> {
-        if let (Some((cylinder, true)), Some(stick)) = (&self.cylinder, self.stick_radius) {
-            let unworn = |x: f64| 0.5 * x * x / cylinder.radius;
-            return Some(over(radii, |x| unworn(x) + cylinder.limit_depth(stick, x)));
+        if let (Some(line), Some(stick)) = (&self.line, self.stick_radius) {
+            let unworn = |x: f64| 0.5 * x * x / line.cylinder.radius;
+            let limit = |x: f64| unworn(x) + line.cylinder.limit_depth(stick, x);
+            return line.is_limited.then(|| over(radii, limit));
         }
         let limit = self.limit.as_ref()?;
         Some(over(radii, |r| limit.profile(r)))
     }
 
-    /// About the deepest wear after `cycles` cycles, m: by Archard's law under the pressure of the unworn
-    /// contact, and never more than where wear ends. `None` where nothing slips, or without a closed form.
+    /// Estimates the deepest wear after `cycles` cycles, m, by Archard's law under the pressure of the unworn contact,
+    /// limited by the depth at which wear ends. `None` if nothing slips, or without a closed form.
     pub fn expected_wear(&self, setup: &Setup, cycles: Option<f64>) -> Option<f64> {
         let law = setup.wear?;
         let nodes = setup.grid.nodes();
@@ -126,15 +178,19 @@ impl Theory {
             Some(4.0 * law.coefficient() * stress * shift.amplitude() * cycles?)
         };
         let reached = by_law().into_iter().chain(settled).reduce(f64::min)?;
-        // A displacement holds no more than the depth that it presses to.
+        // Under a prescribed displacement, wear cannot exceed the largest depth.
         let most = setup.largest_depth().filter(|_| !setup.geometry.is_line());
         let most = most.unwrap_or(f64::INFINITY);
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
     /// The amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N):
-    /// u_t = d/κ with F ∝ d^((n+1)/n) for a tip ∝ rⁿ.
+    /// u_t = d/κ with F ∝ d^((n+1)/n) for a tip ∝ rⁿ. That of a line is told against its gauge.
     pub fn gross_slip_amplitude(&self, load: f64) -> Option<f64> {
+        if let Some(line) = &self.line {
+            let pressed = line.under(load / line.length);
+            return Some(pressed.shift(pressed.friction * pressed.load, line.gauge));
+        }
         let (shape, e_star) = self.unworn.as_ref()?;
         let depth = 1e-6;
         let share = load.max(0.0) / shape.force(*e_star, depth);
@@ -142,11 +198,10 @@ impl Theory {
         Some(depth * share.powf(power) * self.slip_per_depth)
     }
 
-    /// p(r), Pa, of the unworn indenter at a depth (m).
+    /// Returns p(r), Pa, of the unworn indenter at a depth (m).
     pub fn unworn_pressure(&self, depth: f64, radii: &[f64]) -> Option<Vec<f64>> {
-        if let Some((cylinder, _)) = &self.cylinder {
-            let load = cylinder.e_star * depth.max(0.0);
-            let pressed = Cylinder { load, ..*cylinder };
+        if let Some(line) = &self.line {
+            let pressed = line.under(line.cylinder.e_star * depth);
             return Some(over(radii, |x| pressed.pressure(pressed.half_width(), x)));
         }
         let (shape, e_star) = self.unworn.as_ref()?;
@@ -154,24 +209,33 @@ impl Theory {
         Some(over(radii, |r| shape.pressure(*e_star, radius, r)))
     }
 
-    /// τ(r), Pa, of the unworn paraboloid at constant depth, at a cycle and a shift (m).
-    pub fn unworn_shear(&self, cycle: f64, shift: f64, radii: &[f64]) -> Option<Vec<f64>> {
+    /// τ(r), Pa, of the unworn paraboloid at constant depth at a cycle and a shift (m), or of the unworn cylinder under a
+    /// `force` (N).
+    pub fn unworn_shear(
+        &self,
+        cycle: f64,
+        [shift, force]: [f64; 2],
+        radii: &[f64],
+    ) -> Option<Vec<f64>> {
+        let branch = branch(cycle);
+        if let Some(line) = &self.line {
+            let amplitude = line.amplitude?;
+            // Rounding may pass the turning points.
+            let force = (force / line.length).clamp(-amplitude, amplitude);
+            let shear = |x| line.cylinder.loop_shear(branch, [force, amplitude], x);
+            return Some(over(radii, shear));
+        }
         let cattaneo = self.cattaneo.as_ref()?;
-        let branch = match cycle {
-            first if first <= 0.25 => Branch::Loading,
-            later if (0.25..0.75).contains(&later.fract()) => Branch::Unloading,
-            _ => Branch::Reloading,
-        };
         Some(over(radii, |r| cattaneo.loop_shear(branch, shift, r)))
     }
 }
 
-/// The value at every radius.
+/// Evaluates a function at every radius.
 pub(super) fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
     radii.iter().map(|&r| value(r)).collect()
 }
 
-/// The profile as a power of r, where it is one.
+/// Returns the profile as a power law, if it is one.
 fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
     match *indenter {
         _ if indenter.tip_radius() > 0.0 => None,
@@ -205,7 +269,7 @@ mod tests {
         let limit = theory.limiting_profile(&[0.2e-4, 0.8e-4]).expect("a limit");
         assert!((limit[0] - 0.2e-4f64.powi(2) / 0.02).abs() < 1e-15);
         assert!(limit[1] > 0.8e-4f64.powi(2) / 0.02);
-        assert!(theory.unworn_shear(0.1, 1e-9, &[0.0]).is_none());
+        assert!(theory.unworn_shear(0.1, [1e-9, 0.0], &[0.0]).is_none());
     }
 
     /// u_t = 3μN/(4aG*) for a sphere.
@@ -233,6 +297,10 @@ mod tests {
             assert!(of(preset).limiting_profile(&[0.0]).is_none(), "{preset}");
         }
         assert!(of("hertz").unworn_pressure(1e-6, &[0.0]).is_some());
-        assert!(of("mindlin").unworn_shear(0.1, 1e-9, &[0.0]).is_some());
+        assert!(
+            of("mindlin")
+                .unworn_shear(0.1, [1e-9, 0.0], &[0.0])
+                .is_some()
+        );
     }
 }

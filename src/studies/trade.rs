@@ -1,9 +1,10 @@
-//! Speed against accuracy, measured: one scenario computed in many ways, each against a reference.
+//! Measures speed against accuracy: computes one scenario in many ways, and compares each with a reference.
 //!
-//! A run is judged by the worst of its errors: of the worn depth (rms over the scar, in largest depths), of V and
-//! E_d (relative), and of F_x (in μF_z). A run that fails its own checks is not recommended, whatever its errors.
-//! The reference is a run of the best method, refined until its own estimated error is a third of the least that is
-//! asked about, as far as time allows; that error is reported with it, and added to those measured. The cost of `numerics.accuracy`, which finds its own level, is measured as well.
+//! A run is judged by the worst of its errors: of the worn depth (rms over the scar, in largest depths), of V and E_d
+//! (relative), and of F_x (in μF_z). A run that fails its own checks is not recommended, whatever its errors. The
+//! reference is a run of the best method, refined until its own estimated error is a third of the smallest accuracy in
+//! question, as far as time allows; that error is reported with it, and added to the measured ones. The cost of
+//! `numerics.accuracy`, which finds its own level, is measured as well.
 
 use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
@@ -12,35 +13,36 @@ use crate::math::abel::AbelMethod;
 use crate::reading::{Moment, Quantity, Subject};
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::spec::{Numerics, Spec};
 use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Level, Outcome, Reached, Rung};
 use crate::studies::table::{Format, Table};
 
-/// Numbers of cells that are tried.
+/// Numbers of cells to try.
 pub const POINTS: [usize; 3] = [25, 50, 100];
 
-/// Steps per cycle that are tried.
+/// Steps per cycle to try.
 pub const STEPS: [u32; 3] = [12, 25, 50];
 
-/// Tolerances of jumps that are tried, the finest last.
+/// Tolerances of jumps to try, the finest last.
 const TOLERANCES: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 
-/// Steps per cycle under jumps by any but the best method.
+/// Steps per cycle with jumps, for all methods except the best.
 const STEPS_UNDER_JUMPS: u32 = 50;
 
-/// A run is repeated until it has taken this long, s, and its median time counts.
+/// Runs are repeated until they have taken this long, s; their median time counts.
 const LONG_ENOUGH: f64 = 0.03;
 
-/// The most repetitions.
+/// Maximum number of repetitions.
 const REPETITIONS: usize = 25;
 
-/// A method, its scheme, and how fine.
+/// A method, its scheme, and its resolution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
-    /// The transforms; the grid is the one that goes with them.
+    /// The transforms; they determine the grid.
     pub method: AbelMethod,
-    /// How a step is taken.
+    /// The time-stepping scheme.
     pub scheme: Scheme,
     /// Cells, steps and jumps.
     pub level: Level,
@@ -54,30 +56,36 @@ impl Display for Setting {
 }
 
 impl Setting {
-    /// The keys of a scenario and their values.
-    pub fn keys(&self) -> Vec<(&'static str, String)> {
-        let mut keys = vec![
-            ("numerics.method", self.method.name().to_owned()),
-            ("numerics.scheme", self.scheme.name().to_owned()),
-        ];
-        keys.extend(self.level.keys());
-        keys
+    fn set(&self, numerics: &mut Numerics) {
+        (numerics.method, numerics.scheme) = (Some(self.method), Some(self.scheme));
+        self.level.set(numerics);
     }
 
-    /// An estimate of the work of a cycle, in kernel values.
+    /// The scenario computed so.
+    ///
+    /// # Errors
+    /// If the scenario's shape does not allow the method or this many cells.
+    pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, Refusal> {
+        scenario.edited(|spec| self.set(&mut spec.numerics))
+    }
+
+    /// Estimates the work per cycle, in kernel values.
     fn effort(&self) -> f64 {
         let nodes = self.level.points as f64;
         f64::from(self.level.steps) * (nodes * nodes + 60.0 * nodes + 1500.0)
     }
 
-    /// The same as options that `run` takes.
+    /// Returns the same as options of `run`.
     pub fn assignments(&self) -> Vec<String> {
-        let set = |(key, value)| format!("--set {key}={value}");
-        self.keys().into_iter().map(set).collect()
+        let mut spec = Spec::default();
+        self.set(&mut spec.numerics);
+        let keys = Spec::default().changes_to(&spec).into_iter();
+        let set = |(key, value): (_, String)| format!("--set {key}={}", value.trim_matches('"'));
+        keys.map(set).collect()
     }
 
-    /// Runs `scenario` so over `cycles`, as long as `go_on`, which is asked at every step, says so, and as often as a
-    /// clock needs; its end, and the time it takes, s.
+    /// Runs `scenario` with this setting over `cycles`, while `go_on`, called at every step, returns true, and often
+    /// enough for the clock. Returns its end and its time, s.
     ///
     /// # Errors
     /// If the run stops, or is [interrupted](SessionError::Interrupted).
@@ -87,7 +95,7 @@ impl Setting {
         cycles: f64,
         go_on: &dyn Fn() -> bool,
     ) -> Result<(Session, f64), SessionError> {
-        let scenario = scenario.with_all(&self.keys())?;
+        let scenario = self.of_scenario(scenario)?;
         let mut times = Vec::new();
         loop {
             let start = Instant::now();
@@ -101,8 +109,8 @@ impl Setting {
     }
 }
 
-/// Every setting of these methods, cells and steps, the cheapest first. Where cycles are alike they are tried with
-/// jumps as well, by the best method; a scenario that asks for jumps is not tried without.
+/// Returns all settings of these methods, cells and steps, the cheapest first. If cycles are alike, the best method is
+/// also tried with jumps; a scenario that asks for jumps is not tried without.
 pub fn settings(
     scenario: &Scenario,
     methods: &[AbelMethod],
@@ -143,25 +151,25 @@ pub fn settings(
     settings
 }
 
-/// The scenario by the best method and scheme, on cells and steps that a search may choose.
+/// Returns the scenario with the best method and scheme, leaving cells and steps open to a search.
 ///
 /// # Errors
 /// If its shape does not allow that method.
 pub fn by_the_best(scenario: &Scenario) -> Result<Scenario, Refusal> {
-    scenario.with_all(&[
-        ("numerics.method", AbelMethod::Product.name()),
-        ("numerics.scheme", Scheme::Trapezoid.name()),
-    ])
+    scenario.edited(|spec| {
+        spec.numerics.method = Some(AbelMethod::Product);
+        spec.numerics.scheme = Some(Scheme::Trapezoid);
+    })
 }
 
-/// What settings are judged against: a run whose own error is known.
+/// The run that settings are compared with, whose own error is known.
 #[derive(Debug)]
 pub struct Reference {
     session: Session,
-    /// How it ended.
+    /// Its state at the end.
     pub outcome: Outcome,
     level: Level,
-    /// The worst of its own estimated errors.
+    /// The largest of the reference's estimated errors.
     error: f64,
     seconds: f64,
 }
@@ -195,21 +203,21 @@ impl Display for Reference {
     }
 }
 
-/// Whether the user asks for jumps; an accuracy that chooses them does not.
+/// Whether the user asks for jumps; jumps chosen by an accuracy do not count.
 fn wants_jumps(scenario: &Scenario) -> bool {
     scenario.setup().integrator != Integrator::Direct
-        && scenario.value("numerics.integrator").is_some()
+        && scenario.spec().numerics.integrator.is_some()
 }
 
-/// One setting, and how it did.
+/// One setting and its performance.
 #[derive(Debug, Clone)]
 pub struct Trial {
     /// The setting.
     pub setting: Setting,
-    /// Time with its set-up, s, and what its error is at most: the worst against the reference and the reference's own;
-    /// if the run reached its end and passes its own checks.
+    /// Time including set-up, s, and an upper bound on its error: the worst one against the reference plus the
+    /// reference's own; `None` unless the run reached its end and passes its own checks.
     pub point: Option<[f64; 2]>,
-    /// Its row, up to the mark of the front.
+    /// Its row, up to the mark of the Pareto front.
     row: Vec<Value>,
 }
 
@@ -217,7 +225,7 @@ pub struct Trial {
 pub type Timed<'a> = (&'a Trial, [f64; 2]);
 
 impl Trial {
-    /// Judges how a run by `setting` ended. Checks that fail in the `reference` too do not count: the setting is not
+    /// Judges a run with `setting`. Checks that fail in the `reference` as well do not count, since the setting is not
     /// their cause.
     pub fn new(
         setting: Setting,
@@ -237,7 +245,7 @@ impl Trial {
         match ended {
             Err(error) => {
                 row.resize(row.len() + 3, Value::Null);
-                // It takes the place of the errors and of the checks.
+                // Replaces the errors and the checks.
                 row.push(error.to_string().into());
                 row.resize(row.len() + 5, Value::Null);
             }
@@ -251,7 +259,7 @@ impl Trial {
                 let (moment, exact) =
                     (simulation.moment(), reference.session.simulation().moment());
                 let radius = |of: &Moment| of.permanent_stick_radius.unwrap_or(f64::NAN);
-                // In contact radii; it does not count towards the worst.
+                // In contact radii; not counted towards the worst error.
                 let stick = (radius(&moment) - radius(&exact)).abs() / exact.contact_radius;
                 row.push(seconds.into());
                 row.push(simulation.steps().into());
@@ -279,7 +287,7 @@ impl Trial {
     }
 }
 
-/// The checks that fail in a run, but not in the reference.
+/// Returns the checks that fail in a run, but not in the reference.
 fn complaints(session: &Session, reference: &Session) -> Vec<String> {
     let failing = |session: &Session| {
         let checks = session.checks().into_iter();
@@ -290,7 +298,7 @@ fn complaints(session: &Session, reference: &Session) -> Vec<String> {
     own.map(|check| check.complaint()).collect()
 }
 
-/// The trials that no other one beats in both time and error, the fastest first.
+/// Returns the trials that no other one beats in both time and error, the fastest first.
 pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<Timed<'a>> {
     let timed = |trial: &'a Trial| Some((trial, trial.point?));
     let mut sorted: Vec<Timed> = trials.into_iter().filter_map(timed).collect();
@@ -304,13 +312,13 @@ pub fn front<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Vec<Timed<'a>> 
     sorted
 }
 
-/// The fastest trial whose worst error is at most `accuracy`.
+/// Returns the fastest trial whose worst error is at most `accuracy`.
 pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
     let mut front = front(trials).into_iter();
     front.find(|(_, [_, error])| *error <= accuracy)
 }
 
-/// One row per trial of `shown`, with a mark if it is on the front of all.
+/// Makes a table with one row per trial of `shown`, marking those on the front of `all`.
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
     let of_run = "points steps_per_cycle tolerance time_s steps transforms";
     let errors = "error_rms volume_error work_error force_error stick_error";
@@ -367,7 +375,7 @@ mod tests {
             trial(4, 3.0, 1e-3),
             trial(5, 3.0, 2e-3),
             judged(6, Err(SessionError::Unfinished("broke".into()))),
-            // The fastest and best of all fails its own checks.
+            // The fastest and most accurate trial, which fails its own checks.
             Trial {
                 point: None,
                 ..trial(7, 0.01, 1e-6)
@@ -384,7 +392,7 @@ mod tests {
         let stars = rows.iter().filter(|row| row[15] == "*");
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
-        // No tangential motion, no stick radius; errors without a scar are no errors.
+        // Without tangential motion there is no stick radius; errors of a missing scar do not count.
         let judged = judged(8, Ok((reference.session.clone(), 0.1)));
         assert_eq!(judged.row[13], Value::Null);
     }

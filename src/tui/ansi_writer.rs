@@ -10,17 +10,17 @@ use ratatui::prelude::*;
 
 use crate::plot::colormap::NAMED;
 
-/// The modifiers that are seen on a blank.
+/// The modifiers that are visible on a blank.
 const ON_BLANKS: Modifier = Modifier::REVERSED.union(Modifier::UNDERLINED);
 
-/// Shorter frames need no synchronized update: their cells cannot be seen to come one by one.
+/// Shorter frames need no synchronized update: the order of their cells cannot be seen.
 const SHORT: usize = 256;
 
 /// About how many bytes a move and a style take before cells of one style: over 311 frames of the explorer, the signs
 /// and this are 0.83 to 1.10 of what was written.
 const RUN: usize = 7;
 
-/// The fewest bytes of a chunk for cells between the first and the last row.
+/// Minimum bytes per chunk for cells between the first and the last row.
 const FEW: usize = 24;
 
 /// Colours and modifiers.
@@ -32,8 +32,8 @@ struct Pen {
 }
 
 impl Pen {
-    /// The sign of a cell, and the pen to write it with. A full block in a colour is a blank on that ground: one
-    /// byte instead of three.
+    /// Returns a cell's text and the pen to write it with. A full block in a colour becomes a blank on that background:
+    /// one byte instead of three.
     fn of(cell: &Cell) -> (&str, Self) {
         let is_block = cell.symbol() == "█" && cell.modifier.is_empty() && cell.fg != Color::Reset;
         let (symbol, fg, bg) = match is_block {
@@ -44,176 +44,150 @@ impl Pen {
         (symbol, Self { fg, bg, modifier })
     }
 
-    /// The codes that lead from the pen `now` to this one, if that needs no reset.
-    fn codes(self, now: Self) -> Option<Vec<String>> {
-        if !self.modifier.contains(now.modifier) {
-            return None;
-        }
+    /// Returns the codes that turn the pen `now` into this one without a reset, each after a semicolon.
+    fn codes(self, now: Self) -> String {
         // Modifiers stand in the order of their codes, from 1 on.
         let added = (self.modifier - now.modifier).iter();
-        let added = added.map(|modifier| (modifier.bits().trailing_zeros() + 1).to_string());
-        let mut codes: Vec<String> = added.collect();
-        codes.extend((now.fg != self.fg).then(|| code(self.fg, 30)));
-        codes.extend((now.bg != self.bg).then(|| code(self.bg, 40)));
-        Some(codes)
+        let added = added.map(|modifier| format!(";{}", modifier.bits().trailing_zeros() + 1));
+        let colors = [(now.fg, self.fg, 30), (now.bg, self.bg, 40)].into_iter();
+        let colors = colors.filter(|(now, next, _)| now != next);
+        added
+            .chain(colors.map(|(_, next, base)| code(next, base)))
+            .collect()
     }
 
-    /// The sequence that makes this the pen, whatever it is.
+    /// Returns the sequence that sets this pen, whatever the pen was: an empty code resets it.
     fn anew(self) -> String {
-        let codes = self.codes(Self::default()).unwrap_or_default();
-        // No code, or an empty one, is a reset.
-        let codes = codes.into_iter().map(|code| format!(";{code}"));
-        format!("\x1b[{}m", codes.collect::<String>())
+        format!("\x1b[{}m", self.codes(Self::default()))
     }
 
-    /// The shortest sequence that changes the pen `now` to this one.
+    /// Returns the shortest sequence that changes the pen `now` to this one.
     fn sequence(self, now: Self) -> String {
-        if now == self {
-            return String::new();
-        }
-        let anew = self.anew();
-        match self.codes(now).map(|codes| codes.join(";")) {
+        let (anew, codes) = (self.anew(), self.codes(now));
+        let adds = self.modifier.contains(now.modifier);
+        match codes.strip_prefix(';').filter(|_| adds) {
+            _ if now == self => String::new(),
             Some(codes) if codes.len() + 3 <= anew.len() => format!("\x1b[{codes}m"),
             _ => anew,
         }
     }
 }
 
-/// The code of a colour, `base` being that of black: 30 for ink, 40 for ground.
+/// Returns a semicolon and the code of a colour. `base` is the code of black: 30 for ink, 40 for the ground.
 fn code(color: Color, base: usize) -> String {
     match color {
-        Color::Indexed(index) => format!("{};5;{index}", base + 8),
-        Color::Rgb(red, green, blue) => format!("{};2;{red};{green};{blue}", base + 8),
+        Color::Indexed(index) => format!(";{};5;{index}", base + 8),
+        Color::Rgb(red, green, blue) => format!(";{};2;{red};{green};{blue}", base + 8),
         color => match NAMED.iter().position(|(name, _)| *name == color) {
-            Some(at) => (base + at % 8 + at / 8 * 60).to_string(),
-            None => (base + 9).to_string(),
+            Some(at) => format!(";{}", base + at % 8 + at / 8 * 60),
+            None => format!(";{}", base + 9),
         },
     }
 }
 
-/// The shortest sequence that moves the cursor from `at`, if that is known, to `goal`.
+/// Returns the shortest sequence that moves the cursor from `at`, if known, to `goal`.
 fn way(at: Option<Position>, goal: Position) -> String {
     let absolute = format!("\x1b[{};{}H", goal.y + 1, goal.x + 1);
     let Some(at) = at.filter(|at| at.y <= goal.y) else {
         return absolute;
     };
-    let along = match (goal.x.saturating_sub(at.x), at.x.saturating_sub(goal.x)) {
-        (0, 0) => String::new(),
-        (1, _) => "\x1b[C".to_owned(),
-        (right, 0) => format!("\x1b[{right}C"),
-        (_, back) => "\x08".repeat(usize::from(back)),
+    let along = match i32::from(goal.x) - i32::from(at.x) {
+        1 => "\x1b[C".to_owned(),
+        right @ 2.. => format!("\x1b[{right}C"),
+        back => "\x08".repeat(back.unsigned_abs() as usize),
     };
     let column = match goal.x {
         0 => "\r".to_owned(),
         x => format!("\x1b[{}G", x + 1),
     };
-    // In raw mode a line feed does not return.
+    // In raw mode a line feed does not return to the first column.
     let down = "\n".repeat(usize::from(goal.y - at.y));
     let ways = [down.clone() + &along, down + &column, absolute];
     let shortest = ways.into_iter().min_by_key(String::len);
     shortest.unwrap_or_default()
 }
 
-/// Whether all terminals agree on the width of a cell's sign.
+/// Whether all terminals agree on the width of a cell's character.
 fn is_certain(cell: &Cell) -> bool {
-    let mut signs = cell.symbol().chars();
     let certain =
-        |sign: char| matches!(sign, ' '..='~' | '\u{2500}'..='\u{259f}' | '\u{2800}'..='\u{28ff}');
-    signs.next().is_some_and(certain) && signs.next().is_none()
+        |sign| matches!(sign, ' '..='~' | '\u{2500}'..='\u{259f}' | '\u{2800}'..='\u{28ff}');
+    cell.symbol().parse().is_ok_and(certain)
 }
 
-/// Keeps track of what a terminal shows, and writes what makes it show something else.
+/// Keeps track of what a terminal shows, and writes the changes.
 #[derive(Debug, Default)]
 pub struct AnsiWriter {
-    /// What the terminal shows; of no size while nothing is known of it.
+    /// What the terminal shows; has no size while that is unknown.
     pub shown: Buffer,
-    /// How the terminal writes now.
+    /// The pen with which the terminal writes now.
     pen: Pen,
-    /// Where the terminal's cursor is, while that is certain.
+    /// The position of the terminal's cursor, if certain.
     at: Option<Position>,
-    /// The cell from which the next chunk continues.
-    place: usize,
+    /// Row and column from which the next chunk continues.
+    place: (u16, u16),
 }
 
 impl AnsiWriter {
-    /// About `room` bytes that bring the terminal closer to `wanted`; none if it shows that. The first and the last row
-    /// tell of the run and of keys, and come whole; the rest in turn, a few cells in each chunk.
-    pub fn chunk(&mut self, wanted: &Buffer, room: usize) -> String {
-        let mut next = match self.shown.area == wanted.area {
-            true => self.shown.clone(),
-            false => Buffer::empty(wanted.area),
-        };
-        let [width, height] = [wanted.area.width, wanted.area.height].map(usize::from);
-        let last = (width * height).saturating_sub(width).max(width);
-        // A cell, not a row: a wide row may be larger than a chunk.
-        let place = self.place.clamp(width, last);
-        let edges = (0..width).chain(last..width * height);
-        let inner = (place..last).chain(width..place);
-        let (mut left, mut few, mut before) = (room, FEW, None);
-        for i in edges.chain(inner) {
-            let Some(cell) = wanted
-                .content
-                .get(i)
-                .filter(|cell| **cell != next.content[i])
-            else {
-                continue;
-            };
-            let pen = Pen::of(cell).1;
-            let is_run = before.replace((i + 1, pen)) == Some((i, pen));
-            let cost = cell.symbol().len() + if is_run { 0 } else { RUN };
-            if (width..last).contains(&i) {
-                left = left.max(std::mem::take(&mut few));
-                if cost > left {
-                    self.place = i;
-                    break;
-                }
-            }
-            left = left.saturating_sub(cost);
-            next.content[i].clone_from(cell);
-        }
-        self.frame(next)
-    }
-
-    /// The bytes that have the terminal show `next`; none if it does. One that shows a screen of another size is
-    /// cleared first.
-    pub fn frame(&mut self, next: Buffer) -> String {
+    /// Returns about `room` bytes that bring the terminal closer to `wanted`, and whether it then shows `wanted`. Clears a
+    /// terminal that shows a screen of another size.
+    pub fn chunk(&mut self, wanted: &Buffer, room: usize) -> (String, bool) {
         let mut text = String::new();
-        if self.shown.area != next.area {
+        if self.shown.area != wanted.area {
             text += "\x1b[m\x1b[2J\x1b[?25l";
-            *self = Self {
-                shown: Buffer::empty(next.area),
-                ..Self::default()
-            };
+            *self = Self::default();
+            self.shown = Buffer::empty(wanted.area);
         }
+        let mut changes = self.shown.diff(wanted);
+        let is_whole = self.cut(&mut changes, room);
         // A style takes more bytes than a move, so the cells of one style go out together. The status
         // line goes first: a slow line shows it at once, and it tells of a key.
-        let mut changes = self.shown.diff(&next);
-        changes.sort_by_cached_key(|(_, y, cell)| (*y > 0, Pen::of(cell).1.anew()));
+        changes.sort_by_cached_key(|&(x, y, cell)| (y > 0, Pen::of(cell).1.anew(), y, x));
         for (x, y, cell) in changes {
             let goal = Position::new(x, y);
             if self.at != Some(goal) {
                 text += &way(self.at, goal);
             }
             let (symbol, mut pen) = Pen::of(cell);
-            // A blank needs only the ground.
+            // Only the background of a blank is visible.
             if symbol == " " && !(self.pen.modifier | pen.modifier).intersects(ON_BLANKS) {
-                pen = Pen {
-                    bg: pen.bg,
-                    ..self.pen
-                };
+                (pen.fg, pen.modifier) = (self.pen.fg, self.pen.modifier);
             }
             text += &pen.sequence(self.pen);
             text += symbol;
             self.pen = pen;
             // At the edge of the screen the cursor is nowhere certain.
-            let is_certain = is_certain(cell) && x + 1 < next.area.width;
+            let is_certain = is_certain(cell) && x + 1 < wanted.area.width;
             self.at = is_certain.then_some(Position::new(x + 1, y));
+            self.shown[goal].clone_from(cell);
         }
-        self.shown = next;
-        if text.len() < SHORT {
-            return text;
+        if text.len() >= SHORT {
+            text = format!("\x1b[?2026h{text}\x1b[?2026l");
         }
-        format!("\x1b[?2026h{text}\x1b[?2026l")
+        (text, is_whole)
+    }
+
+    /// Keeps only the changes that fit into about `room` bytes; returns whether all do. The first and the last row show the
+    /// state of the run and the keys, so they are sent whole. The other cells take turns, a few in each chunk. (Cells, not
+    /// rows: a wide row may be larger than a chunk.)
+    fn cut(&mut self, changes: &mut Vec<(u16, u16, &Cell)>, room: usize) -> bool {
+        let last = self.shown.area.height.saturating_sub(1);
+        let is_edge = |y| y == 0 || y == last;
+        changes.sort_by_key(|&(x, y, _)| (!is_edge(y), (y, x) < self.place));
+        let (mut taken, mut room, mut before) = (0, room.max(FEW), None);
+        let next = changes.iter().position(|&(x, y, cell)| {
+            let pen = Pen::of(cell).1;
+            let is_run = before.replace((x + 1, y, pen)) == Some((x, y, pen));
+            taken += cell.symbol().len() + if is_run { 0 } else { RUN };
+            if is_edge(y) {
+                room = room.max(taken + FEW);
+            }
+            taken > room
+        });
+        if let Some(next) = next {
+            self.place = (changes[next].1, changes[next].0);
+            changes.truncate(next);
+        }
+        next.is_none()
     }
 }
 

@@ -1,4 +1,4 @@
-//! The explorer and the overlays on it: which of them answers a key, and what follows.
+//! The explorer and its overlays: which of them handles a key, and what follows.
 
 use std::sync::Arc;
 
@@ -16,16 +16,16 @@ use crate::plot::theme::Theme;
 
 /// The state of the screen.
 pub struct App {
-    /// What the overlays lie on.
+    /// The explorer below the overlays.
     pub explorer: Explorer,
-    /// The overlays, each on the one before it: the last is drawn, and answers the keys.
+    /// The stack of overlays: the last is drawn, and handles the keys.
     pub overlays: Vec<Overlay>,
-    /// The map that the run was opened from, if it leads back there.
+    /// The map from which the run was opened, to which the user can return.
     map: Option<Live>,
 }
 
 impl App {
-    /// An app that shows the first frame of a worker, and sends its orders to it.
+    /// Makes an app that shows the first frame of a worker, and sends its orders to it.
     pub fn new(theme: Theme, orders: Orders, frame: Arc<Frame>) -> Self {
         Self {
             explorer: Explorer::new(theme, orders, frame),
@@ -34,7 +34,7 @@ impl App {
         }
     }
 
-    /// Answers what is not the terminal's own.
+    /// Handles an event, except those that concern the terminal itself.
     pub(super) fn handle(&mut self, event: Event) {
         let explorer = &mut self.explorer;
         match event {
@@ -80,7 +80,7 @@ impl App {
         }
     }
 
-    /// Handles a key where the app is.
+    /// Handles a key in the topmost overlay or the explorer.
     fn press_here(&mut self, key: Key) {
         let explorer = &mut self.explorer;
         let is_of_program = |command: &Command| *command == Command::Suspend;
@@ -116,7 +116,7 @@ impl App {
         self.explorer.show();
     }
 
-    /// The list of parameters has its place beside the panels, and what it compares with while it is open.
+    /// Makes room for the list of parameters beside the panels; when it closes, drops the run that it compared with.
     fn make_room(&mut self) {
         let is_form = |overlay: &Overlay| matches!(overlay, Overlay::Form(_));
         let has_list = self.overlays.iter().any(is_form);
@@ -152,7 +152,7 @@ impl App {
         }
     }
 
-    /// Lays the overlay of a command on what is there.
+    /// Opens the overlay of a command on top of the others.
     fn open(&mut self, command: Command) {
         let explorer = &mut self.explorer;
         self.overlays.push(match command {
@@ -168,7 +168,7 @@ impl App {
         });
     }
 
-    /// Takes pasted text where a line is typed.
+    /// Inserts pasted text into the line being typed.
     pub fn paste(&mut self, text: &str) {
         self.explorer.is_new = false;
         let line = self.overlays.last_mut().and_then(Overlay::line);
@@ -180,7 +180,7 @@ impl App {
         };
     }
 
-    /// Answers the mouse: it scrolls lists, and points where no overlay is.
+    /// Handles the mouse: it scrolls lists, and points where there is no overlay.
     pub fn point(&mut self, gesture: Gesture) {
         match (gesture, self.overlays.last()) {
             (Gesture::WheelUp | Gesture::WheelDown, Some(Overlay::Accuracy { .. })) => {}

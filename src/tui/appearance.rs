@@ -1,19 +1,19 @@
-//! How the terminal wants to be drawn on: what its variables tell of colours, signs and background.
+//! The terminal's abilities and background, as its environment variables describe them.
 
 use crate::plot::Marker;
 use crate::plot::theme::{Depth, Look, Theme};
 
-/// The theme of this terminal, unless one was chosen.
+/// Returns the theme of this terminal, except for what was chosen explicitly.
 pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look>) -> Theme {
     let colored = colored.unwrap_or(variable("NO_COLOR").is_empty());
-    // The console of Linux has half blocks in its fonts, but no Braille.
+    // The Linux console has half blocks in its fonts, but no Braille.
     let is_console = variable("TERM") == "linux";
     let marker = marker.unwrap_or(match utf8_locale() {
         true if is_console => Marker::HalfBlock,
         true => Marker::Braille,
         false => Marker::Ascii,
     });
-    // The console of Linux does not know the question for its background and would print it.
+    // The Linux console does not know the query for its background and would print it.
     let follows_background = look.is_none() && colored && !is_console;
     let look = match look {
         _ if !colored => Look::Mono,
@@ -28,7 +28,7 @@ pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look
     }
 }
 
-/// The value of an environment variable; empty where it is not set.
+/// Returns the value of an environment variable; empty if unset.
 fn variable(name: &str) -> String {
     let value = std::env::var_os(name).unwrap_or_default();
     value.to_string_lossy().into_owned()
@@ -40,8 +40,8 @@ fn light_background() -> bool {
     matches!(colors.rsplit(';').next(), Some("7" | "15"))
 }
 
-/// Whether the locale says UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides;
-/// without any, the terminal is assumed to be a modern one.
+/// Whether the locale is UTF-8: the first of LC_ALL, LC_CTYPE and LANG that is set decides. Without any, the terminal
+/// is assumed to be modern.
 fn utf8_locale() -> bool {
     let locales = ["LC_ALL", "LC_CTYPE", "LANG"].map(|name| variable(name).to_ascii_lowercase());
     let decisive = locales.iter().find(|locale| !locale.is_empty());

@@ -1,4 +1,4 @@
-//! Checkpoints of an explorer: on a timer while something changes, and on exit.
+//! The explorer's checkpoints: on a timer while something changes, and on exit.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,18 +13,18 @@ use crate::scenario::session::Session;
 #[derive(Debug)]
 pub struct ScreenAutosave {
     autosave: Autosave,
-    /// What was last saved or loaded.
+    /// The state last saved or loaded.
     kept: Mark,
     /// The session a moment ago.
     copy: Recent<Session>,
-    /// Nothing more is saved: the session is at its end, or there is no directory.
+    /// Whether nothing more is saved: the session has ended, or there is no directory.
     is_finished: bool,
 }
 
-/// Tells the states of a run apart: steps, cycle, and changes.
+/// Distinguishes the states of a run: steps, cycle, and number of changes.
 type Mark = (u64, f64, usize);
 
-/// The mark of the present state of `session`.
+/// Returns the mark of the present state of `session`.
 pub(super) fn mark(session: &Session) -> Mark {
     let simulation = session.simulation();
     let changes = session.changes().len();
@@ -32,8 +32,8 @@ pub(super) fn mark(session: &Session) -> Mark {
 }
 
 impl ScreenAutosave {
-    /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the
-    /// end if `None`; without a directory nothing is saved.
+    /// Saves `session` in `directory`, once per interval `every` while it changes, or only at the end if `every` is 0.
+    /// Without a directory, nothing is saved.
     pub fn new(directory: Option<PathBuf>, every: Duration, session: &Session) -> Self {
         Self {
             is_finished: directory.is_none(),
@@ -43,13 +43,13 @@ impl ScreenAutosave {
         }
     }
 
-    /// Time until a checkpoint is due; `None` while there is nothing new to save.
+    /// Returns the time until a checkpoint is due; `None` while there is nothing new to save.
     pub fn wait(&self, session: &Session) -> Option<Duration> {
         let wait = self.autosave.wait().filter(|_| !self.is_finished)?;
         (self.kept != mark(session)).then_some(wait)
     }
 
-    /// Saves what is due; returns a message when that begins to fail.
+    /// Saves if due; returns a message when saving begins to fail.
     pub fn save_if_due(&mut self, session: &Session) -> Option<String> {
         if self.is_finished {
             return None;
@@ -61,7 +61,7 @@ impl ScreenAutosave {
         }
     }
 
-    /// Switches to another session; the file of this one stays.
+    /// Switches to another session; keeps the file of this one.
     pub fn turn_over(&mut self, from: &Session, to: &Session) {
         if self.is_finished {
             return;
@@ -72,8 +72,8 @@ impl ScreenAutosave {
         self.copy = Recent::new(to.clone());
     }
 
-    /// Saves `session`, or the copy after a bug, and returns the message for the user. Only the
-    /// first call does anything.
+    /// Saves `session`, or the copy after a bug, and returns the message for the user. Only the first call has an
+    /// effect.
     pub fn finish(&mut self, session: Option<&Session>) -> Option<String> {
         if std::mem::replace(&mut self.is_finished, true) {
             return None;
@@ -91,7 +91,7 @@ impl ScreenAutosave {
         }
     }
 
-    /// Saves a session, once; returns a message when that begins to fail.
+    /// Saves a session unless it is already saved; returns a message when saving begins to fail.
     fn save(&mut self, session: &Session) -> Option<String> {
         if self.kept == mark(session) {
             return None;

@@ -1,9 +1,9 @@
-//! Second runs that follow the first from cycle to cycle: a comparison in lockstep (another method, or the same on half
-//! the cells), and a coarser twin, from which the run differs by about its own error.
+//! Second runs that follow the first from cycle to cycle: a comparison in lockstep (another method, or the same method
+//! on half the cells), and a coarser twin, whose difference from the run is about the run's error.
 //!
-//! The twin has fewer cells and steps per cycle by a factor of 1.7, so about a third of the work. The two are compared at
-//! the end of a cycle, then again when the run is a quarter longer. In between the twin takes steps and jumps of
-//! its own length: one that was cut wherever the run stands would show no error of time.
+//! The twin has fewer cells and steps per cycle by a factor of 1.7, so about a third of the work. The two are compared
+//! at the end of a cycle, and again when the run is a quarter longer. In between, the twin takes steps and jumps of its
+//! natural length; if it stopped wherever the run stands, it would not show the error in time.
 
 use std::time::{Duration, Instant};
 
@@ -11,14 +11,15 @@ use super::trend::Recorded;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::{MIN_CELLS, RadialGrid};
 use crate::reading::{Curves, Observation};
+use crate::scenario::Spec;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Difference, Outcome};
 
-/// The second run, and what its steps have cost.
+/// The second run, and the cost of its steps.
 #[derive(Debug, Clone)]
 pub(super) struct Beside {
     pub run: Recorded,
-    /// The run before its first step: where it begins again when the first one goes back in time.
+    /// The run before its first step, from which it restarts when the first run goes back in time.
     start: Option<Session>,
     busy: Duration,
     steps: u64,
@@ -27,8 +28,8 @@ pub(super) struct Beside {
 }
 
 impl Beside {
-    /// A run that begins where `session` stands, and if it `restarts` again there wherever the first run goes back in
-    /// time.
+    /// Makes a run that begins at the state of `session`. If it `restarts`, it begins again there whenever the first
+    /// run goes back in time.
     pub fn new(session: Session, restarts: bool) -> Self {
         Self {
             start: restarts.then(|| session.clone()),
@@ -39,12 +40,12 @@ impl Beside {
         }
     }
 
-    /// What a step of it costs, s; none before the first.
+    /// Returns the mean cost of its steps, s; `None` before the first.
     pub fn step_cost(&self) -> Option<f64> {
         (self.steps > 0).then(|| self.busy.as_secs_f64() / self.steps as f64)
     }
 
-    /// Whether it is not yet at `cycle`.
+    /// Whether it still has to reach `cycle`.
     pub fn lags(&self, cycle: f64) -> bool {
         self.stopped.is_none() && self.run.cycle() < cycle || self.must_restart(cycle)
     }
@@ -55,8 +56,7 @@ impl Beside {
     }
 
     /// Steps to `cycle`, where the first run is, for about as long as `budget`, but at least once: the first run may
-    /// have jumped over many cycles that this one has to step through. Steps may lead past `cycle`, but not past
-    /// `goal`.
+    /// have jumped over many cycles that this one has to step through. Steps may go past `cycle`, but not past `goal`.
     pub fn follow(&mut self, goal: f64, cycle: f64, budget: Duration) {
         if self.must_restart(cycle)
             && let Some(start) = self.start.take()
@@ -89,15 +89,15 @@ pub(super) enum From {
 #[derive(Debug)]
 pub(super) struct ComparisonRun {
     pub beside: Beside,
-    /// Which of [`choices`] it is.
+    /// The index of its choice among [`choices`].
     choice: usize,
-    /// Where it has begun.
+    /// Where it began.
     pub from: From,
 }
 
 impl ComparisonRun {
-    /// Makes the comparison `places` after that of `before`, or the first one if there was none. It
-    /// begins at the present state of `session`, or at the start, with the changes made since.
+    /// Makes the comparison `places` after `before` in the list of choices, or the first one. It begins at the present
+    /// state of `session`, or at the start with the changes made since.
     pub fn beside(
         session: &Session,
         before: Option<&Self>,
@@ -107,18 +107,20 @@ impl ComparisonRun {
         let choices = choices(session);
         let now = before.map_or(0, |comparison| comparison.choice) as isize;
         let choice = (now + places).rem_euclid(choices.len() as isize) as usize;
-        let (key, value) = &choices[choice];
+        let chosen = &choices[choice];
         let session = match from {
             From::Now => {
                 let mut session = session.clone();
-                session.change(key, value)?;
+                session.edit(chosen)?;
                 session
             }
             From::Start => {
                 let run = session.as_run(Vec::new());
                 let mut others = run.changes().to_vec();
-                others.retain(|change| change.key() != *key);
-                let scenario = run.with_changes(Vec::new()).with(key, value)?;
+                let run = run.with_changes(Vec::new());
+                let scenario = run.edited(chosen)?;
+                let replaced = run.spec().changes_to(scenario.spec());
+                others.retain(|change| replaced.iter().all(|(key, _)| change.key() != *key));
                 Session::start(scenario.with_changes(others))?
             }
         };
@@ -129,7 +131,7 @@ impl ComparisonRun {
         })
     }
 
-    /// The part that the screen shows.
+    /// Returns the part that the screen shows.
     pub fn seen(&self) -> Comparison {
         let simulation = self.beside.run.simulation();
         Comparison {
@@ -140,7 +142,7 @@ impl ComparisonRun {
     }
 }
 
-/// What is shown of both runs.
+/// The curves shown of both runs.
 pub(super) const COMPARED: Curves = Curves::PROFILE.union(Curves::PRESSURE);
 
 /// A second run in lockstep with the first.
@@ -154,44 +156,50 @@ pub struct Comparison {
     pub stopped: Option<String>,
 }
 
-/// What two runs are told apart by: method and cells.
+/// Names a run by its method and cells.
 pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
     format!("{}, N = {}", method.spoken(), grid.cells())
 }
 
+/// What tells the other run apart.
+type Edit = Box<dyn Fn(&mut Spec)>;
+
 /// What a run can be compared with: every other method, and itself on half the cells.
-fn choices(session: &Session) -> Vec<(&'static str, String)> {
+fn choices(session: &Session) -> Vec<Edit> {
     let setup = session.simulation().setup();
     let mut others = AbelMethod::of(setup.geometry).to_vec();
     others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
     others.sort_by_key(|method| *method != AbelMethod::B);
-    let change = |method| ("numerics.method", format!("\"{method}\""));
     let half = (setup.grid.cells() / 2).max(MIN_CELLS);
-    let half = ("numerics.points", half.to_string());
-    others.into_iter().map(change).chain([half]).collect()
+    let by = |method| -> Edit { Box::new(move |spec| spec.numerics.method = Some(method)) };
+    let on_half: Edit = Box::new(move |Spec { numerics, .. }| {
+        (numerics.accuracy, numerics.points, numerics.nodes) = (None, Some(half), None);
+    });
+    others.into_iter().map(by).chain([on_half]).collect()
 }
 
-/// The run is this many times longer at the next comparison.
+/// At the next comparison the run is this many times longer.
 const NEXT: f64 = 1.25;
 
-/// What is said before anything can be compared.
+/// The message before anything can be compared.
 pub(super) const NOTHING_YET: &str = "nothing to compare yet: let it run for a cycle";
 
-/// The twin, and what it has told so far.
+/// The twin, and its last result.
 #[derive(Debug)]
 pub(super) struct Twin {
     beside: Beside,
-    /// The cycle at which the two are compared next.
+    /// The cycle of the next comparison.
     due: f64,
-    /// The run at that cycle, once it has been there.
+    /// The run at that cycle, once it has reached it.
     run: Option<Outcome>,
-    /// The cycle of the last comparison, and the errors that it tells.
+    /// The cycle of the last comparison, and the estimated errors there.
     told: Option<(f64, Difference)>,
 }
 
 impl Twin {
-    /// A twin of `session`, which it has to catch up with; `None` if nothing wears, or if the run is too coarse for a coarser one.
+    /// Makes a twin of `session`, which has to catch up with it. `None` if nothing wears, or if the run is already too
+    /// coarse.
     pub fn of(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
@@ -204,7 +212,7 @@ impl Twin {
         Some(twin)
     }
 
-    /// The cycle of the last comparison and the errors of the run that it tells, or why there are none yet; the run is
+    /// Returns the cycle of the last comparison and the run's estimated errors, or why there are none yet; the run is
     /// at `cycle`.
     pub fn told(&self, cycle: f64) -> Result<(f64, Difference), String> {
         let waits = match self.lags(cycle) {
@@ -215,7 +223,7 @@ impl Twin {
         self.told.ok_or_else(|| stopped.unwrap_or(waits).to_owned())
     }
 
-    /// Looks at the run if a comparison is due, or in any case if it `must`; a jump may have led the twin past it.
+    /// Notes the run's outcome if a comparison is due or forced by `must`, unless the twin has jumped past it.
     pub fn look_at(&mut self, session: &Session, must: bool) {
         let cycle = session.simulation().cycle();
         let is_due = self.run.is_none() && cycle >= self.due;
@@ -226,7 +234,7 @@ impl Twin {
         }
     }
 
-    /// Whether it has not yet told the error of the run, which is at `cycle`.
+    /// Whether the error of the run, which is at `cycle`, is still to come.
     pub fn lags(&self, cycle: f64) -> bool {
         self.beside.lags(cycle.min(self.due))
     }

@@ -1,5 +1,5 @@
-//! A part of the screen to draw on, in the colours and signs of the terminal: what panels and overlays write their texts,
-//! rules, boxes, lists and plots with.
+//! A part of the screen, in the colours and characters of the terminal. Panels and overlays draw their texts, rules,
+//! boxes, lists and plots with it.
 
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
@@ -14,7 +14,7 @@ use crate::plot::{Chart, Plot};
 pub struct Canvas<'a> {
     /// The look of the terminal.
     pub theme: Theme,
-    /// Where it is.
+    /// Its area.
     pub area: Rect,
     /// The whole screen.
     pub buffer: &'a mut Buffer,
@@ -32,7 +32,7 @@ const ASCII_BORDER: border::Set = border::Set {
 };
 
 impl<'a> Canvas<'a> {
-    /// A part of the screen that is drawn in `buffer`.
+    /// Makes a part of the screen that is drawn in `buffer`.
     pub fn new(theme: &Theme, area: Rect, buffer: &'a mut Buffer) -> Self {
         Self {
             theme: *theme,
@@ -41,39 +41,39 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Another part of the same screen.
+    /// Returns another part of the same screen.
     pub fn at(&mut self, area: Rect) -> Canvas<'_> {
         Canvas::new(&self.theme, area, self.buffer)
     }
 
-    /// All but the first and the last column.
+    /// Returns everything except the first and the last column.
     pub fn indented(&mut self) -> Canvas<'_> {
         self.at(self.area.inner(Margin::new(1, 0)))
     }
 
-    /// The style of a role.
+    /// Returns the style of a role.
     pub fn style(&self, role: Role) -> Style {
         self.theme.style(role)
     }
 
-    /// A text as this terminal can show it.
+    /// Returns a text that this terminal can show.
     pub fn printable(&self, text: &str) -> String {
         self.theme.printable(text)
     }
 
-    /// Draws a widget on all of it.
+    /// Draws a widget over the whole area.
     pub fn show(&mut self, widget: impl Widget) {
         widget.render(self.area, self.buffer);
     }
 
-    /// Writes lines, each behind a blank.
+    /// Writes lines, each after a blank.
     pub fn say(&mut self, text: &str, role: Role) {
         let line = |line| Line::styled(format!(" {}", self.printable(line)), self.style(role));
         let lines: Text<'static> = text.lines().map(line).collect();
         self.show(lines);
     }
 
-    /// Tells something in as many rows as it needs, upwards from the last one.
+    /// Writes a text in as many rows as it needs; more than one extend upwards.
     fn tell(&mut self, text: &str, role: Role) {
         let text = self.printable(&text.replace('\n', " "));
         let lines = wrapped(&text, usize::from(self.area.width.saturating_sub(2)));
@@ -92,7 +92,7 @@ impl<'a> Canvas<'a> {
         canvas.show(Text::from_iter(lines));
     }
 
-    /// What is told, or else keys and what they do: as many of `keys` as fit, and those of `always`.
+    /// Writes the text if there is one, or else keys and what they do: as many of `keys` as fit, and all of `always`.
     pub fn keys<S: AsRef<str>>(
         &mut self,
         told: Option<(&str, Role)>,
@@ -120,12 +120,12 @@ impl<'a> Canvas<'a> {
         self.show(Line::from_iter(spans));
     }
 
-    /// Writes a running text.
+    /// Writes wrapped text.
     pub fn write<'t>(&mut self, text: impl Into<Text<'t>>) {
         self.show(Paragraph::new(text).wrap(Wrap { trim: true }));
     }
 
-    /// Draws some borders, the upper one with a title; returns what is inside them.
+    /// Draws some borders, with a title in the upper one; returns the inside.
     fn framed(&mut self, title: &str, role: Role, borders: Borders) -> Canvas<'_> {
         // Rules are dim; their titles are not.
         let style = self.style(role).remove_modifier(Modifier::DIM);
@@ -142,7 +142,7 @@ impl<'a> Canvas<'a> {
         self.at(inner)
     }
 
-    /// Draws a rule with a title; returns what is below it.
+    /// Draws a rule with a title; returns the area below it.
     pub fn titled(&mut self, title: &str, role: Role) -> Canvas<'_> {
         self.framed(title, role, Borders::TOP)
     }
@@ -157,20 +157,20 @@ impl<'a> Canvas<'a> {
         self.framed(title, Role::Title, Borders::ALL)
     }
 
-    /// The same at the lower end: what lies above can be watched.
+    /// Draws a box at the lower end, so that the part above stays visible.
     pub fn docked(&mut self, title: &str, rows: u16) -> Canvas<'_> {
         let [_, below] = Layout::vertical([Fill(1), Length(rows)]).areas(self.area);
         self.area = below;
         self.popup(title, (100, rows))
     }
 
-    /// Draws a box of running text in the middle, about as high as that.
+    /// Draws a box of wrapped text in the middle, about as high as the text.
     pub fn page(&mut self, title: &str, width: u16, lines: Vec<Line>) {
         let size = (width, rows(&lines, width));
         self.popup(title, size).indented().write(lines);
     }
 
-    /// Says at the right end of the last row how many entries below it are not shown, if there are any.
+    /// Writes at the right end of the last row how many entries below are hidden, if any.
     pub fn more(&mut self, below: usize) {
         if below > 0 && !self.area.is_empty() {
             let text = self.printable(&format!(" {below} more ↓ "));
@@ -183,7 +183,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Draws the entries around the one `at`, which has a style of its own, and a few that follow it.
+    /// Draws the entries around the one `at`, which has a different style, and a few that follow it.
     pub fn list<'t>(
         &mut self,
         entries: impl IntoIterator<Item = Line<'t>>,
@@ -211,7 +211,7 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// About how many rows a box of this width needs for running text.
+/// Estimates the rows that a box of this width needs for wrapped text.
 pub fn rows(lines: &[Line], width: u16) -> u16 {
     let inner = usize::from(width.saturating_sub(10).max(1));
     let rows = lines.iter().map(|line| line.width().div_ceil(inner).max(1));

@@ -1,16 +1,16 @@
 //! The clipboard of the terminal (OSC 52), which works over SSH too.
 
-/// The largest text that is copied, in bytes: some terminals drop longer ones.
+/// The largest text to be copied, in bytes: some terminals drop longer ones.
 const LARGEST: usize = 70_000;
 
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// What asks the terminal to take a text; `None` if that is too long.
+/// Returns the sequence that puts a text on the clipboard; `None` if it is too long.
 pub fn request(text: &str) -> Option<String> {
     (text.len() <= LARGEST).then(|| format!("\x1b]52;c;{}\x1b\\", base64(text.as_bytes())))
 }
 
-/// Base 64 as in RFC 4648, with padding.
+/// Encodes in base 64 as in RFC 4648, with padding.
 fn base64(bytes: &[u8]) -> String {
     let mut text = String::new();
     for three in bytes.chunks(3) {

@@ -1,7 +1,7 @@
-//! Every command of the explorer, one row each: keys, name, group, help, and what it does.
+//! Every command of the explorer, one row each: keys, name, group, help, and action.
 //!
-//! Footer, help, palette, configuration and manual are made from these rows. A command that takes an argument has it
-//! typed in the palette.
+//! Footer, help, palette, configuration and manual are generated from these rows. The argument of a command is typed in
+//! the palette.
 
 use std::sync::OnceLock;
 
@@ -24,28 +24,28 @@ pub struct Row {
     pub keys: &'static [Key],
     /// Its name, in a word or two.
     pub name: &'static str,
-    /// Where the help lists it.
+    /// Its group in the help.
     pub group: &'static str,
-    /// What it does, in a line.
+    /// What it does, in one line of text.
     pub help: &'static str,
-    /// What it does.
+    /// The action.
     pub(super) act: Act,
 }
 
 /// What a command does.
 #[derive(Clone, Copy)]
 pub(super) enum Act {
-    /// Something on the screen.
+    /// Changes something on the screen.
     Screen(fn(&mut Explorer)),
-    /// Something in the run.
+    /// Changes something in the run.
     Worker(fn(&mut Worker)),
-    /// It lets an argument be typed, with these completions.
+    /// Takes an argument, with these completions.
     Argument(fn(&str, &Frame) -> Vec<Completion>),
-    /// It opens the words that a key takes.
+    /// Opens the choices of a scenario's key.
     Words(&'static str),
-    /// It opens its overlay.
+    /// Opens its overlay.
     Open,
-    /// It ends the program, or leads back to the map that the run was opened from.
+    /// Ends the program, or returns to the map from which the run was opened.
     Quit,
 }
 
@@ -171,14 +171,14 @@ commands! {
 }
 
 impl Command {
-    /// Its row.
+    /// Returns its row.
     pub fn row(self) -> &'static Row {
         &COMMANDS[self as usize]
     }
 }
 
 impl Row {
-    /// The names of its keys; a row of digits is told by its ends.
+    /// Returns the names of its keys; a row of digits is abbreviated.
     pub fn key_names(&self) -> Vec<String> {
         match self.keys {
             [first, .., last] if self.keys.len() > 3 => vec![format!("{first}-{last}")],
@@ -187,16 +187,16 @@ impl Row {
     }
 }
 
-/// The user's own keys, which override those of the table.
+/// The user's keys, which override those in the table.
 static OWN: OnceLock<Vec<(Key, Command)>> = OnceLock::new();
 
-/// Binds further keys to commands, once, before the explorer opens.
+/// Binds additional keys to commands, once, before the explorer opens.
 pub fn bind(keys: Vec<(Key, Command)>) {
     // A second explorer in the same process keeps the keys of the first.
     let _ = OWN.set(keys);
 }
 
-/// The command of a key.
+/// Returns the command of a key.
 pub fn of_key(key: Key) -> Option<Command> {
     let mut own = OWN.get().into_iter().flatten();
     let own = own.find(|(bound, _)| *bound == key);

@@ -1,4 +1,4 @@
-//! What can be typed after a command that takes an argument, and what that does.
+//! Arguments of commands: their completions, and what each of them does.
 
 use std::path::Path;
 
@@ -7,22 +7,22 @@ use super::frame::Frame;
 use super::map::range::{POINTS, Range};
 use super::panels::Panel;
 use super::settings::Setting;
-use crate::charts::Recipe;
+use crate::charts::About;
 use crate::scenario::preset;
 use crate::scenario::schema::Kind;
 
-/// What a completion does.
+/// The action of a completion.
 type Deed = Box<dyn FnOnce(&mut Explorer)>;
 
 /// One completion of the typed text.
 pub struct Completion {
     /// The whole line.
     pub(super) line: String,
-    /// What it means.
+    /// Its meaning.
     pub(super) help: String,
-    /// What stands on the right: a key, or a value and its unit.
+    /// Text on the right: a key, or a value and its unit.
     pub(super) right: String,
-    /// What it does when accepted; `None` while more must be typed.
+    /// The action when accepted; `None` while more must be typed.
     pub(super) act: Option<Deed>,
 }
 
@@ -47,7 +47,7 @@ impl Completion {
     }
 }
 
-/// `KEY`, or `KEY=` with the values that the key takes.
+/// Completes `KEY`, or `KEY=` with the values that the key accepts.
 pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
     let known = &frame.facts.settings;
     let Some((key, value)) = typed.split_once('=') else {
@@ -82,7 +82,7 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
     vec![typed]
 }
 
-/// `KEY`, or `KEY FROM..TO`.
+/// Completes `KEY`, or `KEY FROM..TO`.
 pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
     let is_number = |of: &&Setting| matches!(of.parameter.kind, Kind::Number | Kind::Whole);
     let numbers = frame.facts.settings.iter().filter(is_number);
@@ -100,8 +100,8 @@ pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
     })
 }
 
-/// The keys that have a text, with their values. Where a key begins with it, or a part of the key after a dot, the key
-/// is likelier than where its middle has it.
+/// Returns the keys that contain a text, with their values. Keys that begin with the text, or in which it follows a
+/// dot, come first.
 fn keys<'a>(
     known: impl Iterator<Item = &'a Setting>,
     text: &str,
@@ -119,7 +119,7 @@ fn keys<'a>(
     fitting.into_iter().map(shown).collect()
 }
 
-/// A cycle, past or to come; those that the scenario writes are at hand.
+/// Completes a past or future cycle; offers the cycles at which the scenario writes states.
 pub fn goto(typed: &str, frame: &Frame) -> Vec<Completion> {
     let go = |cycle: f64, help: String| {
         let there = Completion::new(format!("goto {cycle}"), help);
@@ -148,7 +148,7 @@ pub fn goto(typed: &str, frame: &Frame) -> Vec<Completion> {
     list
 }
 
-/// What can be copied.
+/// Completes what can be copied.
 pub fn copy(typed: &str, _: &Frame) -> Vec<Completion> {
     let all = [
         (
@@ -174,11 +174,11 @@ pub fn copy(typed: &str, _: &Frame) -> Vec<Completion> {
     fitting.map(copy).collect()
 }
 
-/// A panel by its title.
+/// Completes the title of a panel.
 pub fn focus(typed: &str, _: &Frame) -> Vec<Completion> {
     let panels = Panel::ALL.into_iter().map(|panel| (panel, panel.recipe()));
     let fitting = panels.filter(|(_, recipe)| recipe.title.contains(typed));
-    let focus = |(panel, recipe): (Panel, &Recipe)| {
+    let focus = |(panel, recipe): (Panel, &About)| {
         let text = recipe.text.split_inclusive('.').next().unwrap_or_default();
         Completion::new(format!("focus {}", recipe.title), text)
             .doing(move |on| on.stage.focus_on(panel))
@@ -186,7 +186,7 @@ pub fn focus(typed: &str, _: &Frame) -> Vec<Completion> {
     fitting.map(focus).collect()
 }
 
-/// A file to draw into.
+/// Completes the name of a figure's file.
 pub fn figure(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a figure of this state: a file that ends in .svg, .png or .pdf";
     vec![argument("figure", typed, help, |explorer, file| {
@@ -194,7 +194,7 @@ pub fn figure(typed: &str, _: &Frame) -> Vec<Completion> {
     })]
 }
 
-/// A preset by its name, or a file.
+/// Completes a preset's name, or takes a file.
 pub fn load(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a preset's name, or a path to a .toml file";
     preset_or(typed, "load", help, |explorer, name| {
@@ -202,7 +202,7 @@ pub fn load(typed: &str, _: &Frame) -> Vec<Completion> {
     })
 }
 
-/// Any file or directory; a preset by its name.
+/// Completes a preset's name, or takes any file or directory.
 pub fn overlay(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a CSV file, a run's directory, or a scenario";
     preset_or(typed, "overlay", help, |explorer, given| {
@@ -210,7 +210,7 @@ pub fn overlay(typed: &str, _: &Frame) -> Vec<Completion> {
     })
 }
 
-/// A note for a snapshot, which may be empty.
+/// Takes a note for a snapshot; it may be empty.
 pub fn note(typed: &str, _: &Frame) -> Vec<Completion> {
     let note = Some(typed.to_owned()).filter(|note| !note.is_empty());
     let help = "writes state, history and loop with this note";
@@ -218,7 +218,7 @@ pub fn note(typed: &str, _: &Frame) -> Vec<Completion> {
     vec![written.doing(|explorer| explorer.order(move |run| run.write_snapshot(note.as_deref())))]
 }
 
-/// A command with what is typed, or with a preset whose name has that.
+/// Offers a command with the typed argument, and with each preset whose name contains it.
 fn preset_or(
     typed: &str,
     command: &str,
@@ -231,13 +231,13 @@ fn preset_or(
         .filter(|preset| !is_path && preset.name.contains(typed));
     let mut list = vec![argument(command, typed, help, act)];
     list.extend(presets.map(|preset| argument(command, preset.name, preset.title(), act)));
-    // What is typed comes first, unless it can only be the beginning of a preset's name.
+    // The typed text comes first, unless it can only be the beginning of a preset's name.
     let is_begun = list.len() > 1 && !Path::new(typed).exists();
     list.rotate_left(usize::from(is_begun && !typed.is_empty()));
     list
 }
 
-/// A command with an argument, which does nothing without one.
+/// Offers a command with an argument; without one it does nothing.
 fn argument(command: &str, given: &str, help: &str, act: fn(&mut Explorer, String)) -> Completion {
     let completion = Completion::new(format!("{command} {given}"), help);
     let given = given.to_owned();

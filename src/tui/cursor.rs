@@ -1,29 +1,29 @@
-//! The cursor: a place on each abscissa, and the part of that which is shown around it.
+//! The cursor: a position on each abscissa, and the part of the abscissa that is shown around it.
 
 use std::collections::HashMap;
 
 use super::panels::Panel;
+use crate::reading::Column;
 
-/// An abscissa, by the column that it shows: charts over the same one have the cursor at the same place.
+/// An abscissa, named by its column. Charts over the same one share the cursor's position.
 pub type Abscissa = &'static str;
 
 /// The one of charts over r.
-pub const RADIUS: Abscissa = "r_m";
+pub const RADIUS: Abscissa = Column::Radius.name();
 
-/// The abscissa of a panel; pictures read the radius.
+/// Returns the abscissa of a panel; the cursor of pictures moves along the radius.
 pub fn abscissa(panel: Panel) -> Abscissa {
-    match (panel.picture(), panel.recipe().overlays.first()) {
-        (Some(_), _) => RADIUS,
-        (None, Some(axes)) => axes.x,
-        (None, None) => panel.recipe().title,
-    }
+    panel.chart().map_or(RADIUS, |recipe| {
+        let first = recipe.overlays.first();
+        first.map_or(recipe.title, |axes| axes.x.name())
+    })
 }
 
-/// Steps across what is shown, and the initial place.
+/// Cursor steps across the shown part, and the step at which the cursor begins.
 const STEPS: f64 = 100.0;
 const START: f64 = 33.0;
 
-/// By how much each key zooms, and the smallest part of an axis that is shown.
+/// The factor of one zoom step, and the smallest part of an axis that can be shown.
 const ZOOM: f64 = 2.0;
 const SMALLEST: f64 = 1e-6;
 
@@ -34,7 +34,7 @@ pub struct Cursor {
     sights: HashMap<Abscissa, Sight>,
 }
 
-/// A place on an abscissa, and the ends of what is shown; `None`: all.
+/// A position on an abscissa, and the ends of the shown part; `None` shows all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Sight {
     place: f64,
@@ -42,29 +42,29 @@ struct Sight {
 }
 
 impl Cursor {
-    /// Shows it, or hides it, which shows all again.
+    /// Shows or hides the cursor, and undoes its zooms.
     pub fn toggle(&mut self) {
         self.is_shown = !self.is_shown;
         self.sights.clear();
     }
 
-    /// Whether there is one.
+    /// Whether the cursor is shown.
     pub fn is_shown(&self) -> bool {
         self.is_shown
     }
 
-    /// Shows all of every axis; returns whether that is more than before.
+    /// Shows all of every axis; returns whether any was zoomed.
     pub fn show_all(&mut self) -> bool {
         let windows = self.sights.values_mut().map(|sight| sight.window.take());
         windows.filter(Option::is_some).count() > 0
     }
 
-    /// What is shown of an abscissa, if that is not all.
+    /// Returns the shown part of an abscissa, unless that is all of it.
     pub fn window(&self, of: Abscissa) -> Option<[f64; 2]> {
         self.sights.get(of)?.window
     }
 
-    /// Its place on an abscissa that reaches from one end of `whole` to the other.
+    /// Returns its position on an abscissa with the ends `whole`.
     pub fn place(&self, of: Abscissa, whole: [f64; 2]) -> Option<f64> {
         self.is_shown.then(|| self.sight(of, whole).place)
     }
@@ -79,7 +79,7 @@ impl Cursor {
         sight
     }
 
-    /// Puts it to a place.
+    /// Moves it to a position.
     pub fn put(&mut self, of: Abscissa, whole: [f64; 2], place: f64) {
         let sight = Sight {
             place,
@@ -88,7 +88,7 @@ impl Cursor {
         self.sights.insert(of, sight);
     }
 
-    /// Moves it by hundredths of what is shown; at an end of that, what is shown moves with it.
+    /// Moves it by hundredths of the shown part, which moves along at its ends.
     pub fn shift(&mut self, of: Abscissa, whole: [f64; 2], steps: i16) {
         let mut sight = self.sight(of, whole);
         let [low, high] = sight.window.unwrap_or(whole);
@@ -99,7 +99,7 @@ impl Cursor {
         self.sights.insert(of, sight);
     }
 
-    /// Shows half as much around it, or twice as much, up to all.
+    /// Zooms in or out around it by a factor of two, at most to the whole axis.
     pub fn zoom(&mut self, of: Abscissa, whole: [f64; 2], is_nearer: bool) {
         let mut sight = self.sight(of, whole);
         let ends = sight.window.unwrap_or(whole);
@@ -107,7 +107,7 @@ impl Cursor {
         let all = whole[1] - whole[0];
         let width = factor * (ends[1] - ends[0]);
         let share = (sight.place - ends[0]) / (ends[1] - ends[0]);
-        // Within the axis: an end of it stays in sight.
+        // The shown part stays within the axis.
         let low = (sight.place - share * width).clamp(whole[0], (whole[1] - width).max(whole[0]));
         sight.window = match width {
             width if width >= all * (1.0 - 1e-9) => None,
@@ -130,7 +130,7 @@ mod tests {
         assert_eq!(cursor.place("r_m", whole), Some(33.0));
         cursor.zoom("r_m", whole, true);
         assert_eq!(cursor.window("r_m"), Some([16.5, 66.5]));
-        // Another axis is whole.
+        // Another axis is not zoomed.
         assert_eq!(cursor.window("cycle"), None);
         cursor.shift("r_m", whole, 80);
         assert_eq!(cursor.place("r_m", whole), Some(73.0));

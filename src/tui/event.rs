@@ -1,4 +1,4 @@
-//! What the threads of the explorer tell its main thread.
+//! Messages of the explorer's threads to its main thread.
 
 use std::sync::Arc;
 
@@ -9,27 +9,27 @@ use super::reader::Input;
 /// An event for the main thread.
 #[derive(Debug)]
 pub enum Event {
-    /// The terminal has sent what its user did, or an answer.
+    /// Input from the user, or an answer of the terminal.
     Input(Input),
     /// A frame was written.
     Written,
-    /// The terminal has another size.
+    /// The size of the terminal has changed.
     Resize,
-    /// A frame waits in the slot.
+    /// A new frame is in the slot.
     Frame(Arc<Slot>),
-    /// There may be something new to see in what is shown beside.
+    /// A run or study beside may have something new to show.
     News,
-    /// A text for the clipboard, and what it is.
+    /// A text for the clipboard, and its name.
     Copied(String, &'static str),
     /// A notice for the user.
     Notice(String),
-    /// A file that was asked for could not be written, and why: a notice, and a failure of a script.
+    /// A requested file could not be written, and why: a notice, and a failure of a script.
     Unwritten(String),
     /// A study has begun.
     Sweep(Live),
-    /// A point of it has been opened.
+    /// A point of the study has been opened.
     Opened,
-    /// The process is asked to suspend.
+    /// The process should be suspended.
     Suspend,
     /// The process continues after a suspension.
     Continue,

@@ -1,4 +1,4 @@
-//! Shows the app on the terminal and gives it keys, until it is left.
+//! Shows the app on the terminal and passes keys to it, until the user leaves.
 
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -22,13 +22,13 @@ use super::terminal::{self, Screen};
 use super::{screen, suspend};
 use crate::panics::catch;
 
-/// There is no usable terminal.
+/// Error if there is no usable terminal.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}; mdr-tui run SCENARIO works without a screen")]
 pub struct NoTerminal(&'static str);
 
 /// # Errors
-/// Fails where there is no terminal to draw on.
+/// Fails if there is no terminal to draw on.
 pub fn require_terminal() -> Result<(), NoTerminal> {
     if !io::stdout().is_terminal() || !io::stdin().is_terminal() {
         return Err(NoTerminal("the explorer needs a terminal"));
@@ -41,7 +41,7 @@ pub fn require_terminal() -> Result<(), NoTerminal> {
     Ok(())
 }
 
-/// Shows `app` until it is left; calls `ending` before the terminal is restored. Returns whether that was restored.
+/// Shows `app` until the user leaves; calls `ending` before restoring the terminal. Returns whether it was restored.
 ///
 /// # Errors
 /// If the terminal cannot be taken over or drawn on.
@@ -54,6 +54,11 @@ pub fn run(
 ) -> Result<bool> {
     let waiting = Arc::new(Waiting::default());
     listen_for_signals(events.clone(), Arc::clone(&waiting))?;
+    suspend::wait_for_terminal(|| waiting.is_over());
+    if waiting.is_over() {
+        ending();
+        return Ok(true);
+    }
     let asks = app.explorer.theme.follows_background;
     let screen = Screen::open(mouse, asks, events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
@@ -63,11 +68,11 @@ pub fn run(
     ending();
     drain_replies(&mut screen, inbox);
     let is_restored = screen.give_back();
-    // Further keys are for whoever has the terminal next.
+    // Further keys belong to the next program on the terminal.
     waiting.close();
     let _ = listener.join();
     match outcome {
-        // A terminal that closes while being drawn on has hung up; this is not an error.
+        // If the terminal closes while being drawn on, it has hung up, which is not an error.
         Err(_) if !io::stdout().is_terminal() => Ok(false),
         outcome => outcome.map(|()| is_restored),
     }
@@ -83,7 +88,7 @@ fn handle_events(
     let mut is_due = !screen.draw(|area, buffer| screen::draw(app, area, buffer))?;
     // Between suspension and continuation, the screen belongs to the shell.
     let mut is_away = false;
-    // What came in while the terminal's answers were awaited.
+    // Events that arrived while waiting for the terminal's answers.
     let mut held = Vec::new();
     loop {
         let wait = match screen.flow.delay(screen.now()) {
@@ -97,7 +102,7 @@ fn handle_events(
         };
         crate::failpoint::hit("screen");
         let mut suspends = false;
-        // Whatever else has come in is answered with the same drawing.
+        // Everything else that has arrived is answered with the same drawing.
         for event in held.drain(..).chain(first).chain(inbox.try_iter()) {
             if waiting.is_over() {
                 return Ok(());
@@ -114,6 +119,10 @@ fn handle_events(
                     app.explorer.resize(terminal::size()?);
                 }
                 Event::Continue => {
+                    suspend::wait_for_terminal(|| waiting.is_over());
+                    if waiting.is_over() {
+                        return Ok(());
+                    }
                     screen.take_back()?;
                     app.explorer.resize(terminal::size()?);
                     is_away = false;
@@ -128,7 +137,7 @@ fn handle_events(
                     }
                     app.handle(event);
                     if let Some(request) = app.explorer.to_clipboard.take() {
-                        screen.send(&request);
+                        screen.output.send(&request);
                     }
                     match app.explorer.next {
                         Next::Stay => {}
@@ -164,7 +173,7 @@ fn handle_events(
     }
 }
 
-/// Waits for outstanding answers of the terminal, so that they do not reach the shell. Returns what else has come in.
+/// Waits for outstanding answers of the terminal, so that they do not reach the shell. Returns the other events.
 fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
     let mut held = Vec::new();
     let start = screen.now();
@@ -179,8 +188,8 @@ fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
     held
 }
 
-/// Signals that ask a process to end do so as `q` does, before all waiting keys; SIGTSTP and
-/// SIGCONT suspend and continue it.
+/// Handles signals: those that end a process act like `q`, but before all waiting keys; SIGTSTP and SIGCONT suspend and
+/// continue it.
 fn listen_for_signals(events: Sender<Event>, waiting: Arc<Waiting>) -> Result<()> {
     let mut signals = Signals::new([
         SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGTSTP,

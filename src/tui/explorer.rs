@@ -1,6 +1,6 @@
-//! What is on the screen under the overlays: the run, the stage and its charts, and what is told to the user.
+//! The screen below the overlays: the run, the stage and its charts, and notices to the user.
 //!
-//! The explorer knows nothing of the simulation: it sends orders to the worker, and shows the frames that come back.
+//! The explorer knows nothing about the simulation: it sends orders to the worker, and shows the frames that come back.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use super::cursor::{self, Abscissa, Cursor, abscissa};
 use super::frame::Frame;
 use super::line::one_line;
 use super::live_charts::{Calm, LiveCharts};
-use super::panels::{Panel, StressMap, numbers};
+use super::panels::{self, Drawn, Panel, StressMap, numbers};
 use super::present::SpeedUp;
 use super::stage::Stage;
 use super::undo::Past;
@@ -21,18 +21,18 @@ use crate::plot::theme::Theme;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
 
-/// What follows a key.
+/// What the event loop should do after a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Next {
-    /// The explorer goes on.
+    /// Continue.
     Stay,
-    /// The user asks for the shell.
+    /// Suspend the program to its shell.
     Suspend,
-    /// The user sees that another program has written to the terminal.
+    /// Repaint, because another program has written to the terminal.
     Repaint,
-    /// The user leaves, and the terminal is as it was.
+    /// Leave, and restore the terminal's previous screen.
     Leave,
-    /// The user leaves, and the last screen stays.
+    /// Leave, and keep the last screen visible.
     LeaveScreen,
 }
 
@@ -43,31 +43,33 @@ pub enum Copied {
     Readings,
     /// The scenario that repeats the run.
     Scenario,
-    /// The command that does.
+    /// The command that repeats the run.
     Command,
 }
 
-/// What the overlays lie on.
+/// The state of the screen below the overlays.
 pub struct Explorer {
     /// The latest frame.
     pub frame: Arc<Frame>,
-    /// The frame of calm panels.
+    /// The frame shown by calm panels.
     pub(super) calm: Calm,
-    /// Which panels there are.
+    /// The choice and layout of panels.
     pub stage: Stage,
-    /// Their charts and scales.
+    /// The charts and their scales.
     pub charts: LiveCharts,
-    /// The stress in the half-space.
+    /// The stress shown in the half-space.
     pub stress: StressMap,
+    /// Its samples on the screen.
+    pub drawn: Drawn,
     /// The cursor.
     pub cursor: Cursor,
-    /// How a lecture speeds up.
+    /// How the pace increases for an audience.
     speed_up: SpeedUp,
     /// A notice, shown until the next key.
     pub notice: Option<String>,
-    /// What asks the terminal to take a text to its clipboard.
+    /// The sequence that copies a text to the terminal's clipboard.
     pub to_clipboard: Option<String>,
-    /// Why a file that a script asked for could not be written: the first one.
+    /// Why the first file that a script asked for and did not get could not be written.
     pub unwritten: Option<String>,
     /// True until the first key is pressed.
     pub is_new: bool,
@@ -75,16 +77,16 @@ pub struct Explorer {
     pub theme: Theme,
     /// Whether the user has chosen it with the key.
     pub has_chosen_theme: bool,
-    /// Set to end the program, or to suspend it to its shell.
+    /// What the event loop should do next.
     pub next: Next,
-    /// What the worker computes.
+    /// The curves that the worker computes.
     computed: Curves,
-    /// The way to the worker.
+    /// The channel to the worker.
     pub(super) orders: Orders,
 }
 
 impl Explorer {
-    /// An explorer that shows the first frame of a worker, and sends its orders to it.
+    /// Makes an explorer that shows the first frame of a worker, and sends its orders to it.
     pub fn new(theme: Theme, orders: Orders, frame: Arc<Frame>) -> Self {
         let mut explorer = Self {
             frame: Arc::clone(&frame),
@@ -92,6 +94,7 @@ impl Explorer {
             stage: Stage::default(),
             charts: LiveCharts::default(),
             stress: StressMap::default(),
+            drawn: Drawn::default(),
             cursor: Cursor::default(),
             speed_up: SpeedUp::default(),
             notice: None,
@@ -109,7 +112,7 @@ impl Explorer {
         explorer
     }
 
-    /// Takes a new frame.
+    /// Shows a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
         let origin = frame.facts.scenario.origin();
         self.charts.begin(origin);
@@ -124,30 +127,30 @@ impl Explorer {
         self.show();
     }
 
-    /// The preset or the file on the screen.
+    /// Returns the preset or the file on the screen.
     pub(super) fn origin(&self) -> &str {
         self.frame.facts.scenario.origin()
     }
 
-    /// Whether a second run takes the place of all panels.
+    /// Whether a comparison replaces all panels.
     pub(super) fn compares(&self) -> bool {
         self.frame.comparison.is_some()
     }
 
-    /// Notes the terminal's size: hidden panels are not computed.
+    /// Stores the terminal's size; hidden panels are not computed.
     pub fn resize(&mut self, size: Size) {
         self.stage.area = size.into();
         self.show();
     }
 
-    /// The user has pressed a key or a button: a notice has been read, and the answer is seen at once.
+    /// Begins the answer to a key or a click: clears the notice, and lets the answer show at once.
     pub(super) fn begin_answer(&mut self) {
         self.notice = None;
         self.calm = Calm::default();
         self.is_new = false;
     }
 
-    /// A click travels along the timeline, moves the cursor in a chart, or is the stage's.
+    /// Handles a click: on the timeline it travels in time, in a chart it moves the cursor, else it goes to the stage.
     pub(super) fn click(&mut self, at: Position, is_second: bool) {
         self.begin_answer();
         let frame = Arc::clone(&self.frame);
@@ -164,9 +167,10 @@ impl Explorer {
         let Some((panel, place)) = places.find(|(_, place)| place.contains(at)) else {
             return;
         };
-        let chart = self.charts.get(panel, &frame);
-        let chart = chart.as_ref().as_ref().ok();
-        let place = chart.and_then(|chart| panel.abscissa_at(chart, &self.theme, place, at));
+        let recipe = panel.chart();
+        let chart = recipe.map(|recipe| self.charts.get(panel, recipe, &frame));
+        let chart = chart.as_deref().and_then(|made| made.as_ref().ok());
+        let place = chart.and_then(|chart| panels::abscissa_at(chart, &self.theme, place, at));
         let place = place.filter(|_| self.cursor.is_shown() && !is_second);
         if let Some((place, whole)) = place.zip(self.charts.whole(panel)) {
             self.cursor.put(abscissa(panel), whole, place);
@@ -181,7 +185,7 @@ impl Explorer {
         self.notice = Some(format!("theme {}", self.theme.look));
     }
 
-    /// Changes the stress in the half-space.
+    /// Changes the stress shown in the half-space.
     pub(super) fn change_stress(&mut self, change: fn(&mut StressMap)) {
         change(&mut self.stress);
         self.stress.follow(&self.frame);
@@ -194,7 +198,7 @@ impl Explorer {
         self.notice = self.stage.continue_tour(&origin).map(str::to_owned);
     }
 
-    /// The abscissa that the cursor moves on, and all of it: that of the focused panel.
+    /// Returns the abscissa of the focused panel, along which the cursor moves, and its ends.
     fn focused_axis(&self) -> Option<(Abscissa, [f64; 2])> {
         let of = abscissa(self.stage.focus);
         let whole = match of {
@@ -204,7 +208,8 @@ impl Explorer {
         Some((of, whole?))
     }
 
-    /// The place of the cursor in a panel, if it has one there: on r in all panels, else in those like the focused one.
+    /// Returns the cursor's position in a panel: on r in all panels, else only in panels with the focused one's
+    /// abscissa.
     pub(super) fn cursor_in(&self, panel: Panel) -> Option<f64> {
         let of = abscissa(panel);
         match of {
@@ -216,7 +221,7 @@ impl Explorer {
         }
     }
 
-    /// Moves the cursor by a hundredth of what is shown, or the focus where there is no cursor.
+    /// Moves the cursor by a hundredth of the shown part, or the focus if there is no cursor.
     pub(super) fn move_sideways(&mut self, places: i16) {
         match self.focused_axis().filter(|_| self.cursor.is_shown()) {
             Some((of, whole)) => self.cursor.shift(of, whole, places),
@@ -224,7 +229,7 @@ impl Explorer {
         }
     }
 
-    /// Shows less or more around the cursor; moves the focus where there is no cursor.
+    /// Zooms around the cursor, or moves the focus if there is no cursor.
     pub(super) fn move_upwards(&mut self, is_up: bool) {
         match self.focused_axis().filter(|_| self.cursor.is_shown()) {
             Some((of, whole)) => self.cursor.zoom(of, whole, is_up),
@@ -232,7 +237,7 @@ impl Explorer {
         }
     }
 
-    /// Shows all of what was zoomed.
+    /// Undoes all zooms.
     pub(super) fn show_all(&mut self) {
         if !self.cursor.show_all() {
             self.notice =
@@ -240,7 +245,7 @@ impl Explorer {
         }
     }
 
-    /// Zooms with the wheel about the cursor, which appears if there is none.
+    /// Zooms around the cursor with the wheel; shows the cursor first if necessary.
     pub(super) fn wheel(&mut self, is_up: bool) {
         self.begin_answer();
         if !self.cursor.is_shown() {
@@ -250,7 +255,7 @@ impl Explorer {
         self.show();
     }
 
-    /// Copies something; the worker knows the run.
+    /// Copies something to the clipboard; asks the worker for what concerns the run.
     pub(super) fn copy(&mut self, what: Copied) {
         if what != Copied::Readings {
             return self.order(move |run| run.copy(what));
@@ -263,7 +268,7 @@ impl Explorer {
         self.take_to_clipboard(&text, "the readings are");
     }
 
-    /// Has the terminal take a text to its clipboard, and tells `what` of it is copied.
+    /// Copies a text to the terminal's clipboard; the notice names it as `what`.
     pub(super) fn take_to_clipboard(&mut self, text: &str, what: &str) {
         self.to_clipboard = clipboard::request(text);
         self.notice = Some(match self.to_clipboard {
@@ -272,7 +277,7 @@ impl Explorer {
         });
     }
 
-    /// Closes what is open, one thing at a time: the tour, the cursor, what is shown large, the closed forms.
+    /// Closes one thing at a time: the tour, the cursor, what is shown large, the closed forms.
     pub(super) fn go_back(&mut self) {
         if self.stage.tour.is_some() {
             self.stage.go_back();
@@ -309,21 +314,22 @@ impl Explorer {
         self.notice = loaded.err();
     }
 
-    /// Has the worker show something else, for which the scales begin anew.
+    /// Orders something for which the scales start afresh.
     pub(super) fn order_anew(&mut self, order: impl FnOnce(&mut Worker) + Send + 'static) {
         self.charts.forget_scales();
         self.stress.forget_range();
         self.order(order);
     }
 
-    /// Makes what shows, and tells the worker: hidden panels cost neither a chart nor a transform.
+    /// Makes the visible charts, and tells the worker what they need: hidden panels cost neither a chart nor a
+    /// transform.
     pub(super) fn show(&mut self) {
         let visible = self.stage.visible();
         let shown = |panel| self.calm.shown(panel, &self.stage, &self.frame);
         self.charts.make(&visible, &self.frame, shown, &self.cursor);
         let needs = visible.iter().map(|panel| panel.recipe().needs);
         let mut needed = needs.fold(Curves::empty(), Curves::union);
-        // A cursor reads all curves.
+        // The cursor reads all curves.
         if self.cursor.is_shown() {
             needed |= Curves::PROFILE | Curves::PRESSURE | Curves::SHEAR | Curves::PROFILE_1D;
         }
@@ -333,7 +339,7 @@ impl Explorer {
         }
     }
 
-    /// Has the worker do something.
+    /// Sends an order to the worker.
     pub(super) fn order(&self, order: impl FnOnce(&mut Worker) + Send + 'static) {
         self.orders.send(order);
     }

@@ -1,4 +1,4 @@
-//! What `:figure FILE` writes: profiles, stresses and the last loop of the state on the screen.
+//! Writes `:figure FILE`: profiles, stresses and the last loop of the state on the screen.
 
 use std::path::Path;
 
@@ -8,17 +8,16 @@ use crate::export::target::Target;
 use crate::figure::look::{Look, Style};
 use crate::figure::{Format, Sheet};
 
-/// The font, mm: 8 points.
+/// The font size, mm: 8 points.
 const FONT: f64 = 8.0 * 25.4 / 72.0;
 
 /// Resolution of a PNG in dots per inch.
 const DPI: f64 = 300.0;
 
-/// Draws the present state of `of` into the file, and writes what is drawn to the same name with
-/// `.csv`.
+/// Draws the present state of `of` into the file, and writes its data to a file of the same name with `.csv`.
 ///
 /// # Errors
-/// One line: a name of no known format, a file that exists already or cannot be written.
+/// In one line: an unknown format, a file that already exists or cannot be written.
 pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let shown = path.display();
     let format = Format::of(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;

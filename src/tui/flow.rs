@@ -8,20 +8,20 @@
 //! line is busy; the next chunk is sent when that is at most [`DELAY`], and is as large as keeps it so.
 //!
 //! The round trip is measured by a request of another kind, on an empty line. Its answer also tells where in the queue of
-//! requests the terminal is, in case answers were lost. A terminal that does not know it is asked for its status alone.
+//! requests the terminal is, in case answers were lost. A terminal that does not answer both counts as silent.
 
 use std::collections::VecDeque;
 
-/// How long the line may be busy with what was sent, seconds: half of what a hand feels, and longer than usual jitter.
+/// How long the line may be busy, seconds: half of a perceptible delay, and longer than usual jitter.
 const DELAY: f64 = 0.25;
 
-/// The shortest time that answers tell, seconds: OpenSSH sends them on a grid of 20 ms, and radio links jitter.
+/// The shortest measurable time, seconds: OpenSSH sends answers on a grid of 20 ms, and radio links jitter.
 const TICK: f64 = 0.05;
 
-/// Bytes of the first chunk: the first line and two rows more, 0.8 s at 300 bytes per second.
+/// Bytes of the first chunk: the first line and two more rows, 0.8 s at 300 bytes per second.
 const FIRST: f64 = 240.0;
 
-/// The fewest bytes of a later chunk: its request, parts of the first and last line, and some 60 of the rest.
+/// Minimum bytes of a later chunk: its request, parts of the first and last line, and some 60 of the rest.
 const LEAST: f64 = 96.0;
 
 /// The rate assumed until the first answer, bytes per second.
@@ -36,32 +36,36 @@ const PATIENCE: f64 = 3.0;
 /// next measurement, and their sum is exact.
 const KEPT: f64 = 0.75;
 
-/// The round trip is measured anew after this many seconds and round trips: an idle line for a fifteenth of the time.
+/// The round trip is measured again after this many seconds and round trips; the line idles for a fifteenth of the
+/// time.
 const REFRESH: [f64; 2] = [3.0, 15.0];
 
-/// For how long a key is hurried, seconds.
+/// The part of that time after which it is tried again, where a key came before the line was empty.
+const AGAIN: f64 = 0.4;
+
+/// How long a key has precedence, seconds.
 const HURRY: f64 = 0.3;
 
-/// How late an answer may be, seconds.
+/// Maximum delay of an answer before it counts as lost, seconds.
 const LOST: f64 = 5.0;
 
-/// The longest wait for outstanding answers before the terminal is given back, seconds, besides a round trip.
+/// Maximum wait for outstanding answers before the terminal is restored, in seconds, in addition to a round trip.
 const LAST_ANSWERS: f64 = 0.5;
 
 /// More outstanding answers than any line needs; a silent terminal owes no more.
 const MOST_MARKS: usize = 500;
 
-/// What a terminal is asked.
+/// The requests to a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Request {
     /// Whether it is ready (DSR), behind each chunk.
     Status,
-    /// Where its cursor is (CPR), on an empty line: it measures the round trip.
+    /// Where its cursor is (CPR), sent on an empty line to measure the round trip.
     Place,
 }
 
 impl Request {
-    /// The escape sequence.
+    /// Returns the escape sequence.
     pub fn text(self) -> &'static str {
         match self {
             Self::Status => "\x1b[5n",
@@ -70,103 +74,103 @@ impl Request {
     }
 }
 
-/// A request that was not answered yet, and the bytes sent up to it since the one before.
+/// An unanswered request, and the bytes sent up to it since the previous one.
 #[derive(Debug, Clone, Copy)]
 struct Mark {
     sent: f64,
     bytes: f64,
     request: Request,
-    /// Whether it measures the round trip, rather than to end a chunk.
-    measures: bool,
 }
 
-/// What is known of the line to the terminal. All times are seconds since it was opened.
+/// The state of the line to the terminal. All times are in seconds since it was opened.
 #[derive(Debug, Default)]
 pub struct Flow {
-    /// Chunks that the writer has not handed to the system yet.
+    /// Chunks that the writer has not yet passed to the system.
     unwritten: usize,
     marks: VecDeque<Mark>,
-    /// The shortest round trip, and when one close to it was last seen.
+    /// The shortest round trip, and when one close to it was last measured.
     base: f64,
     confirmed: f64,
-    /// Bytes that the line has carried of late, and how long that took.
+    /// Bytes that the line has carried recently, and the time that took.
     carried: Option<[f64; 2]>,
     /// When the terminal last answered.
     heard: Option<f64>,
-    /// Whether it does not tell the place of its cursor.
-    lacks_place: bool,
     /// Until when a key is hurried.
     hurried: f64,
 }
 
 impl Flow {
-    /// When the line had carried what was answered last.
+    /// Returns when the line had carried the last answered chunk.
     fn end(&self) -> f64 {
         self.heard.unwrap_or(0.0) - self.base
     }
 
-    /// Bytes per second.
+    /// Returns the estimated rate, bytes per second.
     fn rate(&self, now: f64) -> f64 {
-        let rate = match (self.heard, self.carried) {
-            (None, _) if now >= PATIENCE => return SILENT,
-            (Some(_), Some([bytes, time])) => bytes / time,
-            _ => SLOW,
-        };
+        if self.heard.is_none() {
+            return if now < PATIENCE { SLOW } else { SILENT };
+        }
+        let rate = self.carried.map_or(SLOW, |[bytes, time]| bytes / time);
         // An answer that is late tells as much as one that has come.
-        let late = self.marks.front().filter(|_| self.heard.is_some());
-        let late = late.map(|oldest| [oldest.bytes, now - self.base - oldest.sent.max(self.end())]);
-        let late = late.filter(|[_, time]| *time > TICK);
-        late.map_or(rate, |[bytes, time]| rate.min(bytes / time))
+        let late = |oldest: &Mark| now - self.base - oldest.sent.max(self.end());
+        let late = self
+            .marks
+            .front()
+            .map(|oldest| (oldest.bytes, late(oldest)));
+        let late = late.filter(|(_, time)| *time > TICK);
+        late.map_or(rate, |(bytes, time)| rate.min(bytes / time))
     }
 
-    /// For how long the line will be busy with what was sent; negative if it is idle.
+    /// Returns how long the line will be busy with what was sent; negative if it is idle.
     fn wait(&self, now: f64) -> f64 {
         let rate = self.rate(now);
         let carry = |end: f64, mark: &Mark| end.max(mark.sent) + mark.bytes / rate;
         self.marks.iter().fold(self.end(), carry) - now
     }
 
-    /// When the outstanding answers count as lost.
+    /// Returns when the outstanding answers count as lost.
     fn lost(&self) -> f64 {
-        let answers = self.heard.is_some() || self.lacks_place;
-        let Some(oldest) = self.marks.front().filter(|_| answers) else {
+        let Some((oldest, heard)) = self.marks.front().zip(self.heard) else {
             return f64::INFINITY;
         };
         let bytes: f64 = self.marks.iter().map(|mark| mark.bytes).sum();
-        oldest.sent.max(self.heard.unwrap_or(0.0)) + self.base + LOST + bytes / SLOW
+        oldest.sent.max(heard) + self.base + LOST + bytes / SLOW
     }
 
-    /// Whether the round trip is to be measured anew.
+    /// Returns the time between measurements of the round trip.
+    fn refresh(&self) -> f64 {
+        REFRESH[0] + REFRESH[1] * self.base
+    }
+
+    /// Whether the round trip should be measured again.
     fn is_old(&self, now: f64) -> bool {
-        match self.heard {
-            Some(_) => now > self.confirmed + REFRESH[0] + REFRESH[1] * self.base,
-            None => self.lacks_place,
-        }
+        self.heard.is_some() && now > self.confirmed + self.refresh()
     }
 
-    /// How long to wait before a chunk is sent, unless something happens before; `None` while the writer is busy.
+    /// Returns how long to wait before sending a chunk, unless something happens first; `None` while the writer is
+    /// busy.
     pub fn delay(&self, now: f64) -> Option<f64> {
         let least = LEAST / self.rate(now);
         let most = if now < self.hurried {
-            // One small chunk more than usual.
+            // Allows one more small chunk than usual.
             DELAY.max(least)
         } else if self.is_old(now) && !self.marks.is_empty() {
-            // First the line runs empty.
+            // Waits until the line is empty.
             f64::NEG_INFINITY
         } else {
-            // The chunk takes half of the delay at least.
+            // The chunk itself takes at least half of the delay.
             DELAY - least.clamp(DELAY / 2.0, DELAY)
         };
         let delay = (self.wait(now) - most).min(self.lost() - now);
         (self.unwritten == 0).then_some(delay.clamp(0.0, 60.0))
     }
 
-    /// A key was pressed: its answer takes precedence.
+    /// Gives the answer to a key precedence.
     pub fn hurry(&mut self, now: f64) {
         self.hurried = now + HURRY;
     }
 
-    /// How many bytes the next chunk may have, and whether the round trip is measured before it.
+    /// Returns the maximum bytes of the next chunk, and whether the round trip is measured before it.
     pub fn room(&mut self, now: f64) -> (usize, bool) {
         if now >= self.lost() {
             self.forget();
@@ -178,68 +182,58 @@ impl Flow {
         (room.max(least) as usize, measures)
     }
 
-    /// Measures the round trip by this request, which is to be sent at once.
+    /// Returns the request that measures the round trip; it must be sent at once.
     pub fn measure(&mut self, now: f64) -> &'static str {
-        let request = match self.lacks_place {
-            true => Request::Status,
-            false => Request::Place,
-        };
         self.confirmed = now;
-        self.mark(now, request.text().len(), request, true);
+        let request = Request::Place;
+        self.mark(now, request.text().len(), request);
         request.text()
     }
 
-    /// Notes that the writer was given a chunk of so many bytes, its request included.
+    /// Notes that the writer received a chunk of this many bytes, including its request.
     pub fn sent(&mut self, now: f64, bytes: usize) {
+        // An answer to a key was sent while the line was to become empty: keys in a row would keep it idle for long.
+        if self.is_old(now) && !self.marks.is_empty() {
+            self.confirmed = now - (1.0 - AGAIN) * self.refresh();
+        }
         self.unwritten += 1;
-        self.mark(now, bytes, Request::Status, false);
+        self.mark(now, bytes, Request::Status);
     }
 
-    fn mark(&mut self, now: f64, bytes: usize, request: Request, measures: bool) {
+    fn mark(&mut self, sent: f64, bytes: usize, request: Request) {
+        let bytes = bytes as f64;
         self.marks.push_back(Mark {
-            sent: now,
-            bytes: bytes as f64,
+            sent,
+            bytes,
             request,
-            measures,
         });
         if self.marks.len() > MOST_MARKS {
             self.marks.pop_front();
         }
     }
 
-    /// The writer has handed a chunk to the system.
+    /// Notes that the writer has passed a chunk to the system.
     pub fn written(&mut self) {
         self.unwritten = self.unwritten.saturating_sub(1);
     }
 
-    /// The terminal has answered.
+    /// Notes an answer of the terminal.
     pub fn answered(&mut self, now: f64, request: Request) {
-        let place = self
-            .marks
-            .iter()
-            .position(|mark| mark.request == Request::Place);
-        let unanswered = match (request, place) {
+        let is_place = |mark: &Mark| mark.request == Request::Place;
+        match (request, self.marks.iter().position(is_place)) {
             // What was asked before will have no answer.
-            (Request::Place, Some(place)) => place,
-            // The first answer of all is to the first request, if the terminal knows that.
-            (Request::Status, Some(0)) if self.heard.is_none() => 1,
+            (Request::Place, Some(place)) => drop(self.marks.drain(..place)),
+            // An earlier answer was mistaken for this one.
+            (Request::Place, None) => return self.forget(),
             // That is to a chunk from before answers were lost.
             (Request::Status, Some(0)) => return,
-            // So was one before this, taken for the answer to the last.
-            (Request::Place, None) => return self.forget(),
-            (Request::Status, _) => 0,
-        };
-        self.marks.drain(..unanswered);
+            (Request::Status, _) => {}
+        }
         let Some(mark) = self.marks.pop_front() else {
             return;
         };
-        if self.heard.is_none() && !mark.measures {
-            // Nothing tells how much of that was the round trip.
-            self.lacks_place = true;
-            return;
-        }
         let (trip, end) = (now - mark.sent, self.end());
-        if mark.measures || trip < self.base {
+        if request == Request::Place || trip < self.base {
             self.base = trip;
         }
         if trip < self.base + 2.0 * TICK {
@@ -249,7 +243,7 @@ impl Flow {
         let took = (now - self.base - mark.sent.max(end)).max(0.0);
         let [bytes, time] = self.carried.unwrap_or([SLOW * TICK, TICK]);
         // A shorter time tells only of a faster line.
-        if !mark.measures && (took > TICK || mark.bytes / TICK > bytes / time) {
+        if request == Request::Status && (took > TICK || mark.bytes / TICK > bytes / time) {
             self.carried = Some([bytes * KEPT + mark.bytes, (time * KEPT + took).max(TICK)]);
         }
     }
@@ -261,7 +255,7 @@ impl Flow {
         (answers && !self.marks.is_empty()).then_some(LAST_ANSWERS + self.base.min(PATIENCE))
     }
 
-    /// Outstanding answers will never come, and the line may be another one.
+    /// Gives up on outstanding answers; the line may also be a different one.
     pub fn forget(&mut self) {
         self.marks.clear();
         self.carried = None;

@@ -15,10 +15,10 @@ use crate::plot::theme::Role;
 const HINT: &str =
     "Space pauses, + runs faster, Enter explains, V: the contact, n: a tour.   ? help   q quit";
 
-/// Commands, and their names where those are others than in the table.
+/// Commands, with names where they differ from the table's.
 type Mode = &'static [(Command, &'static str)];
 
-/// The commands that are shown where nothing else is asked for.
+/// The commands shown by default.
 #[rustfmt::skip]
 pub const USUAL: Mode = &[
     (C::RunPause, ""), (C::Accept, ""), (C::Step, ""), (C::Cycle, ""), (C::NextMethod, ""), (C::NextLaw, ""),
@@ -63,11 +63,11 @@ fn mode(explorer: &Explorer) -> Mode {
     }
 }
 
-/// The notice if there is one, else the values at the cursor, else as many keys as fit.
+/// Draws the notice if there is one, else the values at the cursor, else as many keys as fit.
 pub fn draw(app: &App, mut canvas: Canvas) {
     let explorer = &app.explorer;
     let (frame, room) = (&*explorer.frame, usize::from(canvas.area.width));
-    // The form shows its own notices.
+    // The form shows notices itself.
     let notice = explorer.notice.as_deref();
     let notice = notice.filter(|_| !matches!(app.overlays.last(), Some(Overlay::Form(_))));
     let stopped = match &frame.activity {
@@ -88,7 +88,7 @@ pub fn draw(app: &App, mut canvas: Canvas) {
     canvas.keys(told, &keys, &always);
 }
 
-/// The keys of commands and what they are called.
+/// Returns the keys of commands and their names.
 fn texts(mode: Mode) -> Vec<[String; 2]> {
     let texts = mode.iter().map(|(command, name)| {
         let row = command.row();

@@ -1,5 +1,5 @@
-//! What the worker publishes of the simulation, what is known of a run before it is run, and the slot where the screen
-//! picks a frame up.
+//! What the worker publishes about the simulation, facts about the scenario, and the slot from which the screen takes
+//! frames.
 
 use std::sync::{Arc, Mutex};
 
@@ -27,42 +27,42 @@ pub enum Activity {
     Stopped(String),
 }
 
-/// Everything that the screen shows of the simulation.
+/// Everything that the screen shows about the simulation.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// What charts are made of: the curves that were computed, the past, and those of other sources.
+    /// The data for charts: computed curves, the past, and overlays.
     pub run: Run,
-    /// What is known of the scenario.
+    /// Facts about the scenario.
     pub facts: Arc<Facts>,
-    /// The curves and scalars.
-    pub observation: Observation,
-    /// What a fretting test reports of the last cycle.
+    /// The computed curves and scalars.
+    pub observation: Arc<Observation>,
+    /// What a fretting test reports for the last cycle.
     pub figures: Option<CycleFigures>,
-    /// Whether frames are taken at the ends of cycles, phase 0 of the motion; else the motion is shown.
+    /// Whether frames are taken at the ends of cycles, phase 0 of the motion; otherwise they show the motion.
     pub shows_ends: bool,
-    /// What the worker does.
+    /// What the worker is doing.
     pub activity: Activity,
-    /// The requested pace, cycles per second; infinite without limit.
+    /// The requested pace, cycles per second; infinite for no limit.
     pub pace: f64,
-    /// Its actual speed, cycles per second; `None` until measured.
+    /// The actual speed, cycles per second; `None` until measured.
     pub speed: Option<f64>,
     /// Time per step, s.
     pub step_cost: Option<f64>,
-    /// The cycle of the present, while the screen shows a state of the past.
+    /// The cycle of the present, while the screen shows the past.
     pub present: Option<f64>,
     /// The changes of the run up to the present.
     pub changes: Vec<Change>,
     /// The cycles at which snapshots were written.
     pub snapshots: Vec<f64>,
-    /// The load on the half-space, where its stresses are shown.
+    /// The load on the half-space, if its stresses are shown.
     pub load: Option<Arc<SpringLoad>>,
-    /// The loads of the last cycle, where they are shown.
+    /// The loads of the last cycle, if they are shown.
     pub cycle_loads: Vec<Arc<SpringLoad>>,
-    /// The largest von Mises and the largest principal stress in the half-space, where they are shown.
+    /// The largest von Mises and the largest principal stress in the half-space, if they are shown.
     pub peaks: Option<[Peak; 2]>,
-    /// The cycle up to which the errors of the run are estimated, and what they are; else why they are not.
+    /// The cycle up to which the run's errors are estimated, with the errors, or why there is no estimate.
     pub errors: Result<(f64, Difference), String>,
-    /// The checks of the moment.
+    /// The present checks.
     pub checks: Vec<Check>,
     /// The comparison run.
     pub comparison: Option<Comparison>,
@@ -78,32 +78,32 @@ impl Slot {
         locked(&self.0).take()
     }
 
-    /// Stores a frame; returns true if the slot was empty and the screen must be notified.
+    /// Stores a frame; returns true if the slot was empty, in which case the screen must be notified.
     pub(super) fn put(&self, frame: Arc<Frame>) -> bool {
         locked(&self.0).replace(frame).is_none()
     }
 }
 
-/// The present scenario in numbers and words.
+/// Facts about the present scenario.
 #[derive(Debug, Clone)]
 pub struct Facts {
     /// The scenario that the run follows now.
     pub scenario: Scenario,
-    /// About the deepest wear at the planned end of the scenario as it was loaded, m; 0 where it is not known. An
-    /// edit does not change it: wear is drawn by one factor from the start of a run to its end.
+    /// Rough estimate of the deepest wear at the planned end of the scenario as loaded, m; 0 if unknown. An edit does
+    /// not change it, so that wear is drawn with one factor during the whole run.
     pub expected_wear: f64,
     /// The keys that can be changed, with their values.
     pub settings: Vec<Setting>,
-    /// Where the scenario leaves the theory.
+    /// Warnings about limits of the theory.
     pub warnings: Vec<String>,
-    /// What the warnings say of the hardness, which any step may pass.
+    /// Where the pressure first exceeded the hardness, as the warnings say; it can happen in any step.
     pub passed_hardness: Option<Passed>,
     /// Closed forms for the scenario.
     pub theory: Arc<Theory>,
 }
 
 impl Facts {
-    /// Those of the scenario that `session` runs now.
+    /// Collects the facts of the scenario that `session` runs now.
     pub fn of(session: &Session) -> Arc<Self> {
         let scenario = session.scenario();
         let loaded = session.loaded().setup();

@@ -1,4 +1,4 @@
-//! Where ghosts come from: files, states that the user freezes, and scenarios that run beside.
+//! Sources of ghosts: files, states frozen by the user, and scenarios run beside.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -8,29 +8,34 @@ use super::beside::Beside;
 use super::trend::Recorded;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
+use crate::scenario::columns::Naming;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
 
-/// The most ghosts at once: each has a stroke of its own.
+/// Maximum number of ghosts; each has a different stroke.
 pub const MOST: usize = 4;
 
-/// Curves beside the run.
+/// Curves to compare the run with.
 #[derive(Debug, Clone)]
 pub struct Source {
     /// Its name, and its curves if they do not change.
     ghost: Arc<Ghost>,
-    /// The run whose curves at the same cycle they are, if there is one.
+    /// A run that computes its curves at the same cycle, if it is one.
     pub(super) beside: Option<Box<Beside>>,
 }
 
 impl Source {
     /// What `given` names, which is to be shown over a contact that reaches as far as `reach`, m: a
-    /// directory or a CSV file, or else a scenario.
+    /// directory or a CSV file, whose columns `naming` may name, or else a scenario.
     ///
     /// # Errors
     /// What cannot be read, is refused as measured data, or cannot be run.
-    pub fn load(given: impl AsRef<OsStr>, reach: f64) -> Result<Self, SessionError> {
+    pub fn load(
+        given: impl AsRef<OsStr>,
+        naming: &Naming,
+        reach: f64,
+    ) -> Result<Self, SessionError> {
         let path = Path::new(&given);
         let ending = path.extension();
         if ending.is_none_or(|end| end.eq_ignore_ascii_case("toml")) && !path.is_dir() {
@@ -41,18 +46,18 @@ impl Source {
                 beside: Some(Box::new(Beside::new(start, true))),
             });
         }
-        let ghost = Ghost::read(path)?;
+        let ghost = Ghost::read(path, naming)?;
         ghost.check_radii(reach)?;
         Ok(Self::still(ghost))
     }
 
-    /// The present state of a run.
+    /// Freezes the present state of a run.
     pub(super) fn frozen(run: &Recorded) -> Self {
         let name = format!("cycle {:.2}", run.cycle());
         Self::still(ghost(&name, run, Curves::all()))
     }
 
-    /// A run that goes on as it was before it was changed.
+    /// Continues a run as it was before it was changed.
     pub(super) fn before(session: Session) -> Self {
         Self {
             ghost: Arc::new(Ghost::new("before")),
@@ -60,7 +65,7 @@ impl Source {
         }
     }
 
-    /// Curves that do not change.
+    /// Makes a source with fixed curves.
     fn still(ghost: Ghost) -> Self {
         Self {
             ghost: Arc::new(ghost),
@@ -68,12 +73,12 @@ impl Source {
         }
     }
 
-    /// What legends call it.
+    /// Returns its name in legends.
     pub(super) fn name(&self) -> &str {
         &self.ghost.name
     }
 
-    /// Its curves, `curves` of them if they are computed for each frame.
+    /// Returns its curves; if it is a run, those selected by `curves`.
     pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
         let Some(beside) = &self.beside else {
             return Arc::clone(&self.ghost);

@@ -1,19 +1,19 @@
-//! Bounds of an axis or of colours in a live run, which hold for a whole period of the motion.
+//! Bounds of an axis or of colours in a live run, held for a whole period of the motion.
 
 use crate::plot::sticky_bounds;
 
-/// Bounds, and what has been seen within them since they were last judged.
+/// Bounds, and the range of the data since they were last checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Held {
     /// The bounds to draw with.
     pub bounds: [f64; 2],
     seen: [f64; 2],
-    /// The cycle from which on that was seen.
+    /// The cycle at which this range begins.
     pub since: f64,
 }
 
 impl Held {
-    /// Bounds for the range of a first frame, at `cycle`.
+    /// Makes bounds for the range of a first frame, at `cycle`.
     pub fn new([low, high]: [f64; 2], cycle: f64) -> Self {
         Self {
             bounds: sticky_bounds(None, low, high),
@@ -22,15 +22,15 @@ impl Held {
         }
     }
 
-    /// Takes in the range of a frame at `cycle`. The bounds grow at once, and shrink only where a whole
-    /// period leaves half of them empty.
+    /// Adds the range of a frame at `cycle`. The bounds grow at once, but shrink only if a whole period leaves half of
+    /// them empty.
     pub fn take(&mut self, [low, high]: [f64; 2], cycle: f64) {
         if cycle < self.since {
             (self.seen, self.since) = ([low, high], cycle);
         }
         let [lowest, highest] = self.seen;
         self.seen = [lowest.min(low), highest.max(high)];
-        // What reaches as far on both sides of zero is drawn so, also where it was on one side at first.
+        // A range symmetric about zero gets symmetric bounds, even if it was one-sided at first.
         if low == -high && high > 0.0 {
             let most = self.bounds[1].max(-self.bounds[0]);
             self.bounds = [-most, most];
@@ -40,7 +40,7 @@ impl Held {
         if grows || is_over {
             let [a, b] = match is_over {
                 true => self.seen,
-                // What is within them already stays within them.
+                // Data already within the bounds stay within them.
                 false => [low.min(self.bounds[0]), high.max(self.bounds[1])],
             };
             self.bounds = sticky_bounds(Some(self.bounds), a, b);
@@ -55,7 +55,7 @@ impl Held {
 mod tests {
     use super::*;
 
-    /// A motion begins to one side, and swings to both.
+    /// A motion that begins to one side, and then swings to both.
     #[test]
     fn bounds_of_a_swing_are_symmetric() {
         let mut held = Held::new([0.0, 7.0], 0.0);
@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn bounds_hold_for_a_period_and_follow_a_trend() {
         let start = Held::new([0.0, 0.1], 0.0);
-        // A stress that comes and goes within each cycle, and falls from cycle to cycle.
+        // A stress that comes and goes within each cycle, and decreases from cycle to cycle.
         let (mut held, mut changes) = (start, Vec::new());
         for step in 0..=2000 {
             let cycle = f64::from(step) / 100.0;

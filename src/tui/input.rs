@@ -1,9 +1,9 @@
-//! Reads the terminal in a thread of its own. Ctrl-C overtakes all waiting keys.
+//! Reads the terminal in a separate thread. Ctrl-C overtakes all waiting keys.
 
 use std::io;
 use std::os::fd::AsFd;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
@@ -30,39 +30,37 @@ pub struct Waiting {
 }
 
 impl Waiting {
-    /// Whether one more may wait; it then counts.
+    /// Counts one more waiting key; returns false if the queue is full.
     fn enter(&self) -> bool {
-        let has_room = self.keys.fetch_add(1, Ordering::SeqCst) < MOST_WAITING;
-        if !has_room {
-            self.keys.fetch_sub(1, Ordering::SeqCst);
-            self.has_dropped.store(true, Ordering::SeqCst);
-        }
-        has_room
+        let next = |keys| (keys < MOST_WAITING).then_some(keys + 1);
+        let entered = self.keys.fetch_update(SeqCst, SeqCst, next).is_ok();
+        self.has_dropped.fetch_or(!entered, SeqCst);
+        entered
     }
 
-    /// One is being answered.
+    /// Notes that a waiting key is being handled.
     pub fn leave(&self) {
-        self.keys.fetch_sub(1, Ordering::SeqCst);
+        self.keys.fetch_sub(1, SeqCst);
     }
 
-    /// Whether keys were dropped since this was last asked.
+    /// Whether keys were dropped since the last call.
     pub fn has_dropped(&self) -> bool {
-        self.has_dropped.swap(false, Ordering::SeqCst)
+        self.has_dropped.swap(false, SeqCst)
     }
 
     /// Stops reading: further input belongs to another program.
     pub fn close(&self) {
-        self.is_closed.store(true, Ordering::SeqCst);
+        self.is_closed.store(true, SeqCst);
     }
 
-    /// Ends everything, whatever is waiting.
+    /// Ends the session, whatever is waiting.
     pub fn end(&self) {
-        self.is_over.store(true, Ordering::SeqCst);
+        self.is_over.store(true, SeqCst);
     }
 
-    /// Whether everything should end.
+    /// Whether the session should end.
     pub fn is_over(&self) -> bool {
-        self.is_over.load(Ordering::SeqCst)
+        self.is_over.load(SeqCst)
     }
 }
 
@@ -70,25 +68,27 @@ impl Waiting {
 pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) {
     let stdin = io::stdin();
     let (mut reader, mut mouse) = (Reader::default(), Mouse::default());
-    let (mut bytes, mut inputs) = ([0; 4096], Vec::new());
+    let mut bytes = [0; 4096];
     loop {
         let mut fds = [PollFd::new(stdin.as_fd(), PollFlags::POLLIN)];
-        let ready = poll(&mut fds, reader.patience().unwrap_or(GLANCE));
-        if waiting.is_closed.load(Ordering::SeqCst) {
+        let come = match poll(&mut fds, reader.patience().unwrap_or(GLANCE)) {
+            Ok(1..) => nix::unistd::read(stdin.as_fd(), &mut bytes).map(Some),
+            silence => silence.map(|_| None),
+        };
+        if waiting.is_closed.load(SeqCst) {
             return;
         }
-        match ready {
-            Ok(0) if reader.patience().is_none() => {}
-            Ok(0) => reader.rest(&mut inputs),
-            Ok(_) => match nix::unistd::read(stdin.as_fd(), &mut bytes) {
-                Ok(count @ 1..) => reader.take(&bytes[..count], &mut inputs),
-                Err(Errno::EINTR | Errno::EAGAIN) => {}
-                Ok(0) | Err(_) => return hang_up(events, waiting),
-            },
-            Err(Errno::EINTR) => {}
-            Err(_) => return hang_up(events, waiting),
-        }
-        for input in inputs.drain(..) {
+        let inputs = match come {
+            Ok(None) => reader.rest(),
+            Ok(Some(count @ 1..)) => reader.take(&bytes[..count]),
+            Err(Errno::EINTR | Errno::EAGAIN) => continue,
+            Ok(Some(0)) | Err(_) => {
+                waiting.end();
+                let _ = events.send(Event::HangUp);
+                return;
+            }
+        };
+        for input in inputs {
             let event = match input {
                 // Keeps reading, so that late answers of the terminal do not reach the shell.
                 Input::Interrupt => {
@@ -108,11 +108,6 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) 
             }
         }
     }
-}
-
-fn hang_up(events: &Sender<Event>, waiting: &Waiting) {
-    waiting.end();
-    let _ = events.send(Event::HangUp);
 }
 
 #[cfg(test)]

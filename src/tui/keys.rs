@@ -1,4 +1,4 @@
-//! Keys by name: one notation for the command table, the help, and `--keys` scripts.
+//! Keys by name, in one notation for the command table, the help, and `--keys` scripts.
 //!
 //! A printable character stands for itself; everything else is written in angle brackets:
 //! `<Space>`, `<Tab>`, `<S-Tab>`, `<Esc>`, `<Enter>`, `<Up>`, `<C-c>`; `<lt>` is "<" itself.
@@ -10,20 +10,20 @@ use strum::{EnumString, IntoStaticStr};
 /// One key press.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Key {
-    /// A printable character, as shifted.
+    /// A printable character, with Shift applied.
     Char(char),
-    /// Ctrl with a character.
+    /// Ctrl and a character.
     Ctrl(char),
     /// A key without a character.
     Named(Named),
 }
 
-/// Keys without a character of their own.
+/// Keys that produce no character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, EnumString, IntoStaticStr)]
 pub enum Named {
-    /// The tabulator.
+    /// Tab.
     Tab,
-    /// Shift and the tabulator.
+    /// Shift and Tab.
     #[strum(serialize = "S-Tab")]
     BackTab,
     /// Escape.
@@ -40,20 +40,20 @@ pub enum Named {
     Left,
     /// Arrow right.
     Right,
-    /// To the beginning.
+    /// Home.
     Home,
-    /// To the end.
+    /// End.
     End,
-    /// A page up.
+    /// Page up.
     PageUp,
-    /// A page down.
+    /// Page down.
     PageDown,
     /// Delete.
     Delete,
 }
 
 impl Key {
-    /// The key with a name as it stands between angle brackets.
+    /// Returns the key with the given name, as written between angle brackets.
     pub(super) fn of_name(name: &str) -> Option<Self> {
         let with_ctrl = name.strip_prefix("C-").map(str::parse::<char>);
         match (name, with_ctrl) {
@@ -66,7 +66,7 @@ impl Key {
 }
 
 impl fmt::Display for Key {
-    /// As a reader of help expects it: `Space`, `Ctrl-c`, `q`.
+    /// Formats the key for the help: `Space`, `Ctrl-c`, `q`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Char(' ') => formatter.write_str("Space"),
@@ -78,12 +78,12 @@ impl fmt::Display for Key {
     }
 }
 
-/// Reads a script of keys; an error says what could not be read and where.
+/// Parses a script of keys; an error says what could not be read and where.
 pub fn parse_script(script: &str) -> Result<Vec<Key>, String> {
     read(script, |key| key, Key::of_name)
 }
 
-/// Reads a script of characters, each a `key`, and of names between angle brackets.
+/// Parses a script of characters, each converted by `key`, and of names between angle brackets.
 pub(super) fn read<T>(
     script: &str,
     key: fn(Key) -> T,

@@ -1,4 +1,4 @@
-//! One line of text being typed.
+//! One line of text being typed, and text fitted into lines.
 
 use std::mem::take;
 
@@ -6,10 +6,10 @@ use ratatui::text::Span;
 
 use super::keys::{Key, Named};
 
-/// The longest line, in characters: a path fits, and a pasted document does not.
+/// Maximum length of a line, in characters: a path fits, a pasted document does not.
 pub const LONGEST: usize = 4096;
 
-/// The first line of a message that may have more, and how many follow.
+/// Returns the first line of a message, with the number of lines that follow.
 pub fn one_line(text: &str) -> String {
     let mut lines = text.lines();
     let first = lines.next().unwrap_or_default();
@@ -19,12 +19,12 @@ pub fn one_line(text: &str) -> String {
     }
 }
 
-/// The width of a text, in cells.
+/// Returns the width of a text, in cells.
 pub fn cells(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// The lines of a text broken at blanks so that none is wider than `width`, in cells; a longer word is cut.
+/// Breaks a text at blanks into lines no wider than `width` cells; longer words are cut.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
     let mut lines = Vec::new();
@@ -49,7 +49,7 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// The text before the cursor, and the text from it on.
+/// The text before and after the cursor.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LineEdit {
     before: String,
@@ -57,15 +57,14 @@ pub struct LineEdit {
 }
 
 impl LineEdit {
-    /// A line that holds `text`, the cursor behind it.
+    /// Makes a line with `text`, the cursor at its end.
     pub fn new(text: &str) -> Self {
         let mut line = Self::default();
         line.paste(text);
         line
     }
 
-    /// Inserts a text without its control characters, as far as it fits. Returns false if some of
-    /// it did not fit.
+    /// Inserts a text without its control characters, as far as it fits. Returns false if a part did not fit.
     pub fn paste(&mut self, text: &str) -> bool {
         let mut characters = text.chars().filter(|c| !c.is_control());
         let room = LONGEST.saturating_sub(self.text().chars().count());
@@ -83,16 +82,16 @@ impl LineEdit {
         self.text().is_empty()
     }
 
-    /// The text before the cursor, and the text from it on.
+    /// Returns the text before and after the cursor.
     pub fn halves(&self) -> [&str; 2] {
         [&self.before, &self.after]
     }
 
-    /// Takes a key as the filter of a list: characters at its end, Backspace, Ctrl-U and Ctrl-W. Returns false for
-    /// other keys, which move in the list.
+    /// Handles a key as the filter of a list: characters, Backspace, Ctrl-U and Ctrl-W edit the end of the text.
+    /// Returns false for other keys, which move in the list.
     pub fn filter(&mut self, key: Key) -> bool {
         let is_filter = match key {
-            // A list is not filtered by blanks.
+            // A filter does not begin with a blank.
             Key::Char(' ') => !self.is_empty(),
             Key::Char(_) => true,
             Key::Named(Named::Backspace) | Key::Ctrl('u' | 'w') => true,
@@ -101,14 +100,14 @@ impl LineEdit {
         is_filter && self.press(key)
     }
 
-    /// Whether each of its words is in the text, in capitals or not.
+    /// Whether each of its words occurs in the text, ignoring case.
     pub fn fits(&self, text: &str) -> bool {
         let (wanted, text) = (self.text().to_lowercase(), text.to_lowercase());
         wanted.split_whitespace().all(|word| text.contains(word))
     }
 
-    /// Takes a key as a shell's line does: characters, arrows, Home, End, Backspace, Delete, Ctrl-U
-    /// for all before the cursor and Ctrl-W for the word before it. Returns false for other keys.
+    /// Handles a key like a shell's line: characters, arrows, Home, End, Backspace, Delete, Ctrl-U for everything
+    /// before the cursor and Ctrl-W for the word before it. Returns false for other keys.
     pub fn press(&mut self, key: Key) -> bool {
         let (before, after) = (&mut self.before, &mut self.after);
         match key {

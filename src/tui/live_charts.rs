@@ -1,6 +1,6 @@
-//! The charts on the screen: made once for each frame and key, on scales that follow their data calmly. In a live run
-//! the bounds of an axis hold for a whole period of the motion, and calm panels show every third frame: a third of the
-//! bytes and of the stresses.
+//! The charts on the screen, made once per frame and key, on scales that follow their data calmly. In a live run the
+//! bounds of an axis hold for a whole period of the motion, and calm panels show every third frame, which saves two
+//! thirds of their bytes and stress computations.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -9,10 +9,10 @@ use std::sync::Arc;
 use super::cursor::{Cursor, abscissa};
 use super::frame::{Activity, Frame};
 use super::held::Held;
-use super::panels::Panel;
+use super::panels::{Content, Panel, extent};
 use super::stage::Stage;
 use super::tour;
-use crate::charts::View;
+use crate::charts::{Recipe, View};
 use crate::math::scan::{range, value_at};
 use crate::plot::{Chart, Scale};
 
@@ -22,25 +22,25 @@ pub(super) type Made = Result<Chart, &'static str>;
 /// The charts and their scales.
 #[derive(Debug, Default)]
 pub struct LiveCharts {
-    /// The scenario whose charts they are.
+    /// The scenario of the charts.
     origin: String,
     charts: HashMap<Panel, Made>,
     /// The panels with a logarithmic ordinate.
     logarithmic: HashSet<Panel>,
-    /// The bounds of ordinates by their scale, and of abscissas.
+    /// The bounds of ordinates by scale, and of abscissae.
     held: HashMap<(Panel, Option<Scale>), Held>,
-    /// What the curves of the charts that were made reach on their abscissas.
+    /// The range of each chart's curves along the abscissa.
     whole: HashMap<Panel, [f64; 2]>,
-    /// The parts of abscissas that are shown, and the bounds of ordinates over them.
+    /// The shown parts of zoomed abscissae, and the bounds of the ordinates there.
     parts: HashMap<Panel, ([f64; 2], Held)>,
-    /// Whether the frame is one of another run than the next: scales do not follow it.
+    /// Whether the next frame belongs to another run: scales do not follow the old one.
     is_outdated: bool,
     /// Whether closed forms are drawn over the charts.
     pub with_theory: bool,
 }
 
 impl LiveCharts {
-    /// The next frame is one of the scenario `origin`.
+    /// Announces that the next frame is from the scenario `origin`.
     pub fn begin(&mut self, origin: &str) {
         if self.origin != origin {
             self.origin = origin.to_owned();
@@ -49,13 +49,13 @@ impl LiveCharts {
         self.is_outdated = false;
     }
 
-    /// Another run is to come.
+    /// Announces another run.
     pub fn forget_scales(&mut self) {
         self.held.clear();
         self.is_outdated = true;
     }
 
-    /// Whether a panel's ordinate is logarithmic.
+    /// Returns the scale of a panel's ordinate.
     pub fn scale(&self, panel: Panel) -> Scale {
         match self.logarithmic.contains(&panel) {
             true => Scale::Log,
@@ -63,21 +63,21 @@ impl LiveCharts {
         }
     }
 
-    /// Changes between a linear and a logarithmic ordinate.
+    /// Toggles between a linear and a logarithmic ordinate.
     pub fn toggle_log(&mut self, panel: Panel) {
         if !self.logarithmic.remove(&panel) {
             self.logarithmic.insert(panel);
         }
     }
 
-    /// The bounds of a panel's ordinate.
+    /// Returns the bounds of a panel's ordinate.
     pub(super) fn bounds(&self, panel: Panel) -> Option<[f64; 2]> {
         let held = self.held.get(&(panel, Some(self.scale(panel))));
         held.map(|held| held.bounds)
     }
 
-    /// Takes in the range of an axis in a frame at `cycle`, and returns the bounds that it has then. Where all is zero
-    /// yet, the size of what comes is unknown, and there are none.
+    /// Updates an axis with its range in a frame at `cycle`, and returns its bounds. While all values are zero, their
+    /// size is unknown, and there are no bounds.
     fn hold(
         &mut self,
         axis: (Panel, Option<Scale>),
@@ -86,7 +86,7 @@ impl LiveCharts {
     ) -> Option<[f64; 2]> {
         let tells = |range: &[f64; 2]| !self.is_outdated && *range != [0.0, 0.0];
         if let Some([low, high]) = range.filter(tells) {
-            // The first cycle has hardly begun: its stresses become larger.
+            // The first cycle has hardly begun, so its stresses will grow.
             let room = if axis.0.recipe().has_spikes {
                 ROOM
             } else {
@@ -100,10 +100,10 @@ impl LiveCharts {
     }
 
     /// The chart of a panel: as it was made when the frame came, else of `frame`.
-    pub(super) fn get(&self, panel: Panel, frame: &Frame) -> Cow<'_, Made> {
+    pub(super) fn get(&self, panel: Panel, recipe: &Recipe, frame: &Frame) -> Cow<'_, Made> {
         match self.charts.get(&panel) {
             Some(chart) => Cow::Borrowed(chart),
-            None => Cow::Owned(panel.recipe().chart(&frame.run, &self.view(panel))),
+            None => Cow::Owned(recipe.chart(&frame.run, &self.view(panel))),
         }
     }
 
@@ -114,7 +114,7 @@ impl LiveCharts {
         }
     }
 
-    /// Makes those of the `visible` panels, each of the frame that it shows; a comparison has charts of its own.
+    /// Makes the charts of the `visible` panels, each for the frame that it shows. A comparison draws different charts.
     pub fn make<'a>(
         &mut self,
         visible: &[Panel],
@@ -128,12 +128,21 @@ impl LiveCharts {
         }
         let cycle = newest.observation.moment.cycle;
         for &panel in visible {
-            let (recipe, view, frame) = (panel.recipe(), self.view(panel), shown(panel));
+            let (view, frame) = (self.view(panel), shown(panel));
+            let ordinate = (panel, Some(view.scale));
+            let recipe = match panel.content() {
+                Content::Chart(recipe) => recipe,
+                Content::Picture(picture) => {
+                    self.hold(ordinate, (picture.make.extent)(frame), cycle);
+                    continue;
+                }
+            };
             let mut chart = recipe.chart(&frame.run, &view);
             let made = chart.as_ref().ok();
             let across = made.filter(|_| recipe.keeps_abscissa);
             let across = across.and_then(|chart| chart.x.bounds);
-            let along = self.hold((panel, Some(view.scale)), panel.extent(frame, made), cycle);
+            let extent = made.and_then(|chart| extent(chart, recipe.has_spikes));
+            let along = self.hold(ordinate, extent, cycle);
             let across = self.hold((panel, None), across, cycle);
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = along;
@@ -150,17 +159,17 @@ impl LiveCharts {
         }
     }
 
-    /// The upper end of the ordinate of a panel's chart; 0 before it has one.
+    /// Returns the upper end of a panel's ordinate; 0 before it has one.
     pub fn top_of(&self, panel: Panel) -> f64 {
         self.bounds(panel).map_or(0.0, |[_, high]| high)
     }
 
-    /// What the curves of a panel's chart reach on its abscissa, if it has one.
+    /// Returns the range of a panel's curves along the abscissa, if it has a chart.
     pub(super) fn whole(&self, panel: Panel) -> Option<[f64; 2]> {
         self.whole.get(&panel).copied()
     }
 
-    /// Bounds a chart to a part of its abscissa, and its ordinate to the curves there, spikes included.
+    /// Restricts a chart to a part of its abscissa, and its ordinate to the curves there, spikes included.
     fn show_part(&mut self, panel: Panel, chart: &mut Chart, [low, high]: [f64; 2], cycle: f64) {
         let scale = chart.y.scale;
         let within = chart.curves.iter().filter(|curve| !curve.is_theory);
@@ -184,19 +193,19 @@ impl LiveCharts {
     }
 }
 
-/// How much further than its first values an axis with spikes reaches.
+/// An axis with spikes reaches this factor beyond its first values.
 const ROOM: f64 = 1.2;
 
-/// For how many frames a frame is held.
+/// Number of frames for which a frame is held.
 const LASTS: u32 = 3;
 
-/// The frame that is held, and for how many frames it has been; `None` while the newest one is shown.
+/// The held frame, and for how many frames it has been held; `None` while the newest one is shown.
 #[derive(Debug, Default)]
 pub struct Calm(Option<(Arc<Frame>, u32)>);
 
 impl Calm {
-    /// Holds its frame for a few frames, then takes `newest`. In a `slow` view it holds it for a whole cycle: a contact
-    /// that is shown large has the stress of one phase of the motion.
+    /// Holds its frame for a few frames, then takes `newest`. In a `slow` view it is held for a whole cycle, so that a
+    /// contact shown large has the stress of one phase of the motion.
     pub fn take(&mut self, newest: &Arc<Frame>, slow: bool) {
         let begins = |frame: &Frame| frame.observation.moment.cycle.floor();
         let may_stay = |calm: &Frame, lasted| match slow {
@@ -209,12 +218,13 @@ impl Calm {
         self.0 = Some((calm, lasted + 1));
     }
 
-    /// What a calm panel shows where the others show `frame`.
+    /// Returns the frame for a calm panel when the others show `frame`.
     pub fn of<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
         self.0.as_ref().map_or(frame, |(calm, _)| calm)
     }
 
-    /// What a panel shows where the screen is that of `frame`: large, the indenter moves with every frame.
+    /// Returns the frame for a panel when the screen shows `frame`. The large contact is not calm: its indenter moves
+    /// in every frame.
     pub fn shown<'a>(&'a self, panel: Panel, stage: &Stage, frame: &'a Frame) -> &'a Frame {
         let is_large = panel == Panel::Section && stage.shows_contact();
         match panel.recipe().is_calm && !is_large {
@@ -224,7 +234,7 @@ impl Calm {
     }
 }
 
-/// Whether `calm` may stay where the others show `frame`: the run goes on, and both have what a panel shows.
+/// Whether `calm` may stay while the others show `frame`: the run continues, and both hold the same kinds of data.
 fn may_last(calm: &Frame, frame: &Frame) -> bool {
     frame.activity == Activity::Running
         && frame.observation.moment.cycle >= calm.observation.moment.cycle
@@ -236,7 +246,7 @@ fn may_last(calm: &Frame, frame: &Frame) -> bool {
 mod tests {
     use super::*;
 
-    /// A run begins with a displacement of zero: that is not held as an axis of one metre.
+    /// A run begins with a displacement of zero, which must not lead to an axis of one metre.
     #[test]
     fn zeros_are_not_held() {
         let mut charts = LiveCharts::default();

@@ -1,5 +1,5 @@
-//! Fretting loops and loads of a run's past: the loop of the last cycle in full, those of earlier cycles thinned and ever
-//! further apart; the loads of the last cycle, from which the half-space's largest stresses of a cycle follow.
+//! Fretting loops and loads of a run's past: the last cycle's loop in full, earlier loops thinned and ever further
+//! apart, and the loads of the last cycle, from which the largest stresses of a cycle are computed.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::traces::Loop;
 /// Maximum number of steps of the last loop.
 const CAPACITY: usize = 4096;
 
-/// Maximum number of stored loops, and maximum points of each.
+/// Maximum number of stored loops, and of points in each.
 const MOST: usize = 24;
 const POINTS: usize = 64;
 
@@ -23,13 +23,13 @@ pub struct Loops {
     /// The steps of the last cycle, and the point that closes it: cycle, u_x⁽⁰⁾ (m), F_x (N), and the displacement of
     /// the rig's actuator (m), NaN on a stiff rig.
     pub steps: VecDeque<[f64; 4]>,
-    /// Loops of cycles so far apart, oldest first.
+    /// Loops of earlier cycles, at least `apart` cycles from each other, oldest first.
     pub kept: Vec<Arc<Loop>>,
     apart: f64,
 }
 
 impl Loops {
-    /// Takes in the moment after a step.
+    /// Records the moment after a step.
     pub fn record(&mut self, moment: &Moment) {
         let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
         self.steps
@@ -42,7 +42,7 @@ impl Loops {
         self.keep(moment.cycle);
     }
 
-    /// Takes in the moment after a jump over cycles: the last cycle is stepped finely on the present profile.
+    /// Records the moment after a jump over cycles by stepping the last cycle finely on the present profile.
     pub fn record_jump(&mut self, simulation: &Simulation) {
         let begin = simulation.cycle() - 1.0 - 1e-9;
         let rows = last_loop::rows(simulation).into_iter();
@@ -50,7 +50,7 @@ impl Loops {
         self.keep(simulation.cycle());
     }
 
-    /// Stores the loop of a finished cycle; when there are too many, every second one is dropped.
+    /// Stores the loop of a complete cycle; when there are too many, drops every second one.
     fn keep(&mut self, cycle: f64) {
         let whole = (cycle + 1e-9).floor();
         let last = self.kept.last().map_or(0.0, |kept| kept.end);
@@ -69,21 +69,21 @@ impl Loops {
         }
     }
 
-    /// The loop of the last cycle, which ends at `end`.
+    /// Returns the loop of the last cycle, which ends at `end`.
     pub fn last(&self, end: f64) -> Loop {
         Loop::of_rows(end, self.steps.iter())
     }
 }
 
-/// Moments stored per cycle: extremes between them are missed by about 1 %.
+/// Moments stored per cycle; extremes between them are missed by about 1 %.
 const MOMENTS: f64 = 16.0;
 
-/// Loads with the cycles at which they were seen, at most one cycle of them.
+/// Loads with their cycles, spanning at most one cycle.
 #[derive(Debug, Default)]
 pub(super) struct CycleLoads(VecDeque<(f64, Arc<SpringLoad>)>);
 
 impl CycleLoads {
-    /// Takes the present load in, unless one was taken a moment ago.
+    /// Records the present load, unless one was recorded a moment ago.
     pub fn note(&mut self, simulation: &Simulation) {
         let now = simulation.cycle();
         match self.0.back() {
@@ -100,7 +100,7 @@ impl CycleLoads {
         }
     }
 
-    /// The loads, oldest first.
+    /// Returns the loads, oldest first.
     pub fn all(&self) -> Vec<Arc<SpringLoad>> {
         self.0.iter().map(|(_, load)| Arc::clone(load)).collect()
     }
@@ -131,7 +131,7 @@ mod tests {
         assert!(points.all(|points| (50..=66).contains(&points)));
     }
 
-    /// The sensor's loop begins where a rig is mounted.
+    /// The sensor's loop begins when a rig is mounted.
     #[test]
     fn the_loop_of_the_sensor_is_that_of_the_rig() {
         let mut loops = Loops::default();

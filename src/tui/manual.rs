@@ -1,8 +1,8 @@
-//! The command table as text: groups of the help, and the manual page.
+//! The command table as text: groups for the help, and the manual page.
 
 use super::command::{COMMANDS, Row};
 
-/// Every group of commands that have keys.
+/// Returns every group of commands that have keys.
 pub fn groups() -> impl Iterator<Item = (&'static str, &'static [Row])> {
     let groups = COMMANDS.chunk_by(|a, b| a.group == b.group);
     groups
@@ -10,7 +10,7 @@ pub fn groups() -> impl Iterator<Item = (&'static str, &'static [Row])> {
         .map(|rows| (rows[0].group, rows))
 }
 
-/// The section on keys of the manual page, in roff.
+/// Returns the manual page's section on keys, in roff.
 pub fn roff() -> String {
     let plain = |text: &str| text.replace('\\', "\\e").replace('-', "\\-");
     let mut text = ".SH KEYS\nThe keys of the explorer.\n".to_owned();

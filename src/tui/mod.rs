@@ -1,5 +1,5 @@
-//! The explorer: a worker thread steps the simulation, an input thread reads the keys, an output
-//! thread writes to the terminal, and the main thread connects them without ever waiting for one.
+//! The explorer. A worker thread steps the simulation, an input thread reads the keys, an output thread writes to the
+//! terminal, and the main thread connects them without ever waiting for one.
 //!
 //! ```text
 //!              keys ── Event ──▶ App ── Order ──▶ worker (Session)
@@ -7,9 +7,8 @@
 //! terminal ◀── output ◀── bytes ──┘ └─ Event, Frame ─┘
 //! ```
 //!
-//! On exit the session is saved within a second, whatever the terminal and the worker are doing:
-//! the terminal gets a moment to take the last output, and if the worker is in a long step, its
-//! most recent copy is saved instead.
+//! On exit the session is saved within a second, whatever the terminal and the worker are doing: the terminal gets a
+//! moment for the last output, and if the worker is in a long step, its most recent copy is saved instead.
 
 use std::fs;
 use std::path::PathBuf;
@@ -82,29 +81,29 @@ pub use script::{Format, Script, Stroke, parse_size, press, text};
 use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
 
-/// What the explorer is opened with.
+/// Options for opening the explorer.
 pub struct Options {
     /// The run to show.
     pub run: Recorded,
-    /// What lies over the plots.
+    /// The overlays on the plots.
     pub ghosts: Vec<ghosts::Source>,
     /// Whether it runs at once.
     pub running: bool,
-    /// Directory for checkpoints; `None`: no checkpoints.
+    /// Directory for checkpoints; `None` saves none.
     pub keep_in: Option<PathBuf>,
-    /// Their interval; 0: only at the end.
+    /// The checkpoint interval; 0 saves only at the end.
     pub keep_every: Duration,
     /// Maximum frame rate per second.
     pub fps: u16,
-    /// The look of the terminal, as [`theme_of`] finds it.
+    /// The look of the terminal, from [`theme_of`].
     pub theme: Theme,
     /// The map of a study to begin with.
     pub map: Option<map::live::Live>,
-    /// Whether it is for a projector.
+    /// Whether to present on a projector.
     pub present: bool,
-    /// The panels that come first.
+    /// The panels to show first.
     pub panels: Vec<panels::Panel>,
-    /// Whether clicks and the wheel are for the explorer; else the terminal selects text with them.
+    /// Whether the explorer uses clicks and the wheel; otherwise the terminal selects text with them.
     pub mouse: bool,
     /// Keys to press instead of reading the keyboard, and the screen to print.
     pub script: Option<Script>,
@@ -181,21 +180,21 @@ pub fn run(options: Options) -> Result<Farewell> {
     }
 }
 
-/// Whether nobody has seen a running contact on a screen before: it is then shown large, and the default preset
-/// begins its tour.
+/// Whether the user sees a running contact for the first time. It is then shown large, and the default preset begins
+/// its tour.
 fn is_first_time(options: &Options) -> bool {
     let is_live = options.script.is_none() && options.running;
     let Some(keep_in) = options.keep_in.as_ref().filter(|_| is_live) else {
         return false;
     };
     let seen = keep_in.join("tour-seen");
-    // If no file can be written, every time would be the first, so skip it.
+    // If the file cannot be written, every time would be the first, so skip it.
     !seen.exists()
         && fs::create_dir_all(keep_in).is_ok()
         && fs::write(&seen, "The contact and the tour have been shown once.\n").is_ok()
 }
 
-/// The last screen, if it should stay visible.
+/// Returns the last screen, if it should stay visible.
 fn left_behind(app: &App, is_restored: bool) -> Result<Option<String>> {
     if app.explorer.next != Next::LeaveScreen || !is_restored {
         return Ok(None);

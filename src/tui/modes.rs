@@ -1,4 +1,4 @@
-//! The modes of the terminal: echo, lines, signals from keys.
+//! The modes of the terminal: echo, line editing, signals from keys.
 
 use std::io;
 
@@ -8,17 +8,17 @@ use nix::sys::termios::{SetArg, Termios, cfmakeraw, tcgetattr, tcsetattr};
 pub struct Modes(Termios);
 
 impl Modes {
-    /// Notes the modes of the terminal at the standard input.
+    /// Stores the modes of the terminal at standard input.
     ///
     /// # Errors
     ///
-    /// If that is no terminal.
+    /// If standard input is not a terminal.
     pub fn note() -> io::Result<Self> {
         Ok(Self(tcgetattr(io::stdin())?))
     }
 
-    /// Has every key passed on at once and unseen, whatever the modes are by now: a shell sets its own while the
-    /// program is stopped.
+    /// Makes the terminal pass on every key at once and without echo, whatever its present modes: a shell sets its own
+    /// while the program is stopped.
     ///
     /// # Errors
     ///
@@ -29,7 +29,7 @@ impl Modes {
         Ok(tcsetattr(io::stdin(), SetArg::TCSANOW, &raw)?)
     }
 
-    /// Sets the first modes again. In the background that stops the process.
+    /// Restores the first modes. In the background, this stops the process.
     pub fn restore(&self) {
         let _ = tcsetattr(io::stdin(), SetArg::TCSANOW, &self.0);
     }

@@ -1,35 +1,35 @@
-//! Mouse handling (`--mouse`): a click focuses a panel, moves the cursor or travels along the timeline, a double
-//! click zooms, the wheel scrolls overlays.
+//! Mouse handling (`--mouse`): a click focuses a panel, moves the cursor or travels along the timeline, a double click
+//! zooms, the wheel scrolls overlays.
 
 use std::time::{Duration, Instant};
 
 use ratatui::layout::Position;
 
-/// Longest time between the clicks of a double click.
+/// Maximum time between the clicks of a double click.
 const TOGETHER: Duration = Duration::from_millis(400);
 
-/// A gesture of the mouse.
+/// A mouse gesture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Gesture {
     /// A press of the left button.
     Click(Position),
-    /// A second one right after the first.
+    /// A second press right after the first.
     DoubleClick(Position),
-    /// The wheel turned away from the hand.
+    /// The wheel turned away from the user.
     WheelUp,
-    /// The wheel turned towards the hand.
+    /// The wheel turned towards the user.
     WheelDown,
 }
 
-/// Tells single clicks from double ones.
+/// Distinguishes single from double clicks.
 #[derive(Debug, Default)]
 pub struct Mouse {
-    /// When and where the last click was, and how many belong together with it.
+    /// Time and place of the last click, and the number of clicks that belong together with it.
     last: Option<(Instant, Position, u32)>,
 }
 
 impl Mouse {
-    /// What a gesture at `now` is together with those before; `None` for a third click.
+    /// Combines a gesture at `now` with earlier ones; returns `None` for a third click.
     pub fn together(&mut self, gesture: Gesture, now: Instant) -> Option<Gesture> {
         let Gesture::Click(at) = gesture else {
             return Some(gesture);

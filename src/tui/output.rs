@@ -1,5 +1,4 @@
-//! Output to the terminal, in its own thread: a terminal that stops reading blocks only that
-//! thread.
+//! Output to the terminal, in a separate thread: a terminal that stops reading blocks only that thread.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -13,67 +12,56 @@ use nix::sys::termios::{FlushArg, tcflush};
 use super::event::Event;
 use super::flow::Request;
 
-/// How long the last output waits for a slow terminal, and again after everything queued before it
-/// has been dropped.
+/// How long the last output waits for a slow terminal; the same time again after everything queued before it has been
+/// dropped.
 const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 
-/// Bytes for the writer, and whom to tell when they are written.
-type Chunk = (Vec<u8>, Box<dyn FnOnce() + Send>);
+/// A text for the writer, and the channel that is told once it is written.
+type Chunk = (String, Option<Sender<Event>>);
 
-/// The way to the terminal.
+/// The channel to the terminal.
 pub struct Output {
     chunks: Sender<Chunk>,
     events: Sender<Event>,
 }
 
 impl Output {
-    /// Starts the writer, which tells [`Event::Written`] after every frame and [`Event::HangUp`] when
-    /// the terminal is gone.
+    /// Starts the writer, which reports [`Event::Written`] after every frame and [`Event::HangUp`] when the terminal is
+    /// gone.
     pub fn open(events: Sender<Event>) -> io::Result<Self> {
-        // Not the handle of the standard library: whoever else writes would wait for its lock.
+        // The standard library's handle has a lock, which other writers would wait for.
         let mut terminal = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         let (chunks, inbox) = channel::<Chunk>();
         let gone = events.clone();
-        thread::Builder::new()
-            .name("terminal".into())
-            .spawn(move || {
-                for (bytes, then) in inbox {
-                    if terminal.write_all(&bytes).is_err() {
-                        let _ = gone.send(Event::HangUp);
-                    }
-                    then();
+        thread::Builder::new().spawn(move || {
+            for (text, to_tell) in inbox {
+                if terminal.write_all(text.as_bytes()).is_err() {
+                    let _ = gone.send(Event::HangUp);
                 }
-            })?;
+                let _ = to_tell.map(|to_tell| to_tell.send(Event::Written));
+            }
+        })?;
         Ok(Self { chunks, events })
     }
 
-    /// Hands a text to the writer, which calls `then` when it is written. A writer that has ended has reported it.
-    fn queue(&self, text: &str, then: impl FnOnce() + Send + 'static) {
-        let _ = self.chunks.send((text.as_bytes().to_vec(), Box::new(then)));
-    }
-
-    /// Sends a text without waiting.
+    /// Sends a text without waiting. A writer that has ended has reported it.
     pub fn send(&self, text: &str) {
-        self.queue(text, || ());
+        let _ = self.chunks.send((text.to_owned(), None));
     }
 
-    /// Sends a chunk of a frame, and behind it the question whether the terminal has read it. Returns the bytes of both.
+    /// Sends a chunk of a frame, followed by a status request. Returns the bytes of both.
     pub fn frame(&self, mut frame: String) -> usize {
         frame.push_str(Request::Status.text());
-        let events = self.events.clone();
-        self.queue(&frame, move || {
-            let _ = events.send(Event::Written);
-        });
-        frame.len()
+        let bytes = frame.len();
+        let _ = self.chunks.send((frame, Some(self.events.clone())));
+        bytes
     }
 
     /// Sends a text and waits until it is written. If the terminal has stopped reading, drops
     /// what it has not read, and if that does not help, this text too. Returns true if it was written.
     pub fn finish(&self, text: &str) -> bool {
         let (tell, told) = channel();
-        self.queue(text, move || {
-            let _ = tell.send(());
-        });
+        let _ = self.chunks.send((text.to_owned(), Some(tell)));
         if told.recv_timeout(DRAIN_TIMEOUT).is_ok() {
             return true;
         }

@@ -5,20 +5,20 @@ use std::time::{Duration, Instant};
 use crate::plot::step::Step;
 use crate::simulation::Simulation;
 
-/// The slowest rung of the ladder of speeds.
+/// The slowest rung of the ladder of paces.
 const SLOWEST: i32 = -3;
 
-/// The initial rung: half a cycle per second, slow enough to see it rub.
+/// The initial rung: half a cycle per second, slow enough to watch the rubbing.
 const START: i32 = -1;
 
-/// The rung without limit.
+/// The rung without a limit.
 const UNLIMITED: i32 = 15;
 
-/// Above this pace, cycles per second, each frame would show an arbitrary phase of the motion, so that it seems to
+/// Above this pace, cycles per second, each frame would show an arbitrary phase of the motion, which would then seem to
 /// creep or to run backwards.
 const BLURRED: f64 = 2.0;
 
-/// 1, 2, 5, 10, … cycles per second by rung; infinite at the last one.
+/// Returns the pace of a rung: 1, 2, 5, 10, … cycles per second; infinite for the last one.
 fn pace_of(rung: i32) -> f64 {
     match rung {
         UNLIMITED.. => f64::INFINITY,
@@ -26,23 +26,23 @@ fn pace_of(rung: i32) -> f64 {
     }
 }
 
-/// The time between two jumps over cycles, unless the pace is without limit.
+/// Time between two cycle jumps, unless the pace is unlimited.
 const JUMP_EVERY: Duration = Duration::from_millis(100);
 
-/// The speed of a run, measured from a moment of it on: when its next step is due, and at which phase of the motion
-/// its frames are taken.
+/// The speed of a run, measured from some moment on. It decides when the next step is due, and at which phase of the
+/// motion frames are taken.
 #[derive(Debug)]
 pub(super) struct Clock {
     rung: i32,
-    /// Whether frames of a fast run are taken at one phase of the motion.
+    /// Whether frames of a fast run are taken at a fixed phase of the motion.
     pub holds_phase: bool,
     /// When the last step began.
     pub stepped: Instant,
-    /// When the measurement began, and where the run was then.
+    /// When the measurement began, and the cycle and steps of the run then.
     since: Instant,
     cycle: f64,
     steps: u64,
-    /// How long the run has stepped since.
+    /// The time spent in steps since then.
     busy: Duration,
     /// Cycles per second; `None` until measured.
     pub speed: Option<f64>,
@@ -67,22 +67,22 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// The requested speed, cycles per second; infinite without limit.
+    /// Returns the requested pace, cycles per second; infinite for no limit.
     pub fn pace(&self) -> f64 {
         pace_of(self.rung)
     }
 
-    /// Changes it by this many rungs.
+    /// Changes the pace by this many rungs.
     pub fn change(&mut self, rungs: i32) {
         self.rung = (self.rung + rungs).clamp(SLOWEST, UNLIMITED);
     }
 
-    /// Whether frames are taken at the end of a cycle, as the rows of a history are; else the motion itself is shown.
+    /// Whether frames are taken at the end of a cycle, like rows of the history; otherwise they show the motion.
     pub fn shows_ends(&self, simulation: &Simulation) -> bool {
         self.holds_phase && self.pace() > BLURRED && !simulation.may_jump()
     }
 
-    /// Seconds until the next step is due. A jump over many cycles is due a moment after the one
+    /// Returns the seconds until the next step is due. A jump over many cycles is due a fixed time after the one
     /// before: its length must not depend on the pace, or runs would not be repeatable.
     pub fn ahead(&self, simulation: &Simulation) -> f64 {
         let pace = self.pace();
@@ -93,14 +93,14 @@ impl Clock {
         cycles / pace - self.since.elapsed().as_secs_f64()
     }
 
-    /// Begins anew where the run stands: how far it was ahead or behind is forgotten.
+    /// Restarts the measurement at the present state, forgetting how far the run was ahead or behind.
     pub fn restart(&mut self, simulation: &Simulation) {
         self.since = Instant::now();
         (self.cycle, self.steps) = (simulation.cycle(), simulation.steps());
         self.busy = Duration::ZERO;
     }
 
-    /// Takes in a stint of a run that has led to where it stands.
+    /// Adds a stint of the run, which has led to the present state.
     pub fn measure(&mut self, simulation: &Simulation, busy: Duration) {
         self.busy += busy;
         let elapsed = self.since.elapsed().as_secs_f64();
@@ -112,7 +112,7 @@ impl Clock {
         if taken > 0 {
             self.step_cost = Some(self.busy.as_secs_f64() / taken as f64);
         }
-        // A machine that cannot keep the pace does not have to catch up.
+        // A machine too slow for the pace does not have to catch up.
         self.restart(simulation);
     }
 }

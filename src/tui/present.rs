@@ -1,4 +1,4 @@
-//! `--present`, for a projector: the contact and one chart, large words, and a pace that begins slowly and rises by
+//! `--present`, for a projector: the contact and one chart, large words, and a pace that begins slowly and increases by
 //! itself.
 
 use ratatui::layout::Constraint::{Fill, Length, Min};
@@ -10,21 +10,21 @@ use super::panels::{Panel, contact_state};
 use crate::plot::Marker;
 use crate::plot::theme::Role;
 
-/// The chart at first.
+/// The chart shown at first.
 pub const CHART: Panel = Panel::Loop;
 
-/// Seconds at each pace before the next, and the least seconds that the whole run shall last at the last one.
+/// Seconds at each pace before the next one, and the minimum duration of the planned run for another increase.
 const SECONDS: f64 = 8.0;
 const LEAST: f64 = 40.0;
 
-/// Columns from which on the chart stands beside the contact; below them it stands under it.
+/// Minimum columns for the chart beside the contact; on a narrower screen it is below.
 const WIDE: u16 = 100;
 
-/// Rows of the large words with a blank one above, and the least rows of all that they are drawn on.
+/// Rows of the large words, including a blank one, and the minimum rows of the screen for them.
 const WORDS: u16 = 4;
 const TALL: u16 = 22;
 
-/// The contact, the chart, and the large words.
+/// Returns the areas of the contact, the chart and the large words.
 pub fn areas(area: Rect) -> [Rect; 3] {
     let words = if area.height >= TALL { WORDS } else { 0 };
     let [above, words] = Layout::vertical([Min(0), Length(words)]).areas(area);
@@ -37,12 +37,12 @@ pub fn areas(area: Rect) -> [Rect; 3] {
     [contact, chart, words]
 }
 
-/// The pace of the run, cycles per second, and since which cycle it has that.
+/// The pace of the run, cycles per second, and the cycle since which it has this pace.
 #[derive(Debug, Default)]
 pub struct SpeedUp(Option<(f64, f64)>);
 
 impl SpeedUp {
-    /// Whether the run of a lecture has been at its pace for a while.
+    /// Whether the run has had its pace long enough to increase it.
     pub fn is_due(&mut self, frame: &Frame, presents: bool) -> bool {
         let cycle = frame.observation.moment.cycle;
         let is_running = presents && frame.activity == Activity::Running;
@@ -59,7 +59,7 @@ impl SpeedUp {
     }
 }
 
-/// Draws what the contact does and the cycle in large letters.
+/// Draws the state of the contact and the cycle in large letters.
 pub fn draw(frame: &Frame, mut canvas: Canvas) {
     let area = canvas.area;
     if area.height < WORDS {
@@ -67,7 +67,8 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
     }
     let below = Rect::new(area.x + 1, area.y + 1, area.width - 1, area.height - 1);
     let (_, words, role) = contact_state(&frame.observation.moment);
-    let used = large(words, role, canvas.at(below));
+    let words = frame.observation.geometry.named(words);
+    let used = large(&words, role, canvas.at(below));
     let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;
     if used + width + 4 < below.width {
@@ -76,7 +77,7 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
     }
 }
 
-/// Letters of three by five dots, a row an octal digit, its dots from left to right.
+/// Letters of three by five dots. Each octal digit is a row, its dots from left to right.
 const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-,";
 const DOTS: [u16; 39] = [
     0o25755, 0o65656, 0o34443, 0o65556, 0o74647, 0o74644, 0o34553, 0o55755, 0o72227, 0o11152,
@@ -85,13 +86,13 @@ const DOTS: [u16; 39] = [
     0o55711, 0o74616, 0o34652, 0o71222, 0o25252, 0o25316, 0o00002, 0o00700, 0o00024,
 ];
 
-/// Whether the letter has a dot in a column and a row from the top.
+/// Whether a letter has a dot at a column and a row counted from the top.
 fn has_dot(letter: char, column: u16, row: u16) -> bool {
     let dots = LETTERS.find(letter).map_or(0, |at| DOTS[at]);
     row < 5 && dots >> (3 * (4 - row) + 2 - column) & 1 == 1
 }
 
-/// Writes `words` in letters that are four cells wide and three high; returns the cells that they take.
+/// Writes `words` in letters four cells wide and three high; returns the number of cells used.
 fn large(words: &str, role: Role, canvas: Canvas) -> u16 {
     let (mut x, area, style) = (0, canvas.area, canvas.style(role));
     for letter in words.chars() {

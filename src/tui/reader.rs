@@ -12,61 +12,61 @@ use super::keys::{Key, Named};
 use super::line;
 use super::mouse::Gesture;
 
-/// The pause after which an Escape is a key, milliseconds: a network may split a sequence by less.
+/// The pause after which Escape counts as a key, milliseconds: a network may split a sequence by less.
 const LONE_ESCAPE: u16 = 100;
 
-/// The silence after which a sequence that has begun is given up, milliseconds.
+/// The silence after which an incomplete sequence is given up, milliseconds.
 const GIVE_UP: u16 = 250;
 
-/// The same for strings, such as a reply that tells a colour: the rest of one would be taken for keys.
+/// The same for strings, such as the answer about a colour: the rest of one would be taken for keys.
 const GIVE_UP_STRING: u16 = 3000;
 
-/// More bytes than any sequence has that means something here; of longer ones, the ends are kept.
+/// Longer than any sequence of interest here; of longer ones, only the ends are kept.
 const LONGEST: usize = 64;
 
 /// The bytes of Ctrl-C and Escape.
 const INTERRUPT: u8 = 3;
 const ESCAPE: u8 = 0x1b;
 
-/// Something that a terminal has sent.
+/// Input from a terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Input {
     /// A key.
     Key(Key),
-    /// Text that was pasted, cut to the longest line.
+    /// Pasted text, cut to the maximum length of a line.
     Paste(String),
     /// A click, or a turn of the wheel.
     Point(Gesture),
     /// The answer to a request: the terminal has read everything sent before it.
     Answer(Request),
-    /// The background, as red, green and blue.
+    /// The background colour, as red, green and blue.
     Background([u8; 3]),
     /// Ctrl-C.
     Interrupt,
 }
 
-/// What has come so far.
+/// The state of the reader.
 #[derive(Debug, Default)]
 pub struct Reader {
     inputs: Vec<Input>,
-    /// The bytes of a character or of a sequence that is not whole yet.
+    /// The bytes of an incomplete character or sequence.
     begun: Vec<u8>,
     /// The text between the marks of a paste.
     paste: Option<String>,
-    /// The last character of a paste that has no end yet is that of Ctrl-C; what the terminal answers may follow.
+    /// Whether the last character of an unfinished paste is Ctrl-C; answers of the terminal may follow it.
     is_interrupted: bool,
 }
 
 impl Reader {
-    /// Takes in bytes that have come together; what they mean is added to `to`.
-    pub fn take(&mut self, bytes: &[u8], to: &mut Vec<Input>) {
+    /// Takes in bytes that have come together, and returns what they mean.
+    pub fn take(&mut self, bytes: &[u8]) -> Vec<Input> {
         // Within a text that was pasted it is a character, unless a hand has typed it.
         if bytes.contains(&INTERRUPT) && (self.paste.is_none() || bytes == [INTERRUPT]) {
             *self = Self::default();
-            return to.push(Input::Interrupt);
+            return vec![Input::Interrupt];
         }
         bytes.iter().for_each(|&byte| self.byte(byte));
-        to.append(&mut self.inputs);
+        std::mem::take(&mut self.inputs)
     }
 
     fn byte(&mut self, byte: u8) {
@@ -75,7 +75,7 @@ impl Reader {
             let is_anew = matches!(self.begun[..], [_, _, .., ESCAPE]);
             self.typed();
             if is_anew {
-                self.byte(ESCAPE);
+                self.begun.push(ESCAPE);
                 return self.byte(byte);
             }
         }
@@ -89,10 +89,10 @@ impl Reader {
         }
     }
 
-    /// Finds what bytes mean; returns whether they are whole.
+    /// Interprets bytes; returns whether they are complete.
     fn means(&mut self, bytes: &[u8]) -> bool {
         match bytes {
-            // A click as terminals told it before mode 1006: button, column and row are a byte each.
+            // A click in the encoding before mode 1006: button, column and row are one byte each.
             [ESCAPE, b'[', b'M', ..] if self.paste.is_none() => return bytes.len() == 6,
             [ESCAPE, b'[', numbers @ .., last @ b'@'..=b'~'] => self.sequence(numbers, *last),
             [ESCAPE, b'O', last] => self.named(*last, 0),
@@ -112,17 +112,17 @@ impl Reader {
         true
     }
 
-    /// What looked like the start of a sequence are keys; of a longer one nothing is left.
+    /// Turns what looked like the start of a sequence into keys; drops a longer one.
     fn typed(&mut self) {
         let begun = std::mem::take(&mut self.begun);
-        if let [ESCAPE] | [ESCAPE, _] = begun[..] {
+        if begun.first() == Some(&ESCAPE) && begun.len() <= 2 {
             self.key(Key::Named(Named::Esc));
-            let then = begun.iter().skip(1);
-            then.for_each(|&byte| self.key(Key::Char(char::from(byte))));
+            let then = begun[1..].iter();
+            then.for_each(|&byte| self.key(Key::Char(byte.into())));
         }
     }
 
-    /// How long to wait for more before [`rest`](Self::rest), milliseconds; `None`: forever.
+    /// Returns how long to wait for more before [`rest`](Self::rest), milliseconds; `None` means forever.
     pub fn patience(&self) -> Option<u16> {
         match self.begun[..] {
             [] => self.is_interrupted.then_some(GIVE_UP),
@@ -132,14 +132,14 @@ impl Reader {
         }
     }
 
-    /// Nothing more has come for that long.
-    pub fn rest(&mut self, to: &mut Vec<Input>) {
+    /// Handles a pause of that length: bytes that look like the start of a sequence are keys.
+    pub fn rest(&mut self) -> Vec<Input> {
         self.typed();
         self.interrupt();
-        to.append(&mut self.inputs);
+        std::mem::take(&mut self.inputs)
     }
 
-    /// Ctrl-C where a paste has no end, and a hand has typed it behind the text.
+    /// Handles a Ctrl-C that was typed after the text of a paste without an end.
     fn interrupt(&mut self) {
         if std::mem::take(&mut self.is_interrupted) {
             self.paste = None;
@@ -153,7 +153,7 @@ impl Reader {
         }
     }
 
-    /// The key of a sequence by its last byte and first number.
+    /// Adds the key for a sequence's last byte and first number.
     fn named(&mut self, last: u8, number: u16) {
         let named = match (last, number) {
             (b'A', _) => Named::Up,
@@ -183,7 +183,7 @@ impl Reader {
 
     fn control(&mut self, byte: u8) {
         match byte {
-            // In a text that is pasted, lines and columns become words.
+            // In pasted text, line breaks and tabs become blanks.
             b'\t' | b'\r' | b'\n' if self.paste.is_some() => self.character(' '),
             b'\t' => self.key(Key::Named(Named::Tab)),
             b'\r' => self.key(Key::Named(Named::Enter)),
@@ -195,56 +195,47 @@ impl Reader {
     }
 
     /// A control sequence (CSI), by its mark and numbers, and its last byte.
-    fn sequence(&mut self, numbers: &[u8], last: u8) {
-        let (mark, numbers) = match numbers {
-            [mark @ b'<'..=b'?', numbers @ ..] => (Some(mark), numbers),
-            numbers => (None, numbers),
-        };
-        let mut numbers = numbers.split(|byte| *byte == b';').map(|digits| {
-            let digits = digits.split(|byte| *byte == b':').next();
-            let digits = digits.and_then(|digits| from_utf8(digits).ok());
-            digits.and_then(|digits| digits.parse::<u16>().ok())
-        });
-        let mut number = || numbers.next().flatten().unwrap_or(0);
+    fn sequence(&mut self, text: &[u8], last: u8) {
+        let text = String::from_utf8_lossy(text);
+        let digits = text.trim_start_matches(['<', '=', '>', '?']);
+        let mark = &text[..text.len() - digits.len()];
+        let mut numbers = digits.split([';', ':']).map(str::parse::<u16>);
+        let mut number = || numbers.next().and_then(Result::ok).unwrap_or(0);
         match (mark, last, number()) {
-            (None, b'~', 200) => self.paste = Some(String::new()),
-            (None, b'~', 201) => {
+            ("", b'~', 200) => self.paste = Some(String::new()),
+            ("", b'~', 201) => {
                 self.is_interrupted = false;
                 let text = self.paste.take();
                 self.inputs.extend(text.map(Input::Paste));
             }
-            (None, b'n', 0) => {
+            ("", b'n', 0) => {
                 // A busy terminal leaves no silence behind a Ctrl-C; its answer tells that no text follows.
                 self.interrupt();
                 self.inputs.push(Input::Answer(Request::Status));
             }
-            (None, b'R', _) => self.inputs.push(Input::Answer(Request::Place)),
+            ("", b'R', _) => self.inputs.push(Input::Answer(Request::Place)),
             // Presses and the wheel, as mode 1006 tells them: columns and rows count from 1.
-            (Some(b'<'), b'M', button) => {
+            ("<", b'M', 0) => {
                 let [x, y] = [number(), number()].map(|place| place.saturating_sub(1));
-                let gesture = match button {
-                    0 => Gesture::Click(Position { x, y }),
-                    64 => Gesture::WheelUp,
-                    65 => Gesture::WheelDown,
-                    _ => return,
-                };
-                self.inputs.push(Input::Point(gesture));
+                self.inputs
+                    .push(Input::Point(Gesture::Click(Position { x, y })));
             }
-            (None, last, number) => self.named(last, number),
+            ("<", b'M', 64) => self.inputs.push(Input::Point(Gesture::WheelUp)),
+            ("<", b'M', 65) => self.inputs.push(Input::Point(Gesture::WheelDown)),
+            ("", last, number) => self.named(last, number),
             _ => {}
         }
     }
 }
 
-/// Whether a byte may belong to what has begun; what did not begin with an Escape is a character of UTF-8.
+/// Whether a byte may continue an incomplete sequence; what does not begin with Escape is a UTF-8 character.
 fn may_continue(begun: &[u8], byte: u8) -> bool {
     match begun {
         [] => true,
         [ESCAPE] => b"[O]PX^_".contains(&byte),
         [ESCAPE, b'O'] => matches!(byte, b'A'..=b'H' | b'M' | b'P'..=b'S' | b'j'..=b'y'),
-        // Replies begin with a number or a mark.
+        // Answers begin with a number or a mark.
         [ESCAPE, b']' | b'P'] => matches!(byte, b'0'..=b'9' | b'!' | b'$' | b'+' | b'<'..=b'?'),
-        [ESCAPE, b'[', b'M', ..] => true,
         [ESCAPE, b'[', ..] => byte >= b' ',
         [ESCAPE, .., ESCAPE] => byte == b'\\',
         [ESCAPE, ..] => true,
@@ -255,10 +246,7 @@ fn may_continue(begun: &[u8], byte: u8) -> bool {
 /// The colour that a terminal tells as `rgb:` or `rgba:` and shares of the brightest, one to four
 /// hexadecimal digits each, slashes between them.
 fn color_of(text: &[u8]) -> Option<[u8; 3]> {
-    let text = from_utf8(text).ok()?;
-    let (_, shares) = text
-        .split_once("rgb:")
-        .or_else(|| text.split_once("rgba:"))?;
+    let (_, shares) = from_utf8(text).ok()?.split_once(':')?;
     let mut shares = shares.split('/').map(|digits| {
         let most = 16u32.checked_pow(u32::try_from(digits.len()).ok()?)? - 1;
         let share = u32::from_str_radix(digits, 16).ok()?;
@@ -272,15 +260,12 @@ fn color_of(text: &[u8]) -> Option<[u8; 3]> {
 mod tests {
     use super::*;
 
-    /// What bytes mean that come in these pieces, with silence at the end.
+    /// Returns the inputs for bytes that arrive in these pieces, with silence at the end.
     fn read(pieces: &[&[u8]]) -> Vec<Input> {
-        let (mut reader, mut inputs) = (Reader::default(), Vec::new());
-        for piece in pieces {
-            reader.take(piece, &mut inputs);
-        }
-        if reader.patience().is_some() {
-            reader.rest(&mut inputs);
-        }
+        let mut reader = Reader::default();
+        let inputs = pieces.iter().flat_map(|piece| reader.take(piece));
+        let mut inputs: Vec<Input> = inputs.collect();
+        inputs.extend(reader.rest());
         inputs
     }
 
@@ -302,7 +287,7 @@ mod tests {
             (b"\x1b]10;rgb:ffff/ffff/ffff\x07", &[]),
             (b"\x1b]11;rgb:fffff/ffffffffffff/\x07", &[]),
             (b"\x1b]11;black\x07", &[]),
-            // No answer to a question, but a text that somebody has copied.
+            // This is not an answer to a request, but text that somebody has copied.
             (b"\x1b[200~\x1b]11;rgb:ff/ff/ff\x07\x1b[201~", &[]),
         ];
         for (bytes, expected) in cases {
@@ -320,7 +305,7 @@ mod tests {
 
     #[test]
     fn keys_are_read_however_their_bytes_are_split() {
-        let cases: [(&[u8], Vec<Input>); 17] = [
+        let cases: [(&[u8], Vec<Input>); 18] = [
             (
                 "aé∂ ".as_bytes(),
                 ['a', 'é', '∂', ' '].map(|c| key(Key::Char(c))).to_vec(),
@@ -378,6 +363,11 @@ mod tests {
                     key(Key::Char('[')),
                 ],
             ),
+            // A release (kitty), the focus, and what the terminal tells of itself.
+            (
+                b"\x1b[97;1:3u\x1b[I\x1b[O\x1b[?62;22c\x1b[>1;10;0c\x1b[8;24;80t\x1bP>|x(1)\x1b\\q",
+                vec![key(Key::Char('q'))],
+            ),
             // A click as old terminals tell it.
             (b"\x1b[M !q\x1b[A", vec![named(Named::Up)]),
         ];
@@ -434,12 +424,11 @@ mod tests {
             (b"\x1b[12", 100),
             (b"\x1b[M ", 100),
         ] {
-            let (mut reader, mut inputs) = (Reader::default(), Vec::new());
-            reader.take(begun, &mut inputs);
+            let mut reader = Reader::default();
+            assert_eq!(reader.take(begun), []);
             assert!(reader.patience() >= Some(least), "{begun:?}");
-            reader.rest(&mut inputs);
-            reader.take(b"q", &mut inputs);
-            assert_eq!(inputs, [key(Key::Char('q'))], "{begun:?}");
+            assert_eq!(reader.rest(), []);
+            assert_eq!(reader.take(b"q"), [key(Key::Char('q'))], "{begun:?}");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! The values of the curves under the cursor in a line; what the focused panel shows comes first where
-//! there are ghosts, with the value of each and its difference.
+//! The values of the curves at the cursor, in one line. With ghosts, the focused panel's quantity comes first, with
+//! each ghost's value and its difference.
 
 use super::cursor::{RADIUS, abscissa};
 use super::frame::Frame;
@@ -16,10 +16,10 @@ use crate::traces::{Axes, Loop};
 /// Significant digits.
 const DIGITS: usize = 4;
 
-/// The most characters of a ghost's name.
+/// Maximum length of a ghost's name, in characters.
 const LONGEST_NAME: usize = 16;
 
-/// The values at a place of the focused panel's chart, as many as fit `width` cells.
+/// Returns the values at a position in the focused panel's chart, as many as fit into `width` cells.
 pub(super) fn line_at(
     frame: &Frame,
     charts: &LiveCharts,
@@ -28,18 +28,21 @@ pub(super) fn line_at(
     width: usize,
     theme: &Theme,
 ) -> String {
-    match (abscissa(focus), &*charts.get(focus, frame)) {
-        (RADIUS, _) => line(frame, focus, place, width, theme),
-        (_, Ok(chart)) => match &compared(&frame.run, focus, place)[..] {
+    let Some(recipe) = focus.chart() else {
+        return line(frame, focus, place, width, theme);
+    };
+    match &*charts.get(focus, recipe, frame) {
+        _ if abscissa(focus) == RADIUS => line(frame, focus, place, width, theme),
+        Ok(chart) => match &compared(&frame.run, focus, place)[..] {
             [] => line_of(chart, place, width, theme),
             now => theme.printable(&format!(" now {}", now.concat())),
         },
-        (_, Err(_)) => String::new(),
+        Err(_) => String::new(),
     }
 }
 
-/// `r 52.0 µm  slip  f ...`: as many values at the radius `r` (m) as fit `width` cells. Curves that
-/// no panel shows are not computed, and so not here.
+/// Returns `r 52.0 µm  slip  f ...`: as many values at the radius `r` (m) as fit into `width` cells. Curves that no
+/// panel shows are not computed and therefore missing.
 fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> String {
     let value = |name: &str, value: f64, unit: &str| {
         format!(" {name} {} ", format_value(value, unit, DIGITS))
@@ -54,7 +57,7 @@ fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> Str
         let moves = frame.observation.moment.stick_radius.is_some();
         let curves = CURVES.into_iter();
         for axes in curves.filter(|axes| moves || *axes != Axes::SHEAR) {
-            let at = over_r(run, axes, r).map(|seen| value(axes.symbol, seen, axes.unit()));
+            let at = over_r(run, axes, r).map(|seen| value(axes.y.symbol(), seen, axes.y.unit()));
             parts.extend(at.filter(|part| !parts.contains(part)));
         }
     }
@@ -68,7 +71,7 @@ fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> Str
     line
 }
 
-/// The curves over the radius, in their order in the line.
+/// The curves over the radius, in the order of the line.
 const CURVES: [Axes; 5] = [
     Axes::PROFILE,
     Axes::PRESSURE,
@@ -77,36 +80,36 @@ const CURVES: [Axes; 5] = [
     Axes::SPRINGS,
 ];
 
-/// The run's value at a radius.
+/// Returns the run's value at a radius.
 fn over_r(run: &Run, axes: Axes, r: f64) -> Option<f64> {
     let state = run.states.last()?;
     value_at(state.column(axes.x)?, state.column(axes.y)?, r)
 }
 
-/// What a panel compares with other sources.
+/// Returns the quantity that a panel compares with other sources.
 fn compared_axes(focus: Panel) -> Axes {
     let overlays = focus.recipe().overlays;
     overlays.first().copied().unwrap_or(Axes::WEAR)
 }
 
-/// The place at which the panel compares: the radius, or the present displacement, cycle or work; and the run's
-/// value there.
+/// Returns the position at which the panel compares (the radius, or the present displacement, cycle or work) and the
+/// run's value there.
 fn here(run: &Run, axes: Axes, r: f64) -> Option<(f64, f64)> {
     if axes.over_r() {
         return Some((r, over_r(run, axes, r)?));
     }
-    let moment = &run.live.as_ref()?.moment;
+    let moment = &run.live.as_ref()?.seen.moment;
     match axes {
         Axes::LOOP => return Some((moment.shift, moment.tangential_force)),
-        // The screen shows the largest of the cycle; histories have that of the moment.
+        // The screen shows the largest radius of the cycle, histories the one at that moment.
         Axes::CONTACT => return Some((moment.cycle, moment.contact_radius)),
         _ => {}
     }
-    let last = |name| run.history.as_ref()?.column(name)?.last().copied();
+    let last = |column| run.history.as_ref()?.column(column)?.last().copied();
     Some((last(axes.x)?, last(axes.y)?))
 }
 
-/// The value of a ghost at the same place, where it has one.
+/// Returns a ghost's value at the same position, if it has one.
 fn of_ghost(run: &Run, ghost: &Ghost, axes: Axes, place: f64) -> Option<f64> {
     match axes {
         Axes::LOOP => {
@@ -121,15 +124,15 @@ fn of_ghost(run: &Run, ghost: &Ghost, axes: Axes, place: f64) -> Option<f64> {
     }
 }
 
-/// The run's value of what the focused panel shows, and for each ghost that has it its value and how far
-/// it is above that of the run; nothing where no ghost has it.
+/// Returns the run's value of the focused panel's quantity, and each ghost's value with its difference from the run's;
+/// empty if no ghost has the quantity.
 fn compared(run: &Run, focus: Panel, r: f64) -> Vec<String> {
     let axes = compared_axes(focus);
     let Some((place, own)) = here(run, axes, r) else {
         return Vec::new();
     };
-    let shown = |value: f64| format_value(value, axes.unit(), DIGITS);
-    let mut parts = vec![format!(" {} {} ", axes.symbol, shown(own))];
+    let shown = |value: f64| format_value(value, axes.y.unit(), DIGITS);
+    let mut parts = vec![format!(" {} {} ", axes.y.symbol(), shown(own))];
     for ghost in &run.ghosts {
         let Some(value) = of_ghost(run, ghost, axes, place) else {
             continue;
@@ -146,8 +149,8 @@ fn compared(run: &Run, focus: Panel, r: f64) -> Vec<String> {
     parts
 }
 
-/// `cycles 12.00  c 41.6 µm …`: the values at a place of a chart that is not over r, as many as fit `width` cells. A
-/// loop has two at most places.
+/// Returns `cycles 12.00  c 41.6 µm …`: the values at a position of a chart that is not over r, as many as fit into
+/// `width` cells. A loop has two almost everywhere.
 fn line_of(chart: &Chart, x: f64, width: usize, theme: &Theme) -> String {
     let value = |value: f64, unit| format_value(value, unit, DIGITS);
     let mut line = format!(" {} {} ", chart.x.label, value(x, chart.x.unit));

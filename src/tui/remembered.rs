@@ -1,4 +1,4 @@
-//! What the screen looked like when the explorer was left, for the next time: focus and page, zoom, theme.
+//! Remembers the screen for the next time: focus and page, zoom, theme.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -10,11 +10,11 @@ use super::panels::Panel;
 use crate::export::safe_open;
 use crate::plot::theme::{Look, Theme};
 
-/// The file in the program's own directory, and the most of it that is read.
+/// The file in the program's directory, and the maximum size to be read.
 const FILE: &str = "look.toml";
 const LARGEST: u64 = 4096;
 
-/// The look of the screen.
+/// The state of the screen.
 #[derive(Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub struct Remembered {
@@ -25,7 +25,7 @@ pub struct Remembered {
 }
 
 impl Remembered {
-    /// Reads it; as it is at first where there is nothing that can be read.
+    /// Reads the file; returns the initial state if it cannot be read.
     pub fn read(directory: &Path) -> Self {
         let mut text = String::new();
         let file = safe_open::read(&directory.join(FILE)).ok();
@@ -34,7 +34,7 @@ impl Remembered {
             .unwrap_or_default()
     }
 
-    /// Of an explorer that is left; the theme if it is another one than the terminal has asked for.
+    /// Returns the state of an explorer on leaving; includes the theme only if the user changed it.
     pub fn of(explorer: &Explorer) -> Self {
         let (stage, theme) = (&explorer.stage, &explorer.theme);
         Self {
@@ -44,7 +44,7 @@ impl Remembered {
         }
     }
 
-    /// Writes it. Nobody is told if that fails: the next time it looks as at first.
+    /// Writes the file. A failure is ignored: the next time the screen starts in its initial state.
     pub fn write(&self, directory: &Path) {
         let theme = self
             .theme
@@ -60,7 +60,7 @@ impl Remembered {
         }
     }
 
-    /// Shows the screen as it was. A theme that an option, the configuration or the environment has chosen stays.
+    /// Restores the screen. A theme chosen by an option, the configuration or the environment stays.
     pub fn apply(&self, explorer: &mut Explorer) {
         if let Some(panel) = Panel::titled(&self.panel) {
             (explorer.stage.focus, explorer.stage.zoomed) = (panel, self.zoomed);

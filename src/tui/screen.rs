@@ -20,12 +20,12 @@ use super::explorer::Explorer;
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
-use super::panels::{Panel, Shown, compare};
+use super::panels::{Content, Panel, Shown, compare};
 use super::{footer, present, timeline};
 use crate::plot::theme::Role;
 use crate::reading::verdict;
 
-/// Draws everything.
+/// Draws the whole screen.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let (explorer, overlay) = (&app.explorer, app.overlays.last());
     let mut canvas = Canvas::new(&explorer.theme, area, buffer);
@@ -47,7 +47,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let [shown, list] = explorer.stage.with_list(middle);
     panels(explorer, canvas.at(shown));
     footer::draw(app, canvas.at(bottom));
-    // An explanation stands beside its panel; lists need every row.
+    // An explanation is placed beside its panel; lists need every row.
     let under = match overlay {
         Some(Overlay::Explain) => shown,
         Some(Overlay::Form(_)) if !list.is_empty() => list,
@@ -76,33 +76,34 @@ fn panels(explorer: &Explorer, mut canvas: Canvas) {
     }
 }
 
-/// Draws a panel: its picture, or its chart.
+/// Draws a panel: its picture or its chart.
 fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
-    let (recipe, frame, charts) = (panel.recipe(), &*explorer.frame, &explorer.charts);
+    let (frame, charts) = (&*explorer.frame, &explorer.charts);
     let role = match explorer.stage.focus == panel {
         true => Role::Focus,
         false => Role::Title,
     };
-    if let Some(picture) = panel.picture() {
-        let shown = Shown {
-            frame: explorer.calm.shown(panel, &explorer.stage, frame),
-            calm: explorer.calm.of(frame),
-            stress: explorer.stress,
-            bounds: charts.bounds(panel),
-            role,
-        };
-        return (picture.draw)(&shown, canvas);
-    }
-    match &*charts.get(panel, frame) {
-        Ok(chart) => {
-            canvas.plot(chart, role, explorer.cursor_in(panel));
+    match panel.content() {
+        Content::Picture(picture) => {
+            let shown = Shown {
+                frame: explorer.calm.shown(panel, &explorer.stage, frame),
+                calm: explorer.calm.of(frame),
+                stress: explorer.stress,
+                drawn: &explorer.drawn,
+                bounds: charts.bounds(panel),
+                role,
+            };
+            (picture.make.draw)(&shown, canvas);
         }
-        Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
+        Content::Chart(recipe) => match &*charts.get(panel, recipe, frame) {
+            Ok(chart) => canvas.plot(chart, role, explorer.cursor_in(panel)),
+            Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
+        },
     }
 }
 
-/// The state of the run on the left, in slots of fixed width, and the title on the right. A narrow
-/// screen drops the title first, then the least important parts.
+/// Draws the state of the run on the left, in slots of fixed width, and the title on the right. A narrow screen drops
+/// the title first, then the least important parts.
 fn status(frame: &Frame, mut canvas: Canvas) {
     let (theme, area, bar) = (canvas.theme, canvas.area, canvas.style(Role::Bar));
     let mut parts = status_parts(frame, area.width >= WITH_WORDS);
@@ -123,14 +124,14 @@ fn status(frame: &Frame, mut canvas: Canvas) {
     canvas.show(Line::styled(format!(" {left}"), bar));
 }
 
-/// Columns from which on the status line says what the method's name is.
+/// Minimum columns for the method's description in the status line.
 const WITH_WORDS: u16 = 80;
 
-/// A part of the status line: its weight, for the least important parts are dropped first, its text, and the least width
-/// of its slot in cells.
+/// A part of the status line: its weight (the least important parts are dropped first), its text, and the minimum width
+/// of its slot, in cells.
 type Part = (u8, String, usize);
 
-/// As much of a title as fits in `room` cells, and a blank behind it.
+/// Shortens a title to `room` cells, including a blank after it.
 fn shortened(mut text: String, room: usize) -> String {
     let width = |text: &str| Line::raw(text).width();
     match width(&text) {
@@ -146,11 +147,11 @@ fn shortened(mut text: String, room: usize) -> String {
     }
 }
 
-/// What the status line says, the state first.
+/// Returns the parts of the status line, the state first.
 fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     let moment = &frame.observation.moment;
     let planned = frame.facts.scenario.run().cycles;
-    // Of ten thousand cycles nobody reads hundredths.
+    // Hundredths are of no interest among ten thousand cycles.
     let most = planned.unwrap_or(0.0).max(moment.cycle);
     let decimals = if most < 1e4 { 2 } else { 0 };
     let mut cycle = format!("cycle {:.decimals$}", moment.cycle);
@@ -199,7 +200,7 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
     parts.into_iter().flatten().collect()
 }
 
-/// The estimated error of what has worn, to a digit.
+/// Formats the estimated error of the wear, to one digit.
 fn wear_error(error: f64) -> String {
     match 100.0 * error {
         size if size < 0.01 => "wear ±<0.01 %".into(),
@@ -209,7 +210,7 @@ fn wear_error(error: f64) -> String {
     }
 }
 
-/// Two or three digits of a speed.
+/// Formats a speed to two or three digits.
 fn short(value: f64) -> String {
     match value.abs() {
         size if size >= 10_000.0 => format!("{:.0}k", value / 1000.0),

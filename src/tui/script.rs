@@ -18,7 +18,7 @@ use crate::plot::theme::Look;
 /// Reads a size of the screen, `COLUMNSxROWS`.
 ///
 /// # Errors
-/// What a size is.
+/// Says what a valid size is.
 pub fn parse_size(text: &str) -> Result<Size, String> {
     let size = text.split_once(['x', 'X']).and_then(|(columns, rows)| {
         let within = |count: &u16| (1..=1000).contains(count);
@@ -37,7 +37,7 @@ pub enum Format {
     Svg,
 }
 
-/// Keys to press, and the screen to print after them.
+/// Keys to press, and how to print the screen after them.
 #[derive(Debug, Clone)]
 pub struct Script {
     /// The keys.
@@ -48,7 +48,7 @@ pub struct Script {
     pub format: Format,
 }
 
-/// What a script does: press a key, paste a text, give the screen another size.
+/// One action of a script: press a key, paste a text, resize the screen.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stroke {
     /// A key.
@@ -60,8 +60,8 @@ pub enum Stroke {
 }
 
 impl Stroke {
-    /// Reads a script in the notation of [`keys`], with `<paste:TEXT>` and `<resize:80x24>` beside; an
-    /// error says what could not be read.
+    /// Reads a script in the notation of [`keys`], extended by `<paste:TEXT>` and `<resize:80x24>`; an error says what
+    /// could not be read.
     pub fn script(script: &str) -> Result<Vec<Self>, String> {
         keys::read(script, Self::Key, |name| match name.split_once(':') {
             Some(("paste", text)) => Some(Self::Paste(text.to_owned())),
@@ -71,8 +71,7 @@ impl Stroke {
     }
 }
 
-/// Presses the keys one by one, each after the simulation has answered the one before, and prints
-/// the last screen.
+/// Presses the keys, waiting after each for the simulation's answer, and prints the last screen.
 pub fn play(app: &mut App, script: &Script, events: &Receiver<Event>) -> Result<()> {
     crate::failpoint::hit("script");
     let size = press(app, &script.strokes, script.size, events)?;
@@ -93,8 +92,7 @@ pub fn play(app: &mut App, script: &Script, events: &Receiver<Event>) -> Result<
     }
 }
 
-/// Does what the script says, draws the screen after each stroke as a terminal would have it, and
-/// returns the size that it has in the end.
+/// Executes the script, draws the screen after each stroke as a terminal would, and returns the final size.
 ///
 /// # Errors
 ///
@@ -130,7 +128,7 @@ fn catch_up(app: &mut App, events: &Receiver<Event>) -> Result<()> {
     let frame = frame.context("the simulation has ended")?;
     app.explorer.take_frame(frame);
     while let Ok(event) = events.try_recv() {
-        // A script sees all points; the frame that it sees is the one that it has waited for.
+        // A script waits for all points of a study. It has already waited for its frame, so other frames are ignored.
         match &event {
             Event::Sweep(live) => live.finish(),
             Event::Frame(_) => continue,
@@ -141,15 +139,15 @@ fn catch_up(app: &mut App, events: &Receiver<Event>) -> Result<()> {
     Ok(())
 }
 
-/// The screen as it is drawn.
+/// Draws the screen into a buffer.
 fn drawn(app: &App, size: Size) -> Buffer {
     let mut buffer = Buffer::empty(size.into());
     screen::draw(app, buffer.area, &mut buffer);
     buffer
 }
 
-/// The sign of a cell in text: a blank that a colour fills is a half block, as it is where two colours do. A blank
-/// between words has their ink.
+/// Returns the character of a cell in plain text. A coloured blank becomes a half block, like a cell with two colours.
+/// A blank between words has an ink and stays.
 fn sign(cell: &Cell) -> &str {
     match cell.symbol() {
         " " if cell.bg != Color::Reset && cell.fg == Color::Reset => "▀",
@@ -157,7 +155,7 @@ fn sign(cell: &Cell) -> &str {
     }
 }
 
-/// The screen as lines of text, trailing blanks cut.
+/// Returns the screen as lines of text, without trailing blanks.
 pub fn text(app: &App, size: Size) -> String {
     let buffer = drawn(app, size);
     let mut text = String::new();
@@ -167,7 +165,7 @@ pub fn text(app: &App, size: Size) -> String {
         while let Some(at) = places.next() {
             let symbol = sign(&buffer[at]);
             line.push_str(symbol);
-            // A wide character covers the cell behind it.
+            // A wide character also covers the next cell.
             for _ in 1..Line::raw(symbol).width() {
                 places.next();
             }

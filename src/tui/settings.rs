@@ -8,21 +8,21 @@ use crate::scenario::{Scenario, units};
 /// A key of the scenario as the explorer shows it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
-    /// Range and meaning.
+    /// The key, its range and its meaning.
     pub parameter: &'static Parameter,
-    /// The unit that holds in this scenario.
+    /// The unit in this scenario.
     pub unit: &'static str,
-    /// The value: TOML, words without quotes; `None` where the scenario leaves it to the program.
+    /// The value: TOML, words without quotes; `None` if the scenario leaves it to the program.
     pub value: Option<String>,
 }
 
 impl Setting {
-    /// Every key that has a value or may be given one, in the order of a scenario's file.
+    /// Returns every key that has a value or may be given one, in the order of a scenario file.
     pub fn all(scenario: &Scenario) -> Vec<Self> {
         let fixed = ["", "run", "changes"];
         parameters()
             .filter(|parameter| !fixed.contains(&parameter.section()))
-            // Long lists come from files and are not typed.
+            // Long lists come from files, not from the keyboard.
             .filter(|parameter| parameter.kind != Kind::Numbers)
             .map(|parameter| Self::of(parameter, scenario))
             .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
@@ -39,7 +39,7 @@ impl Setting {
         }
     }
 
-    /// The value with its unit, as an engineer reads it: `230.77 GPa`.
+    /// Returns the value with its unit, as an engineer writes it: `230.77 GPa`.
     pub fn shown(&self, ascii: bool) -> String {
         match (self.reading(ascii), &self.value) {
             (Some((number, unit)), _) => format!("{number} {unit}").trim_end().to_owned(),
@@ -48,14 +48,14 @@ impl Setting {
         }
     }
 
-    /// The number, and the unit it is shown in, of a value that has a unit.
+    /// Returns the number and the unit of a value that has a unit, as shown.
     fn reading(&self, ascii: bool) -> Option<(String, String)> {
         let value: f64 = self.value.as_deref()?.parse().ok()?;
         let has_unit = self.parameter.kind == Kind::Number && !self.unit.is_empty();
         has_unit.then(|| reading(value, self.unit, ascii))
     }
 
-    /// What stands beside a value that is typed: the unit of a bare number, which is that of a scenario's file.
+    /// Returns the hint beside a value being typed: the unit of a bare number, as in a scenario file.
     pub fn typed_unit(&self) -> String {
         match self.unit {
             "" => String::new(),
@@ -63,19 +63,19 @@ impl Setting {
         }
     }
 
-    /// Why the value cannot change during a run, in a sentence; `None` where it can.
+    /// Returns why the value cannot change during a run, in a sentence; `None` if it can.
     pub fn fixed(&self) -> Option<String> {
         let because = self.parameter.fixed?;
         Some(format!("fixed during a run: {because}"))
     }
 
-    /// The words that the value is chosen from, if it is.
+    /// Returns the words to choose the value from, if it is a choice.
     pub fn words(&self) -> Option<Vec<&'static str>> {
         self.parameter.kind.words()
     }
 
-    /// The next value up or down: the next word of a choice, the next number of two digits.
-    /// `None` at the last one.
+    /// Returns the next value up or down: the next word of a choice, or the next number with two digits; `None` at the
+    /// last one.
     pub fn next(&self, up: bool) -> Option<String> {
         let value = self.value.as_deref()?;
         match self.parameter.kind {
@@ -88,7 +88,7 @@ impl Setting {
                 let next = next_number(value.parse().ok()?, up);
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
-            // A step of the number that is shown: 46 degrees follow 45.
+            // One step of the number as shown: 45 degrees are followed by 46.
             Kind::Number => {
                 let shown = self.reading(true);
                 let (number, unit) = shown.unwrap_or_else(|| (value.to_owned(), String::new()));
@@ -100,14 +100,14 @@ impl Setting {
     }
 }
 
-/// The next number of two significant digits, up or down from `value`. Zero stays: it has no size.
+/// Returns the next number with two significant digits, up or down from `value`. Zero stays, because it has no scale.
 fn next_number(value: f64, up: bool) -> f64 {
     if value == 0.0 {
         return value;
     }
     let (size, away) = (value.abs(), up == (value > 0.0));
     let exponent = size.log10().floor() as i32 - 1;
-    // In units of the second digit: 10 to 99, and rounding of the logarithm aside.
+    // Counts in units of the second digit, 10 to 99 except for rounding of the logarithm.
     let count = size / 10f64.powi(exponent);
     let (count, exponent) = if away {
         ((count + 1e-9).floor() + 1.0, exponent)
@@ -116,7 +116,7 @@ fn next_number(value: f64, up: bool) -> f64 {
     } else {
         ((count - 1e-9).ceil() - 1.0, exponent)
     };
-    // Read back from text, so that 1.4e-10 is the number that a user would type.
+    // Parsed from text, so that 1.4e-10 is exactly the number that a user would type.
     let text = format!("{count:.0}e{exponent}");
     text.parse::<f64>().unwrap_or(size).copysign(value)
 }
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(next.as_deref(), Some("46 deg"));
         let modulus = of("material.effective_modulus");
         assert_eq!(modulus.shown(true), "230.77 GPa");
-        // What is shown is accepted as input.
+        // What is shown is also accepted as input.
         for setting in &settings {
             let (path, shown) = (setting.parameter.path, setting.shown(true));
             if setting.value.is_some() {

@@ -1,5 +1,5 @@
-//! What `s` writes and how it is opened again: the state, the scenario that reproduces it, history and
-//! last loop as tables, and a checkpoint.
+//! Snapshots, written by `s`, and opening them again: the state, the scenario that reproduces it, history and last loop
+//! as tables, and a checkpoint.
 
 use std::path::{Path, PathBuf};
 
@@ -10,18 +10,19 @@ use crate::export::file::WriteError;
 use crate::export::header::{field as written, number, table};
 use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
 use crate::export::{history, last_loop, state};
+use crate::reading::Column;
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::Session;
 use crate::scenario::{checkpoint, printable};
 use crate::traces::Table;
 
-/// The checkpoint of a snapshot.
+/// The checkpoint's file name.
 const CHECKPOINT: &str = "state.checkpoint";
 
 /// Writes the state of `run` to a new directory, with the user's note, and returns the path of the state.
 pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, WriteError> {
-    // The note is about this state: what goes on from it does not carry it.
+    // The note is about this state; a run that continues from it does not carry it.
     let kept = checkpoint::encode(&run.session, None::<&()>);
     let noted = note.map(|note| run.session.noted(note));
     let session = noted.as_ref().unwrap_or(&run.session);
@@ -40,7 +41,7 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     files.push(("state.csv", state::table(session).into_bytes()));
     for (name, bytes) in &files {
         if let Err(error) = directory.write(name, bytes) {
-            // Nothing half: the directory goes with its last file.
+            // Leaves no half-written snapshot: the directory is removed with its last file.
             for (name, _) in &files {
                 let _ = std::fs::remove_file(directory.path().join(name));
             }
@@ -50,19 +51,20 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     Ok(directory.path().join("state.csv").components().collect())
 }
 
-/// The history in the columns of a run's. Contact radii and stick radii are those that the screen shows: the
-/// largest and the smallest of each cycle.
+/// Returns the history with the columns of a run's `history.csv`. As on the screen, contact radii and stick radii are
+/// the largest and the smallest of each cycle.
 fn history(session: &Session, trend: &Trend) -> String {
     let now = session.simulation().cycle();
     let rows = trend.cycles().map(|entry| {
         let mut fields = match &entry.fields {
             Some(fields) => fields.to_vec(),
             None if entry.end() == now => history::fields(&Reading::new(session)).to_vec(),
-            None => vec![String::new(); history::COLUMNS.len()],
+            None => vec![String::new(); Column::HISTORY.len()],
         };
-        for ((name, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
-            let is_of_cycle = ["contact_radius_m", "permanent_stick_radius_m"].contains(&name);
-            let at = history::COLUMNS.iter().position(|column| *column == name);
+        for ((column, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
+            let is_of_cycle =
+                [Column::ContactRadius, Column::PermanentStickRadius].contains(&column);
+            let at = Column::HISTORY.iter().position(|known| *known == column);
             if let Some(field) = at.map(|at| &mut fields[at])
                 && (is_of_cycle || field.is_empty())
             {
@@ -71,23 +73,27 @@ fn history(session: &Session, trend: &Trend) -> String {
         }
         fields
     });
-    table(session, &history::COLUMNS, rows)
+    table(session, &Column::HISTORY, rows)
 }
 
-/// The last period, in the columns of a measured loop.
+/// Returns the last period, with the columns of a measured loop.
 fn loop_table(session: &Session) -> String {
     let rows = last_loop::rows(session.simulation()).into_iter();
     let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(written));
-    table(session, &["cycle", "u_m", "F_N"], rows)
+    table(
+        session,
+        &[Column::Cycle, Column::LoopShift, Column::LoopForce],
+        rows,
+    )
 }
 
-/// Where in a directory a state to go on from is: that of a snapshot, or of a run that was interrupted.
+/// Finds the checkpoint of a snapshot or of an interrupted run in a directory.
 fn checkpoint_in(directory: &Path) -> Option<PathBuf> {
     let kept = [CHECKPOINT, RUN_CHECKPOINT].map(|name| directory.join(name));
     kept.into_iter().find(|path| path.is_file())
 }
 
-/// What `path` is if a state can be opened from there: its cycle, title and note, in a line.
+/// Describes the state in the directory `path` in one line: its cycle, title and note; `None` if there is none.
 pub(super) fn about(path: &Path) -> Option<String> {
     checkpoint_in(path)?;
     let header = Columns::header_of(&path.join("state.csv")).ok()?;
@@ -95,16 +101,16 @@ pub(super) fn about(path: &Path) -> Option<String> {
         let (_, value) = header.iter().find(|(known, _)| known == key)?;
         Some(value)
     };
-    let (cycle, title) = (fact("cycle")?, fact("scenario")?);
+    let (cycle, title) = (fact(Column::Cycle.name())?, fact("scenario")?);
     let note = fact("note").map_or_else(String::new, |note| format!(" Note: {note}."));
     let next = "Enter goes on from there";
     Some(format!("{title}, cycle {cycle}.{note} {next}"))
 }
 
-/// Opens the state in a directory, with its past as far as it is known.
+/// Opens the state in a directory, with as much of its past as is recorded.
 ///
 /// # Errors
-/// One line: a directory without such a state, a checkpoint that is torn or of another version.
+/// In one line: there is no such state, or the checkpoint is damaged or of another version.
 pub fn open(directory: &Path) -> Result<Recorded, String> {
     let Some(path) = checkpoint_in(directory) else {
         let shown = printable(&directory.display().to_string());
@@ -121,25 +127,29 @@ pub fn open(directory: &Path) -> Result<Recorded, String> {
     })
 }
 
-/// The past up to `cycle` as the tables beside a checkpoint tell of it.
+/// Reads the past up to `cycle` from the tables beside a checkpoint.
 fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let read = |name: &str| Columns::read(&directory.join(name)).ok();
     let file = read("history.csv")?;
     let history = Table::of_file(&file);
-    let cycles = history.column("cycle")?;
-    let has_all = file.names == history::COLUMNS;
+    let cycles = history.column(Column::Cycle)?;
+    let has_all = file.names == Column::HISTORY.map(Column::name);
     let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| {
-        let value = |name| history.column(name).map_or(f64::NAN, |column| column[row]);
+        let value = |column| {
+            history
+                .column(column)
+                .map_or(f64::NAN, |values| values[row])
+        };
         Cycle {
-            values: trend::COLUMNS.map(|(name, _)| value(name)),
+            values: trend::COLUMNS.map(|(column, _)| value(column)),
             fields: has_all.then(|| file.fields(row).into()),
         }
     });
     let steps = read("loop.csv").map(|file| Table::of_file(&file));
     let steps = steps.unwrap_or_default();
-    let [cycles, shifts, forces] =
-        ["cycle", "u_m", "F_N"].map(|name| steps.column(name).unwrap_or_default());
+    let [cycles, shifts, forces] = [Column::Cycle, Column::LoopShift, Column::LoopForce]
+        .map(|column| steps.column(column).unwrap_or_default());
     let steps = cycles.iter().zip(shifts).zip(forces);
     let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force, f64::NAN]);
     Some(Trend::of_past(entries, steps, initial))

@@ -1,5 +1,5 @@
-//! Which panels are on the screen, and how large: the focus and its page, one panel zoomed, the contact, a projector's
-//! two, or those that a tour leads to.
+//! Chooses and arranges the panels: the focus and its page, one panel zoomed, the contact, the two for a projector, or
+//! the ones that a tour shows.
 
 use ratatui::layout::Constraint::{Fill, Length, Min};
 use ratatui::layout::{Layout, Rect};
@@ -10,73 +10,73 @@ use super::present;
 use super::tour::{Caption, FIRST, Tour};
 use crate::math::scan::shifted;
 
-/// Columns from which on the contact is what a new user sees first, and rows from which on a tour shows it large.
+/// Minimum columns for welcoming a new user with the contact, and minimum rows for showing it large in a tour.
 const CONTACT_FROM: u16 = 100;
 const CONTACT_ROWS: u16 = 22;
 
-/// Rows of a tour, including its title.
+/// Rows of a tour's caption, including its title.
 pub const TOUR: u16 = 4;
 
-/// Minimum rows for the panels beside a tour.
+/// Minimum rows for the panels above a tour's caption.
 const LEAST: u16 = 10;
 
-/// The panels' stage.
+/// The choice of panels.
 #[derive(Debug, Default)]
 pub struct Stage {
     /// The panel with the focus.
     pub focus: Panel,
     /// Whether the focused panel is zoomed.
     pub zoomed: bool,
-    /// The panel that had the focus before the contact was shown large.
+    /// The panel with the focus before the contact was shown large.
     before_contact: Option<Panel>,
-    /// Whether the contact and one chart are shown for a projector.
+    /// Whether the contact and one chart are shown, for a projector.
     pub presents: bool,
     /// The tour under way, if there is one.
     pub tour: Option<Tour>,
-    /// The panel that had the focus before the tour.
+    /// The panel with the focus before the tour.
     before_tour: Panel,
     /// The whole terminal.
     pub area: Rect,
-    /// Whether the last click has zoomed, or the opposite.
+    /// Whether the last click has toggled the zoom.
     click_has_zoomed: bool,
-    /// Whether a list wants to stand beside the panels.
+    /// Whether the list of parameters is open beside the panels.
     pub has_list: bool,
-    /// The panels that the user wants first; empty: as they are declared.
+    /// The panels to show first; if empty, the order is the declared one.
     first: Vec<Panel>,
 }
 
-/// Columns from which on a list stands beside the panels.
+/// Minimum columns for a list beside the panels.
 const WITH_LIST: u16 = 100;
 
-/// The columns that it takes.
+/// The columns of the list.
 pub const LIST: u16 = 46;
 
 impl Stage {
-    /// The panels on the screen.
+    /// Returns the panels on the screen.
     pub fn visible(&self) -> Vec<Panel> {
         let places = self.places(self.panels());
         places.into_iter().map(|(panel, _)| panel).collect()
     }
 
-    /// The area of the panels on the whole screen.
+    /// Returns the area of the panels on the whole screen.
     fn panels(&self) -> Rect {
         self.with_list(layout::panels(self.area))[0]
     }
 
-    /// The panels' part of an area, and that of a list beside them, which is empty if there is none.
+    /// Divides an area between the panels and a list beside them, which is empty if there is none.
     pub fn with_list(&self, area: Rect) -> [Rect; 2] {
         let taken = LIST * u16::from(self.has_list && area.width >= WITH_LIST);
         Layout::horizontal([Min(0), Length(taken)]).areas(area)
     }
 
-    /// The area of the panels, and that of a tour's caption below them, which is empty where there is none.
+    /// Divides an area between the panels and a tour's caption below them, which is empty if there is none.
     pub fn with_tour(&self, area: Rect) -> [Rect; 2] {
         let is_seen = self.tour.is_some() && area.height >= LEAST + TOUR;
         let rows = [Min(0), Length(TOUR * u16::from(is_seen))];
         Layout::vertical(rows).areas(area)
     }
 
-    /// The panels in their area, each with its place.
+    /// Returns the panels in an area, each with its place.
     pub fn places(&self, area: Rect) -> Vec<(Panel, Rect)> {
         let (columns, rows) = layout::grid(area);
         let [area, _] = self.with_tour(area);
@@ -92,7 +92,7 @@ impl Stage {
             return vec![(self.focus, area)];
         }
         let shown = self.page(columns * rows);
-        // The last page may hold fewer panels, which are then larger; its last row leaves no hole.
+        // The last page may hold fewer panels, which are then larger, so that its last row has no gap.
         let needed = shown.len().div_ceil(rows).max(2).min(shown.len());
         let columns = columns.min(needed).max(1);
         let rows = shown.len().div_ceil(columns);
@@ -107,13 +107,13 @@ impl Stage {
         places
     }
 
-    /// Puts some panels before all others.
+    /// Moves some panels to the front.
     pub fn put_first(&mut self, panels: Vec<Panel>) {
         self.focus = panels.first().copied().unwrap_or_default();
         self.first = panels;
     }
 
-    /// All panels, in the user's order.
+    /// Returns all panels, in the user's order.
     fn order(&self) -> Vec<Panel> {
         let others = Panel::ALL
             .iter()
@@ -121,20 +121,20 @@ impl Stage {
         self.first.iter().chain(others).copied().collect()
     }
 
-    /// The place of the focused panel among all.
+    /// Returns the index of the focused panel.
     fn place(&self) -> usize {
         let mut order = self.order().into_iter();
         order.position(|panel| panel == self.focus).unwrap_or(0)
     }
 
-    /// The panels beside the focused one where `room` of them fit.
+    /// Returns the page with the focused panel if `room` panels fit on a page.
     pub fn page(&self, room: usize) -> Vec<Panel> {
         let (order, room) = (self.order(), room.max(1));
         let at = self.place() / room * room;
         order[at..(at + room).min(order.len())].to_vec()
     }
 
-    /// The first panel of the next page gets the focus.
+    /// Moves the focus to the first panel of the next page.
     pub fn turn_page(&mut self) {
         let (across, down) = layout::grid(self.panels());
         let (order, room) = (self.order(), across * down);
@@ -142,18 +142,18 @@ impl Stage {
         self.focus = order.get(next).copied().unwrap_or(order[0]);
     }
 
-    /// The panel this many places on gets the focus.
+    /// Moves the focus by this many panels.
     pub fn shift_focus(&mut self, places: isize) {
         self.focus = shifted(&self.order(), self.focus, places);
     }
 
-    /// A panel gets the focus.
+    /// Moves the focus to a panel.
     pub fn focus_on(&mut self, panel: Panel) {
         self.leave_contact();
         self.focus = panel;
     }
 
-    /// The panel at a place of the page gets the focus, counted from 0, where there is one.
+    /// Moves the focus to the panel at an index of the page, counted from 0, if there is one.
     pub fn focus_at(&mut self, place: usize) {
         let (across, down) = layout::grid(self.panels());
         let panel = self.page(across * down).get(place).copied();
@@ -162,8 +162,8 @@ impl Stage {
         }
     }
 
-    /// A click on a panel gives it the focus, or else zooms unless it has `moved` the cursor; the second one of a
-    /// double click zooms unless the first has.
+    /// Handles a click on a panel. The first click moves the focus there; if the panel already has it, the click zooms,
+    /// unless it has `moved` the cursor. The second click of a double click zooms unless the first did.
     pub fn click(&mut self, panel: Panel, is_second: bool, moved: bool) {
         if is_second {
             self.zoomed ^= !self.click_has_zoomed;
@@ -174,7 +174,7 @@ impl Stage {
         }
     }
 
-    /// Leaves the tour, the contact, or the zoomed panel; returns whether there was one.
+    /// Leaves the tour, the large contact, or the zoomed panel; returns whether there was one.
     pub fn go_back(&mut self) -> bool {
         if self.tour.take().is_some() {
             self.return_from_tour();
@@ -183,32 +183,32 @@ impl Stage {
         self.leave_contact() || std::mem::take(&mut self.zoomed)
     }
 
-    /// Zooms the focused panel, or shows all panels.
+    /// Zooms the focused panel, or shows all panels again.
     pub fn toggle_zoom(&mut self) {
         if !self.leave_contact() {
             self.zoomed = !self.zoomed;
         }
     }
 
-    /// Shows the contact large, or all panels.
+    /// Shows the contact large, or all panels again.
     pub fn toggle_contact(&mut self) {
         if !self.leave_contact() {
             self.show_contact();
         }
     }
 
-    /// Whether the contact is shown large: the cross-section alone.
+    /// Whether the contact is shown large.
     pub fn shows_contact(&self) -> bool {
         self.presents || self.zoomed && self.focus == Panel::Section
     }
 
-    /// Shows the contact itself, large.
+    /// Shows the contact large.
     fn show_contact(&mut self) {
         self.before_contact = Some(std::mem::replace(&mut self.focus, Panel::Section));
         self.zoomed = true;
     }
 
-    /// Where the contact is shown large: all panels again, and the focus where it was before. Returns whether it was.
+    /// Leaves the large contact and restores the focus; returns whether it was shown.
     fn leave_contact(&mut self) -> bool {
         let is_shown = self.shows_contact();
         if is_shown {
@@ -224,7 +224,7 @@ impl Stage {
         self.focus = present::CHART;
     }
 
-    /// Shows a new user the contact where there is room for it, and begins the tour of the default preset.
+    /// Shows a new user the contact if there is room for it, or begins the tour of the default preset.
     pub fn welcome(&mut self, origin: &str) {
         if origin == FIRST {
             self.begin_tour(origin);
@@ -233,14 +233,14 @@ impl Stage {
         }
     }
 
-    /// Begins the tour of the scenario, whatever is on the screen.
+    /// Begins the tour of the scenario.
     fn begin_tour(&mut self, origin: &str) {
         self.tour = Tour::of(origin);
         self.before_tour = self.focus;
         self.follow_tour();
     }
 
-    /// Begins the tour of the scenario `origin`, or shows its next caption; returns a notice where there is none.
+    /// Begins the tour of the scenario `origin`, or shows its next caption; returns a notice if there is none.
     pub fn continue_tour(&mut self, origin: &str) -> Option<&'static str> {
         if let Some(tour) = self.tour.take() {
             self.tour = tour.next();
@@ -256,7 +256,7 @@ impl Stage {
         is_none.then_some("only presets have tours; p lists them")
     }
 
-    /// A contact that is shown large stays, and leads back to where the tour began.
+    /// Restores the focus. A contact shown large stays, and leads back to this focus later.
     fn return_from_tour(&mut self) {
         match self.shows_contact() {
             true => self.before_contact = Some(self.before_tour),
@@ -264,7 +264,7 @@ impl Stage {
         }
     }
 
-    /// The panel that the caption is about gets the focus; the contact is shown large where there is room.
+    /// Moves the focus to the panel of the caption; shows the contact large if there is room.
     fn follow_tour(&mut self) {
         let caption = self.tour.as_ref().map(Tour::caption);
         let Some(panel) = caption.and_then(Caption::panel) else {

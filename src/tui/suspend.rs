@@ -1,9 +1,11 @@
 //! Ctrl-Z: suspends the process and returns the terminal to the shell until `fg`.
 
 use std::iter::successors;
+use std::time::Duration;
+use std::{io, thread};
 
 use nix::sys::signal::{Signal, kill};
-use nix::unistd::{Pid, getpgid, getpid, getppid, getsid};
+use nix::unistd::{Pid, getpgid, getpgrp, getpid, getppid, getsid, tcgetpgrp};
 
 /// What the system gives for a process of another pid namespace, as a container has one; to
 /// [`kill`], the caller's own group.
@@ -16,6 +18,18 @@ pub fn stop() -> bool {
     is_under_job_control(getpid(), parent_of, whose) && kill(NOBODY, Signal::SIGSTOP).is_ok()
 }
 
+/// Time for the signal thread to see what came together with SIGCONT; generous, for busy machines.
+const HEARD: Duration = Duration::from_millis(250);
+
+/// Stays stopped while another job has the terminal, until the session `is_over`. Setting the terminal's modes from the
+/// background would also stop the process, but inside a system call, where only SIGKILL could end it.
+pub fn wait_for_terminal(is_over: impl Fn() -> bool) {
+    let is_behind = || tcgetpgrp(io::stdin()).is_ok_and(|front| front != getpgrp());
+    while !is_over() && is_behind() && stop() {
+        thread::sleep(HEARD);
+    }
+}
+
 /// Whether a shell waits for the group of a process: some member's parent is in the same session,
 /// in another group. (A group without one is called orphaned, and the system does not stop it
 /// either.) `whose` gives a process's group and session.
@@ -24,22 +38,20 @@ fn is_under_job_control(
     parent_of: impl Fn(Pid) -> Option<Pid>,
     whose: impl Fn(Pid) -> Option<(Pid, Pid)>,
 ) -> bool {
-    let Some(own) = whose(process) else {
-        return false;
-    };
     // More ancestors than any process has.
     let ancestors = successors(parent_of(process), |member| parent_of(*member)).take(100);
-    let other = ancestors.map(whose).find(|place| *place != Some(own));
-    other.flatten().is_some_and(|(_, session)| session == own.1)
+    let own = whose(process);
+    let other = ancestors.map(whose).find(|place| *place != own).flatten();
+    own.zip(other).is_some_and(|(own, other)| own.1 == other.1)
 }
 
-/// The parent of a process. Where the system does not tell, only one's own is known.
+/// Returns the parent of a process. If the system does not say, only the parent of this process is known.
 fn parent_of(process: Pid) -> Option<Pid> {
     let parent = if process == getpid() {
         getppid()
     } else {
         let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-        // "id (name) state parent ...", and the name may hold anything.
+        // The format is "id (name) state parent ...", and the name may contain anything.
         let (_, fields) = stat.rsplit_once(") ")?;
         Pid::from_raw(fields.split(' ').nth(1)?.parse().ok()?)
     };
@@ -83,7 +95,7 @@ mod tests {
         assert!(!waits(&[]));
         assert!(!waits(&[(4, 4, 4), (1, 1, 1)]));
         assert!(!waits(&[(9, 10, 5), (4, 4, 4)]));
-        // A parent in the container whose session is outside of it.
+        // A parent in the container whose session is outside.
         assert!(!waits(&[(1, 0, 0)]));
     }
 }

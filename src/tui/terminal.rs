@@ -13,7 +13,7 @@ use super::flow::Flow;
 use super::modes::Modes;
 use super::output::Output;
 
-/// Takes the terminal over: the alternate screen (DEC private mode 1049), and a paste is marked as one (2004).
+/// Takes over the terminal: the alternate screen (DEC private mode 1049), and marks around pasted text (2004).
 const TAKE_OVER: &str = "\x1b[?1049h\x1b[?2004h";
 
 /// Restores it: ends a synchronized update (2026) and the marks, resets the style, leaves the alternate screen, and
@@ -21,11 +21,9 @@ const TAKE_OVER: &str = "\x1b[?1049h\x1b[?2004h";
 const GIVE_BACK: &str = "\x1b[?2026l\x1b[?2004l\x1b[m\x1b[?1049l\x1b[?25h";
 
 /// Asks for presses, releases and the wheel (mode 1000), in numbers that hold on any screen (1006).
-/// The terminal is not asked for the mouse's movements: each would be bytes on the wire.
-const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1006h";
-
-/// Undoes that.
-const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1000l";
+/// The terminal is not asked for the mouse's movements: each would be bytes on the wire. The second string undoes the
+/// first.
+const MOUSE: [&str; 2] = ["\x1b[?1000h\x1b[?1006h", "\x1b[?1006l\x1b[?1000l"];
 
 /// Asks what the background is (OSC 11). The first frame does not wait for the answer, and there may be
 /// none.
@@ -33,12 +31,14 @@ const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
-    output: Output,
+    /// The way to the terminal. What is sent must draw nothing.
+    pub output: Output,
     writer: AnsiWriter,
     modes: Modes,
-    mouse: bool,
+    /// What turns the mouse on and off.
+    mouse: [&'static str; 2],
     opened: Instant,
-    /// What is known of the line to the terminal.
+    /// The state of the line to the terminal.
     pub flow: Flow,
     /// Whether the terminal was restored successfully.
     is_restored: bool,
@@ -65,12 +65,9 @@ pub fn size() -> io::Result<Size> {
     let size = Size::new(columns.min(LARGEST), rows.min(LARGEST));
     let cells = SCREENS * usize::from(size.width) * usize::from(size.height);
     // An allocation that fails later on ends the process, and leaves the terminal as it is.
-    match Vec::<Cell>::new().try_reserve_exact(cells) {
-        Ok(()) => Ok(size),
-        Err(_) => Err(io::Error::other(format!(
-            "no memory for a screen of {columns} by {rows} characters"
-        ))),
-    }
+    let refusal = format!("no memory for a screen of {columns} by {rows} characters");
+    let reserved = Vec::<Cell>::new().try_reserve_exact(cells);
+    reserved.map_or(Err(io::Error::other(refusal)), |()| Ok(size))
 }
 
 impl Screen {
@@ -81,7 +78,7 @@ impl Screen {
             output: Output::open(events)?,
             writer: AnsiWriter::default(),
             modes: Modes::note()?,
-            mouse,
+            mouse: if mouse { MOUSE } else { ["", ""] },
             opened: Instant::now(),
             flow: Flow::default(),
             is_restored: true,
@@ -93,14 +90,9 @@ impl Screen {
         Ok(screen)
     }
 
-    /// The time of the flow control: seconds since the terminal was opened.
+    /// Returns the time for the flow control: seconds since the terminal was opened.
     pub fn now(&self) -> f64 {
         self.opened.elapsed().as_secs_f64()
-    }
-
-    /// Sends a request that draws nothing.
-    pub fn send(&self, request: &str) {
-        self.output.send(request);
     }
 
     /// Starts from an empty screen of the present size. Between two drawings a terminal can have
@@ -109,25 +101,23 @@ impl Screen {
         self.writer = AnsiWriter::default();
     }
 
-    /// Gives the terminal back, for a while or for good, unless that is done. True if it has taken that.
+    /// Restores the terminal, temporarily or finally, unless already done. Returns true if the terminal accepted it.
     pub fn give_back(&mut self) -> bool {
-        if self.is_restored {
-            return true;
+        if !self.is_restored {
+            self.is_restored = self.output.finish(&[self.mouse[1], GIVE_BACK].concat());
+            self.modes.restore();
         }
-        let mouse = if self.mouse { MOUSE_OFF } else { "" };
-        self.is_restored = self.output.finish(&format!("{mouse}{GIVE_BACK}"));
-        self.modes.restore();
         self.is_restored
     }
 
-    /// Takes the terminal over, also again, as it may be anything by now.
+    /// Takes over the terminal, also after a suspension, when it may be in any state.
     pub fn take_back(&mut self) -> io::Result<()> {
         self.modes.set_raw()?;
         self.is_restored = false;
-        let mouse = if self.mouse { MOUSE_ON } else { "" };
         self.flow.forget();
         let measures = self.flow.measure(self.now());
-        self.output.send(&format!("{measures}{TAKE_OVER}{mouse}"));
+        self.output
+            .send(&[measures, TAKE_OVER, self.mouse[0]].concat());
         self.start_afresh();
         Ok(())
     }
@@ -140,7 +130,7 @@ impl Screen {
         draw(area, &mut wanted);
         let now = self.now();
         let (room, measures) = self.flow.room(now);
-        let chunk = self.writer.chunk(&wanted, room);
+        let (chunk, is_whole) = self.writer.chunk(&wanted, room);
         if !chunk.is_empty() {
             if measures {
                 self.output.send(self.flow.measure(now));
@@ -148,7 +138,7 @@ impl Screen {
             let bytes = self.output.frame(chunk);
             self.flow.sent(now, bytes);
         }
-        Ok(self.writer.shown == wanted)
+        Ok(is_whole)
     }
 }
 

@@ -1,5 +1,5 @@
-//! The timeline under the title: cycles done and planned, changes and snapshots as ticks, and the moment on the
-//! screen. `[` and `]` move along it, and so does a click.
+//! The timeline below the title: cycles done and planned, changes and snapshots as ticks, and the shown moment. `[` and
+//! `]` move along it, and so does a click.
 //!
 //! ```text
 //!  0 ━━━━━━━━━▼━━━━━━━●━━━◆━━━━━━────────────────── 200   at cycle 40: friction.coefficient = 0.2
@@ -12,10 +12,10 @@ use super::frame::Frame;
 use crate::charts::round_end;
 use crate::plot::theme::Role;
 
-/// The cells that words leave to the line, where half of the row is not enough for them.
+/// Minimum width of the line, if the text needs more than half of the row.
 const LEAST: u16 = 30;
 
-/// The cycle of the present, and the one at which the line ends.
+/// Returns the present cycle, and the cycle at the end of the line.
 fn ends(frame: &Frame) -> [f64; 2] {
     let now = frame.present.unwrap_or(frame.observation.moment.cycle);
     let end = match frame.facts.scenario.run().cycles {
@@ -25,13 +25,13 @@ fn ends(frame: &Frame) -> [f64; 2] {
     [now, end]
 }
 
-/// Cycles with two decimals at most.
+/// Rounds a cycle to two decimals.
 fn short(cycle: f64) -> f64 {
     (100.0 * cycle).round() / 100.0
 }
 
-/// The last change up to the moment on the screen, in as many words as fit: where it was made is seen on the line,
-/// and the end of a key tells more than its beginning.
+/// Describes the last change before the shown moment in as many words as fit. The cycle can be seen on the line, and
+/// the end of a key says more than its beginning.
 fn edit(frame: &Frame, room: usize) -> Option<String> {
     let shown = frame.observation.moment.cycle + 1e-9;
     let mut latest_first = frame.changes.iter().rev();
@@ -45,7 +45,7 @@ fn edit(frame: &Frame, room: usize) -> Option<String> {
     Some(fits.unwrap_or(set).to_owned())
 }
 
-/// The words behind the line, and the line's own cells.
+/// Returns the text after the line, and the area of the line.
 fn parts(frame: &Frame, area: Rect) -> (String, Rect) {
     let mut words = format!(" {}", short(ends(frame)[1]));
     let room = usize::from((area.width / 2).max(area.width.saturating_sub(LEAST)));
@@ -57,7 +57,7 @@ fn parts(frame: &Frame, area: Rect) -> (String, Rect) {
     (words, Rect::new(area.x + 3, area.y, width, area.height))
 }
 
-/// The cycle under a place of the screen, where the timeline in `area` is there.
+/// Returns the cycle at a place of the screen, if it is on the timeline in `area`.
 pub fn cycle_at(frame: &Frame, area: Rect, at: Position) -> Option<f64> {
     let (_, line) = parts(frame, area);
     let share = (f64::from(at.x) + 0.5 - f64::from(line.x)) / f64::from(line.width);

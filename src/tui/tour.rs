@@ -7,38 +7,38 @@ use super::canvas::Canvas;
 use super::panels::Panel;
 use crate::plot::theme::Role;
 
-/// The default preset, whose tour begins by itself.
+/// The default preset, whose tour begins automatically.
 pub const FIRST: &str = "li2019-fig3";
 
-/// A caption.
+/// One caption of a tour.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Caption {
-    /// The title of the panel that gets the focus.
+    /// The title of the panel to focus.
     panel: Option<String>,
-    /// What it says.
+    /// The text.
     pub text: String,
-    /// Whether the panel has a logarithmic scale in this preset, unless the user chooses the other.
+    /// Whether the panel has a logarithmic scale in this preset, unless the user changes it.
     #[serde(default)]
     log: bool,
 }
 
 impl Caption {
-    /// The panel that gets the focus.
+    /// Returns the panel to focus.
     pub fn panel(&self) -> Option<Panel> {
         Panel::titled(self.panel.as_deref()?)
     }
 }
 
 static TOURS: LazyLock<HashMap<String, Vec<Caption>>> =
-    LazyLock::new(|| toml::from_str(include_str!("tours.toml")).unwrap_or_default());
+    LazyLock::new(|| toml::from_str(include_str!("tours.toml")).expect("tours are TOML"));
 
-/// The captions of a preset; `None` for other scenarios.
+/// Returns the captions of a preset; empty for other scenarios.
 pub fn captions(origin: &str) -> &'static [Caption] {
     TOURS.get(origin).map_or(&[], Vec::as_slice)
 }
 
-/// The panels that a preset shows on a logarithmic scale.
+/// Returns the panels that a preset shows on a logarithmic scale.
 pub fn logarithmic(origin: &str) -> impl Iterator<Item = Panel> {
     let asked = captions(origin).iter().filter(|caption| caption.log);
     asked.filter_map(Caption::panel)
@@ -52,19 +52,19 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// The tour of a scenario by its name; `None` where there is none.
+    /// Returns the tour of a scenario by its name; `None` if it has none.
     pub fn of(origin: &str) -> Option<Self> {
         let (origin, _) = TOURS.get_key_value(origin)?;
         Some(Self { origin, at: 0 })
     }
 
-    /// The tour at its next caption; `None` after the last.
+    /// Returns the tour at its next caption; `None` after the last.
     pub fn next(self) -> Option<Self> {
         let at = self.at + 1;
         (at < captions(self.origin).len()).then_some(Self { at, ..self })
     }
 
-    /// The caption that is shown.
+    /// Returns the present caption.
     pub fn caption(&self) -> &'static Caption {
         &captions(self.origin)[self.at]
     }

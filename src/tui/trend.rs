@@ -1,19 +1,19 @@
-//! The explorer's record of a run, cycle by cycle: older ones ever more coarsely.
+//! The explorer's record of a run, cycle by cycle; older cycles are kept ever more coarsely.
 
 use std::array::from_fn;
 use std::sync::Arc;
 
 use super::loops::Loops;
 use crate::charts::Run;
-use crate::export::{history, state};
+use crate::export::history;
 use crate::math::scan::largest;
-use crate::reading::{Moment, Observation};
+use crate::reading::{Column, Moment, Observation};
 use crate::scenario::scalars::{Reading, scar_radius};
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
 use crate::traces::Table;
 
-/// A run, and what is known of its past.
+/// A run with its past.
 #[derive(Debug, Clone)]
 pub struct Recorded {
     /// The run.
@@ -23,7 +23,7 @@ pub struct Recorded {
 }
 
 impl From<Session> for Recorded {
-    /// The record begins with the present moment.
+    /// Begins the record with the present moment.
     fn from(session: Session) -> Self {
         let mut trend = Trend::default();
         trend.record(&session);
@@ -37,19 +37,18 @@ impl Recorded {
         self.session.simulation()
     }
 
-    /// Where it stands.
+    /// Returns the present cycle.
     pub fn cycle(&self) -> f64 {
         self.simulation().cycle()
     }
 
-    /// What charts are made of: what is `seen` of the present moment, and the past.
+    /// Returns the data for charts: `seen` at the present moment, and the past.
     pub fn charted(&self, seen: &Observation) -> Run {
         let moment = &seen.moment;
-        let header = vec![("cycle".to_owned(), moment.cycle.to_string())];
         let moves = moment.stick_radius.is_some();
         let last = moves.then(|| self.trend.loops.last(moment.cycle));
         Run {
-            states: vec![Table::of_columns(header, state::columns(seen))],
+            states: vec![Arc::clone(&seen.columns)],
             history: Some(self.trend.history()),
             loops: last.into_iter().collect(),
             geometry: seen.geometry,
@@ -57,10 +56,10 @@ impl Recorded {
         }
     }
 
-    /// One step or jump that ends at `goal` at the latest, and is recorded.
+    /// Takes and records one step or jump, at most to `goal`.
     ///
     /// # Errors
-    /// Whatever stops the run.
+    /// The error that stops the run.
     pub fn step_until(&mut self, goal: f64) -> Result<(), SessionError> {
         self.session.step_until(goal)?;
         self.trend.record(&self.session);
@@ -68,45 +67,45 @@ impl Recorded {
     }
 }
 
-/// Maximum number of cycles stored one by one; then neighbours are merged in pairs.
+/// Maximum number of cycles stored individually; then neighbours are merged in pairs.
 const CAPACITY: usize = 2048;
 
-/// What is left of a value where two cycles are merged: extremes survive.
+/// Merges a value of two cycles; extremes survive.
 type Merge = fn(f64, f64) -> f64;
 
 const LAST: Merge = |_, later| later;
 
 /// The columns of a history, by their names in `history.csv` where they are there.
-pub const COLUMNS: [(&str, Merge); 11] = [
-    ("cycle", LAST),
-    ("contact_radius_m", f64::max),
-    ("permanent_stick_radius_m", f64::min),
-    ("wear_volume_m3", LAST),
-    ("scar_depth_m", LAST),
-    ("scar_radius_m", LAST),
-    ("dissipated_energy_J", LAST),
-    ("energy_residual", LAST),
-    ("step_cost_s", f64::max),
+pub const COLUMNS: [(Column, Merge); 11] = [
+    (Column::Cycle, LAST),
+    (Column::ContactRadius, f64::max),
+    (Column::PermanentStickRadius, f64::min),
+    (Column::WearVolume, LAST),
+    (Column::ScarDepth, LAST),
+    (Column::ScarRadius, LAST),
+    (Column::DissipatedEnergy, LAST),
+    (Column::EnergyResidual, LAST),
+    (Column::StepCost, f64::max),
     // Of the last whole cycle.
-    ("u_x_amplitude_m", LAST),
-    ("mean_F_z_N", LAST),
+    (Column::ShiftAmplitude, LAST),
+    (Column::MeanNormalForce, LAST),
 ];
 
 const VOLUME: usize = 3;
 const AMPLITUDE: usize = 9;
 const LOAD: usize = 10;
 
-/// One cycle, or several that were merged; NaN where a value is not known.
+/// One cycle, or several merged ones; NaN for unknown values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cycle {
-    /// Its values in the order of the [`COLUMNS`].
+    /// Its values, in the order of the [`COLUMNS`].
     pub values: [f64; COLUMNS.len()],
-    /// The fields of its end in `history.csv`; none while it is unfinished.
+    /// The fields of its end in `history.csv`; `None` while it is incomplete.
     pub fields: Option<Arc<[String]>>,
 }
 
 impl Cycle {
-    /// Where it ends.
+    /// Returns its end.
     pub fn end(&self) -> f64 {
         self.values[0]
     }
@@ -123,28 +122,28 @@ impl Cycle {
 #[derive(Debug, Clone, Default)]
 pub struct Trend {
     cycles: Vec<Arc<Cycle>>,
-    /// The unfinished one.
+    /// The incomplete cycle.
     open: Option<Arc<Cycle>>,
-    /// How many cycles an entry stands for.
+    /// Number of cycles per entry.
     stride: f64,
-    /// The time per step from now on, s.
+    /// The time per step for new entries, s.
     pub step_cost: Option<f64>,
-    /// Cycle and worn volume (m³) of the first moment.
+    /// Cycle and worn volume (m³) at the first moment.
     start: Option<[f64; 2]>,
-    /// Fretting loops.
+    /// The fretting loops.
     pub loops: Loops,
 }
 
 impl Trend {
-    /// A past of `cycles`, oldest first, and of the [steps](Loops::steps) of the last one. The run began with a worn
-    /// volume `initial` (m³).
+    /// Restores a past from `cycles`, oldest first, and the [steps](Loops::steps) of the last one. The run began with a
+    /// worn volume `initial` (m³).
     pub fn of_past(
         cycles: impl Iterator<Item = Cycle>,
         steps: impl Iterator<Item = [f64; 4]>,
         initial: f64,
     ) -> Self {
         let mut cycles: Vec<_> = cycles.take(CAPACITY - 1).map(Arc::new).collect();
-        // What is not whole yet stays open.
+        // An incomplete last cycle stays open.
         let whole = cycles.iter().rev().nth(1).map_or(0.0, |entry| entry.end());
         let is_open = |last: &mut Arc<Cycle>| last.end() < whole + 1.0 - 1e-9;
         let mut trend = Self {
@@ -157,18 +156,18 @@ impl Trend {
         trend
     }
 
-    /// Its memory beside that of another one, with which it shares its first cycles or none; bytes.
+    /// Returns its memory in bytes, not counting the cycles that it shares with `other`.
     pub fn bytes_beside(&self, other: Option<&Self>) -> usize {
         let first = |trend: &Self| trend.cycles.first().map(Arc::as_ptr);
         let other = other.filter(|other| first(other) == first(self));
         let shared = other.map_or(0, |other| other.cycles.len());
-        let fields = 32 * history::COLUMNS.len();
+        let fields = 32 * Column::HISTORY.len();
         let own = self.cycles.len().saturating_sub(shared) * (size_of::<Cycle>() + fields);
         let places = size_of::<Arc<Cycle>>() * self.cycles.len();
         own + places + size_of::<[f64; 4]>() * self.loops.steps.len()
     }
 
-    /// Takes in the moment after a step.
+    /// Records the moment after a step.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
         let radius = scar_radius(simulation).unwrap_or(f64::NAN);
@@ -176,7 +175,7 @@ impl Trend {
         let mut moment = simulation.moment();
         if simulation.has_jumped() {
             self.loops.record_jump(simulation);
-            // Of the moments of the last cycle only its end is here.
+            // A jump knows only the end of the last cycle.
             moment.stick_radius = moment.permanent_stick_radius;
         } else {
             self.loops.record(&moment);
@@ -192,8 +191,8 @@ impl Trend {
         }
     }
 
-    /// Takes in a moment, and the largest worn depth and the outer radius of the scar then, m; returns true where it
-    /// ends an entry.
+    /// Adds a moment, with the largest worn depth and the outer radius of the scar, m; returns true if it completes an
+    /// entry.
     fn take(&mut self, moment: &Moment, [depth, radius]: [f64; 2]) -> bool {
         let [start, _] = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
         let before = self.cycles.last().map(|last| last.values);
@@ -235,29 +234,29 @@ impl Trend {
         true
     }
 
-    /// The cycles so far, the unfinished one included, oldest first.
+    /// Returns the cycles so far, including the incomplete one, oldest first.
     pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
         self.cycles.iter().chain(&self.open).map(Arc::as_ref)
     }
 
-    /// Whether the last of them is unfinished.
+    /// Whether the last cycle is incomplete.
     pub fn is_within_a_cycle(&self) -> bool {
         self.open.is_some()
     }
 
-    /// The cycles so far as columns, and the volume that is worn in a cycle, on average over each entry.
+    /// Returns the cycles so far as columns, with the mean wear volume per cycle in each entry.
     pub fn history(&self) -> Table {
         let columns = COLUMNS.into_iter().enumerate();
-        let columns = columns.map(|(k, (name, _))| {
+        let columns = columns.map(|(k, (column, _))| {
             let values = self.cycles().map(|entry| entry.values[k]);
-            (name, values.collect())
+            (column, values.collect())
         });
         let start = self.start.unwrap_or_default();
         let rates = self.cycles().scan(start, |before, entry| {
             let [cycle, volume] = std::mem::replace(before, [entry.end(), entry.values[VOLUME]]);
             Some((before[1] - volume) / (before[0] - cycle))
         });
-        let rates = ("wear_rate_m3", rates.collect());
+        let rates = (Column::WearRate, rates.collect());
         Table::of_columns(Vec::new(), columns.chain([rates]))
     }
 }

@@ -1,40 +1,39 @@
-//! History for time travel: whole states to return to, within a memory limit.
+//! History for time travel: whole states to return to, within a limit of memory.
 //!
-//! A state is stored at the end of a cycle, after every manual step and before every change. States
-//! stand in the order in which the user saw them: a branch, a restart or another scenario begins a
-//! new stretch behind the one it leaves, so that the way back leads through all of them. When the
-//! memory is full, states are thinned where they are closest for their age, so that the recent past
-//! stays dense and the early past never vanishes. A state holds the whole session: a run continued
-//! from it is the same to the last bit, without later changes.
+//! A state is stored at the end of a cycle, after every manual step and before every change. States are in the order in
+//! which the user saw them: a branch, a restart or another scenario begins a new stretch after the one it leaves, so
+//! that the way back leads through all of them. When the memory is full, states are thinned where they are closest for
+//! their age, so that the recent past stays dense and the early past never vanishes. A state holds the whole session,
+//! so a run continued from it is bit for bit the same, without later changes.
 
 use std::sync::Arc;
 
 use super::autosave::mark;
 use super::trend::Recorded;
 
-/// The memory for the past, bytes.
+/// The memory limit for the past, bytes.
 const BUDGET: usize = 64 << 20;
 
-/// Arrays of nodal values that a session holds, rounded up.
+/// Upper bound of the number of nodal arrays in a session.
 const ARRAYS: usize = 40;
 
-/// Arrays of nodal values that the operators of a method in the fast form hold, rounded up.
+/// Upper bound of the number of nodal arrays in the operators of a method in its fast form.
 const FAST_ARRAYS: usize = 200;
 
-/// What a session holds beside nodal values: its texts and tables, in bytes.
+/// Memory of a session besides nodal values, for texts and tables, in bytes.
 const TEXTS: usize = 24 << 10;
 
-/// What a session holds for each change made to it, in bytes.
+/// Memory of a session for each change made to it, in bytes.
 const CHANGE: usize = 256;
 
 /// One state of the past.
 #[derive(Debug)]
 pub(super) struct Kept {
-    /// The run as it was.
+    /// The run at that time.
     pub run: Recorded,
-    /// The stretch it belongs to: between two branches, nothing goes backwards.
+    /// The stretch that it belongs to. Within a stretch, time never goes backwards.
     stretch: u32,
-    /// The scenario it belongs to: a restart begins another, too.
+    /// The scenario that it belongs to. A restart also counts as a new one.
     scenario: u32,
 }
 
@@ -43,8 +42,8 @@ impl Kept {
         self.run.cycle()
     }
 
-    /// An upper bound of what it holds and the state `after` it does not, in bytes. A run plans its operators again for
-    /// another method or grid; those of the newest state are in use in any case.
+    /// Returns an upper bound, in bytes, of its memory that is not shared with the state `after`. Operators are shared
+    /// unless method or grid differ; the newest state's operators do not count, because they are in use anyway.
     fn bytes(&self, after: Option<&Self>) -> usize {
         let setup = self.run.simulation().setup();
         let nodes = setup.grid.len();
@@ -69,26 +68,26 @@ impl Kept {
     }
 }
 
-/// What was on the screen and in the files before a branch.
+/// What a branch leaves.
 pub(super) struct Left {
-    /// The state at the end of the stretch that is left.
+    /// The state at the end of the stretch.
     pub end: Arc<Kept>,
-    /// Whether the branch belongs to another run than that.
+    /// Whether the branch belongs to another run.
     pub is_other_run: bool,
 }
 
-/// The states of the past, oldest first, and the one on the screen.
+/// The states of the past, oldest first, and which of them is on the screen.
 #[derive(Debug, Default)]
 pub(super) struct Past {
     kept: Vec<Arc<Kept>>,
-    /// The state on the screen; `None` at the present.
+    /// The index of the state on the screen; `None` at the present.
     at: Option<usize>,
     stretch: u32,
     scenario: u32,
 }
 
 impl Past {
-    /// Keeps the present state, once.
+    /// Stores the present state, but no state twice.
     pub fn keep(&mut self, run: &Recorded) {
         if self.at.is_some() || self.is_kept(run) {
             return;
@@ -105,8 +104,8 @@ impl Past {
         self.make_room(BUDGET);
     }
 
-    /// Thins the past, then drops the oldest states, until it takes at most `budget` bytes. The last
-    /// state stays, and the first as long as possible.
+    /// Thins the past, then drops the oldest states, until it takes at most `budget` bytes. The last state stays, and
+    /// the first as long as possible.
     fn make_room(&mut self, budget: usize) {
         while self.kept.len() > 2 && self.bytes() > budget {
             let least = self.least_missed().unwrap_or(0);
@@ -115,14 +114,14 @@ impl Past {
         }
     }
 
-    /// Whether the newest state is the present one: no step and no change since.
+    /// Whether the newest state is the present one, with no step or change since.
     fn is_kept(&self, run: &Recorded) -> bool {
         self.kept.last().is_some_and(|last| {
             last.stretch == self.stretch && mark(&last.run.session) == mark(&run.session)
         })
     }
 
-    /// An upper bound of the memory in use, bytes.
+    /// Returns an upper bound of the memory in use, bytes.
     fn bytes(&self) -> usize {
         let mut after = None;
         let newest_first = self.kept.iter().rev();
@@ -131,10 +130,10 @@ impl Past {
             .sum()
     }
 
-    /// The state that is missed least: the one in the smallest gap for its age within its stretch.
-    /// The ends of a stretch stay; `None` where there is nothing else.
+    /// Returns the most dispensable state: the one in the smallest gap for its age within its stretch. The ends of a
+    /// stretch stay; `None` if there are no others.
     fn least_missed(&self) -> Option<usize> {
-        // The cycles that the user has seen since, later stretches included.
+        // The number of cycles that the user has seen since, including later stretches.
         let mut age = 0.0;
         let inner = (1..self.kept.len().saturating_sub(1)).rev();
         let gaps = inner.filter_map(|i| {
@@ -148,18 +147,18 @@ impl Past {
         least.map(|(_, i)| i)
     }
 
-    /// Goes one state back; `None` at the start. The present must have been stored.
+    /// Goes back one state; `None` at the start. The present must have been stored.
     pub fn back(&mut self) -> Option<Arc<Kept>> {
         let now = self.at.or(self.kept.len().checked_sub(1))?;
         self.go_to(now.checked_sub(1)?)
     }
 
-    /// Goes one state forward; `None` at the present.
+    /// Goes forward one state; `None` at the present.
     pub fn forth(&mut self) -> Option<Arc<Kept>> {
         self.go_to(self.at? + 1)
     }
 
-    /// Goes to the state of the shown run that is nearest to `cycle`, the latest of them. The present must have
+    /// Goes to the state of the shown run nearest to `cycle`, the latest if there are several. The present must have
     /// been stored.
     pub fn visit(&mut self, cycle: f64) -> Option<Arc<Kept>> {
         let shown = self.at.or(self.kept.len().checked_sub(1))?;
@@ -170,7 +169,7 @@ impl Past {
         self.go_to(of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?)
     }
 
-    /// Goes this many states forward, or back, but not beyond the ends; `None` where it is there already.
+    /// Goes this many states forward (or back if negative), but not beyond the ends; `None` if it is already there.
     pub fn go(&mut self, places: isize) -> Option<Arc<Kept>> {
         let last = self.kept.len().checked_sub(1)?;
         let now = self.at.unwrap_or(last);
@@ -183,11 +182,10 @@ impl Past {
         self.go_to(self.kept.len().checked_sub(1)?)
     }
 
-    /// Goes to the latest state at `cycle` or before it on the way that has led to the present, which must have been
-    /// stored.
+    /// Goes to the latest state at or before `cycle` on the way that led to the present, which must have been stored.
     pub fn visit_before(&mut self, cycle: f64) -> Option<Arc<Kept>> {
         let scenario = self.kept.last()?.scenario;
-        // A stretch that was left goes on beyond the branch.
+        // A stretch that was left continues beyond the branch.
         let mut limit = f64::INFINITY;
         let mut latest_first = (0..self.kept.len()).rev().filter(|&at| {
             let kept = &self.kept[at];
@@ -217,26 +215,26 @@ impl Past {
         self.make_room(BUDGET);
     }
 
-    /// Goes to a state, of which the last is the present.
+    /// Goes to a state; the last one is the present.
     fn go_to(&mut self, at: usize) -> Option<Arc<Kept>> {
         self.at = (at + 1 < self.kept.len()).then_some(at);
         self.kept.get(at).cloned()
     }
 
-    /// The run at the present, whatever is on the screen: the state worth saving.
+    /// Returns the run at the present, whatever is on the screen: the state worth saving.
     pub fn line<'a>(&'a self, shown: &'a Recorded) -> &'a Recorded {
         let last = self.kept.last().filter(|_| self.at.is_some());
         last.map_or(shown, |kept| &kept.run)
     }
 
-    /// The cycle of the present, while the screen is in the past.
+    /// Returns the cycle of the present, while the screen shows the past.
     pub fn present(&self) -> Option<f64> {
         self.at?;
         self.kept.last().map(|kept| kept.cycle())
     }
 
-    /// Makes the state on the screen the present, in a stretch of its own behind the one that it
-    /// leaves. Returns what that was, if the screen was in the past.
+    /// Makes the state on the screen the present, in a new stretch after the one that it leaves. Returns what it
+    /// leaves, if the screen was in the past.
     pub fn branch(&mut self) -> Option<Left> {
         let from = Arc::clone(self.kept.get(self.at.take()?)?);
         let end = Arc::clone(self.kept.last()?);
@@ -247,7 +245,7 @@ impl Past {
         Some(Left { end, is_other_run })
     }
 
-    /// Another run follows the present one, which must have been stored.
+    /// Prepares for another run after the present one, which must have been stored.
     pub fn leave(&mut self) {
         self.at = None;
         self.stretch += 1;
@@ -262,7 +260,7 @@ mod tests {
     use crate::scenario::session::Session;
     use crate::tui::trend::Trend;
 
-    /// A state whose past is not known.
+    /// Stores a state without a recorded past.
     fn keep(past: &mut Past, session: &Session) {
         past.keep(&Recorded {
             session: session.clone(),
@@ -279,7 +277,7 @@ mod tests {
         Session::start(scenario).expect("a contact")
     }
 
-    /// A run whose every cycle up to `end` is kept.
+    /// Returns a run whose cycles up to `end` are all stored.
     fn run_to(end: u32) -> (Session, Past) {
         let (mut session, mut past) = (session(), Past::default());
         for cycle in 0..=end {
@@ -375,7 +373,7 @@ mod tests {
         session.advance_to(5.0).expect("a step");
         keep(&mut past, &session);
         assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0, 3.0, 5.0]);
-        // The second and third state belong to what was left.
+        // The second and third state belong to the stretch that was left.
         assert_eq!(at(past.visit_before(2.9)), Some(1.0));
         assert_eq!(past.at, Some(4));
         past.insert(past.kept[2].run.clone());

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::closed_forms::dual_oscillation::Frequencies;
 use mdr_tui::math::grid::interpolate;
-use mdr_tui::oracle::dual_oscillation::Frequencies;
 use mdr_tui::reading::{Subject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;

@@ -4,6 +4,7 @@
 //! Lengths are in a₀ or d₀ throughout; each bound is a target, not a measured value, unless its test
 //! says so.
 
+use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
 use crate::common::{
     Scene, apart, as_published, cattaneo, fig3_motion, force, holds, in_steps, largest, limit,
     load, ours, rms, run, run_setup, swing,
@@ -12,7 +13,6 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B};
 use mdr_tui::math::abel::worn;
 use mdr_tui::math::grid::interpolate;
-use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Log};
 use mdr_tui::simulation::{Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};
@@ -41,7 +41,7 @@ fn held_stick_radius(friction: f64, poisson: f64, amplitude: f64) -> f64 {
 fn limit_error(simulation: &Simulation, stick_radius: f64) -> f64 {
     let limit = limit(stick_radius);
     let seen = simulation.observe(Curves::PROFILE);
-    let nodes = seen.radii.iter().zip(&seen.profile);
+    let nodes = seen.radii().iter().zip(seen.profile());
     rms(nodes.map(|(&r, f)| f - limit.profile(r)))
 }
 
@@ -120,7 +120,7 @@ fn cattaneo_errors(scene: Scene, ours_too: bool, steps: u32) -> [f64; 3] {
     assert_eq!(simulation.state().steps, u64::from(steps));
     let seen = simulation.observe(Curves::SHEAR);
     let (mut worst, mut peak) = (0.0, 0.0);
-    for (&r, tau) in seen.radii.iter().zip(&seen.shear) {
+    for (&r, tau) in seen.radii().iter().zip(seen.shear()) {
         let exact = theory.shear_stress(r);
         worst = f64::max(worst, (tau - exact).abs());
         peak = f64::max(peak, exact);
@@ -464,7 +464,7 @@ fn is_finite_and_worn_down(simulation: &Simulation) {
     let seen = simulation.observe(Curves::all());
     let told = format!("{seen:?}");
     assert!(!told.contains("NaN") && !told.contains("inf"), "{told}");
-    assert!(seen.wear.iter().all(|&worn| worn >= 0.0));
+    assert!(seen.wear().iter().all(|&worn| worn >= 0.0));
     assert!(seen.moment.wear_volume > 0.0);
 }
 
@@ -505,9 +505,9 @@ fn gross_slip_wears_the_tip_and_unloads() {
     holds("F_z of the fresh contact that is left", force / fresh, 0.25);
     let seen = simulation.observe(Curves::PROFILE);
     let published = run(scene.method(A), 20.0).observe(Curves::PROFILE);
-    let at = |r: &f64| interpolate(&seen.radii, &seen.profile, *r);
-    let here: Vec<f64> = published.radii.iter().map(at).collect();
-    let apart = apart(&here, &published.profile);
+    let at = |r: &f64| interpolate(seen.radii(), seen.profile(), *r);
+    let here: Vec<f64> = published.radii().iter().map(at).collect();
+    let apart = apart(&here, published.profile());
     holds("f against a", apart, 0.02);
 }
 

@@ -67,17 +67,17 @@ fn the_numbers_of_the_files_read_back_exactly() {
     let seen = session.simulation().observe(Curves::all());
     let table = dir.table("x/state.csv");
     for (name, values) in [
-        ("r_m", &seen.radii[..]),
-        ("f0_m", &seen.unworn[..]),
-        ("f_m", &seen.profile[..]),
-        ("g_m", &seen.profile_1d[..]),
-        ("q_z_N_per_m", &seen.normal_load[..]),
-        ("q_x_N_per_m", &seen.tangential_load[..]),
-        ("p_Pa", &seen.pressure[..]),
-        ("tau_Pa", &seen.shear[..]),
-        ("u_x_1d_m", &seen.spring[..]),
-        ("u_x_m", &seen.surface[..]),
-        ("wear_m", &seen.wear[..]),
+        ("r_m", seen.radii()),
+        ("f0_m", seen.unworn()),
+        ("f_m", seen.profile()),
+        ("g_m", seen.profile_1d()),
+        ("q_z_N_per_m", seen.normal_load()),
+        ("q_x_N_per_m", seen.tangential_load()),
+        ("p_Pa", seen.pressure()),
+        ("tau_Pa", seen.shear()),
+        ("u_x_1d_m", seen.spring()),
+        ("u_x_m", seen.surface()),
+        ("wear_m", seen.wear()),
     ] {
         assert_eq!(bits(&table.column(name)), bits(values), "{name}");
     }

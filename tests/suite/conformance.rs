@@ -8,11 +8,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::closed_forms::pair_catalogue::Transform::{LineToSurface, LoadToStress, ProfileToMdr};
+use crate::closed_forms::pair_catalogue::{PAIRS, Pair};
 use crate::common::largest;
 use mdr_tui::math::abel::{AbelMethod, AbelPlan};
 use mdr_tui::math::grid::RadialGrid;
-use mdr_tui::oracle::pair_catalogue::Transform::{LineToSurface, LoadToStress, ProfileToMdr};
-use mdr_tui::oracle::pair_catalogue::{PAIRS, Pair};
 
 /// Errors below this part of the largest value are rounding: such a pair is reproduced exactly.
 const EXACT: f64 = 1e-9;

@@ -186,6 +186,45 @@ fn jumps_go_on_after_a_hard_place() {
     assert!(run.steps() < 20 * 75, "{} steps: {stats:?}", run.steps());
 }
 
+/// Neither narrow cells nor cycles in which hardly anything wears any more ask for more jumps: their length is bound by
+/// their error, and not by stiffness.
+#[test]
+fn stiffness_does_not_bind_jumps() {
+    let looked_at = |preset, points: &str, cycles| {
+        let points = format!("numerics.points={points}");
+        let jumping = ["numerics.integrator=cycle-jump", "numerics.tolerance=1e-3"];
+        let steps = "numerics.steps_per_cycle=24";
+        let overrides = [&jumping[..], &[&points, steps]].concat();
+        let run = run_setup(load(preset, &overrides).setup().clone(), cycles);
+        run.state().stats.evaluated_cycles
+    };
+    for preset in ["strong-wear", "li2019-fig3", "limit-shape"] {
+        let [some, all] = [1e4, 1e6].map(|cycles| looked_at(preset, "100", cycles));
+        assert!(2 * all < 3 * some, "{preset}: {some} {all}");
+    }
+    let [wide, narrow] = ["100", "400"].map(|points| looked_at("strong-wear", points, 2000.0));
+    assert!(2 * narrow < 3 * wide, "{wide} {narrow}");
+}
+
+/// Where jumps are implicit, their error follows the tolerance as well.
+#[test]
+fn a_stiff_scar_is_jumped_as_well() {
+    let overrides = [
+        "numerics.integrator=cycle-jump",
+        "numerics.steps_per_cycle=24",
+    ];
+    let mut setup = load("strong-wear", &overrides).setup().clone();
+    let fine = run_setup(jumping(&setup, 1e-6), 2000.0);
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        setup = jumping(&setup, tolerance);
+        let run = run_setup(setup.clone(), 2000.0);
+        let [rms, _] = difference(&fine, &run).map(|error| error / 1e-6);
+        holds(&format!("rms at {tolerance}"), rms, tolerance);
+        let volume = (run.wear_volume() / fine.wear_volume() - 1.0).abs();
+        holds(&format!("volume at {tolerance}"), volume, 3.0 * tolerance);
+    }
+}
+
 #[test]
 fn motions_that_never_repeat_are_stepped() {
     let setup = ours(Scene::fig3(0.01).normal(swing(1.0, 0.1, SQRT_2, 0.0)));

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use crate::closed_forms::half_space::by_point_forces;
 use crate::common::{Scene, holds, ours, run_setup};
 use crate::test_dir::TestDir;
-use mdr_tui::oracle::half_space::by_point_forces;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
 use mdr_tui::reading::subsurface::Stress;

@@ -47,7 +47,12 @@ fn exact() -> [(&'static str, Vec<(f64, f64)>); 2] {
     let points = period.points.iter().step_by(period.points.len() / 20);
     let fretting_loop = points.map(|at| (at.shift, at.tangential_force)).collect();
     let seen = session.simulation().observe(Curves::PROFILE);
-    let scar = seen.radii.iter().copied().zip(seen.wear).collect();
+    let scar = seen
+        .radii()
+        .iter()
+        .copied()
+        .zip(seen.wear().iter().copied())
+        .collect();
     [("r_m,wear_m", scar), ("u_m,F_N", fretting_loop)]
 }
 
@@ -92,7 +97,7 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
 #[test]
 fn the_errors_of_k_and_mu_are_honest_both_ways() {
     let (exact, mut noise) = (exact(), Noise(Random::new(7)));
-    let mut within = [0; 2];
+    let (mut within, mut remarks) = ([0; 2], 0);
     for _ in 0..100 {
         let fitted = fitted(&with_noise(&exact, 0.02, &mut noise), false);
         for (i, (key, expected)) in TRUE.into_iter().enumerate() {
@@ -104,8 +109,12 @@ fn the_errors_of_k_and_mu_are_honest_both_ways() {
             let share = error / expected;
             assert!((1e-4..0.05).contains(&share), "{key}: {share:e}");
         }
-        assert!(fitted.remarks.is_empty(), "{:?}", fitted.remarks);
+        // A χ² above 2 is always said; of 17 points it comes by chance.
+        remarks += fitted.remarks.len();
+        let is_chance = |remark: &String| remark.contains("may be no noise");
+        assert!(fitted.remarks.iter().all(is_chance), "{:?}", fitted.remarks);
     }
+    assert!(remarks <= 5, "{remarks} of 100 are said to be no noise");
     eprintln!("within two standard errors: {within:?} of 100");
     let is_honest = within.iter().all(|count| (90..=99).contains(count));
     assert!(is_honest, "{within:?}");

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use mdr_tui::reading::Column;
+
 /// A floor's height; none for what is not a floor. `cli` stands on `tui`, `oracle` beside them all.
 fn height(floor: &str) -> Option<u8> {
     Some(match floor {
@@ -30,6 +32,11 @@ fn faults(floor: &str, text: &str) -> Vec<String> {
         .filter(|target| !may_import(floor, target))
         .map(|target| format!("{floor} imports {target}"))
         .collect();
+    if code.contains("use super::*") {
+        faults.push(format!(
+            "{floor} imports all that its parent has, so that no line tells what it needs"
+        ));
+    }
     if floor == "oracle" {
         faults.extend(foreign_to_the_judge(&code));
     }
@@ -216,6 +223,27 @@ fn every_import_points_downwards() {
     }
     assert!(seen > 30, "only {seen} files were read");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A column's name stands in its table alone; elsewhere code asks by [`Column`].
+#[test]
+fn names_of_columns_stand_in_one_table() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    // Names of one word are words of other things, too.
+    let names = Column::ALL.iter().map(|column| column.name());
+    let quoted = names.filter(|name| name.contains('_'));
+    let quoted: Vec<String> = quoted.map(|name| format!("\"{name}\"")).collect();
+    for file in sources(&root).iter().filter(|file| !is_test_file(file)) {
+        let text = without_tests(&fs::read_to_string(file).expect("a source"));
+        let found = quoted.iter().filter(|name| text.contains(*name)).count();
+        let is_table = file.ends_with("reading/column.rs");
+        assert_eq!(
+            found,
+            if is_table { quoted.len() } else { 0 },
+            "{}",
+            file.display()
+        );
+    }
 }
 
 /// `floors.txt` has code of floors, and whether it is wrong.

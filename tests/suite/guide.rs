@@ -96,7 +96,13 @@ fn examples_that_can_run_do() {
 /// The files of a rig that `guide measuring` reads, and its scenario.
 fn files_of_the_chapter_on_measuring(dir: &TestDir, text: &str) {
     dir.write("record.txt", include_bytes!("../fixtures/rig/record.txt"));
-    dir.write("trace.csv", include_bytes!("../fixtures/rig/trace.csv"));
+    for trace in ["trace.csv", "a.csv", "b.csv"] {
+        dir.write(trace, include_bytes!("../fixtures/rig/trace.csv"));
+    }
+    // Some 4 µJ a cycle at 1e-14 1/Pa, 7800 kg/m³.
+    let masses = (1..=8).map(|i| format!("{};{:e}\n", 600 * i, 1.9e-13 * f64::from(i)));
+    let masses = masses.fold("cycle;mass_kg\n".to_owned(), |text, line| text + &line);
+    dir.write("mass.txt", masses.as_bytes());
     let scenario = blocks(text, "toml file rig.toml").concat();
     dir.write("rig.toml", scenario.as_bytes());
 }

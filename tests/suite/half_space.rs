@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Scene, apart, holds, ours, run_setup};
-use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::oracle::half_space::{
+use crate::closed_forms::half_space::{
     DEPTH_OF_LARGEST, LARGEST_VON_MISES, by_point_forces, hertz_on_axis, hertz_outside,
     sliding_at_trailing_edge, sliding_inside,
 };
+use crate::common::{Scene, apart, holds, ours, run_setup};
+use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::subsurface::{SpringLoad, Stress};
 use mdr_tui::simulation::Simulation;
@@ -137,11 +137,11 @@ fn partial_slip_and_worn_contacts_carry_their_own_tractions_into_the_half_space(
     let load = seen.spring_load(0.3);
     let a = seen.moment.contact_radius;
     // On the surface the stresses are the tractions that the run computed by other means.
-    for (j, &r) in seen.radii.iter().enumerate() {
+    for (j, &r) in seen.radii().iter().enumerate() {
         if (0.05..0.95).contains(&(r / a)) {
             let below = load.stress(r, 0.0);
-            let peak = seen.pressure[0];
-            let [p, tau] = [below.zz + seen.pressure[j], below.xz + seen.shear[j]];
+            let peak = seen.pressure()[0];
+            let [p, tau] = [below.zz + seen.pressure()[j], below.xz + seen.shear()[j]];
             holds("−σ_zz = p", p.abs() / peak, 2e-2);
             holds("−σ_xz = τ", tau.abs() / (0.1 * peak), 2e-2);
         }

@@ -47,14 +47,11 @@ steps_per_cycle = 80
 /// Q/L of [`TEXT`].
 const FORCE: f64 = 0.2;
 
-fn scenario(sets: &[&str]) -> Scenario {
-    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
-    Scenario::from_toml(TEXT, "line.toml", &sets).expect("a scenario")
-}
-
 /// The simulation at a cycle.
-fn run(sets: &[&str], cycles: f64) -> Simulation {
-    let mut run = Simulation::new(scenario(sets).setup().clone()).expect("a run");
+fn run<S: ToString>(sets: &[S], cycles: f64) -> Simulation {
+    let sets: Vec<String> = sets.iter().map(S::to_string).collect();
+    let scenario = Scenario::from_toml(TEXT, "line.toml", &sets).expect("a scenario");
+    let mut run = Simulation::new(scenario.setup().clone()).expect("a run");
     run.advance_to(cycles).expect("a result");
     run
 }
@@ -63,9 +60,14 @@ fn is_near(found: f64, due: f64, error: f64) {
     assert!((found / due - 1.0).abs() < error, "{found:e} {due:e}");
 }
 
+/// Checks a value at some place within an absolute error.
+fn is_at(found: f64, due: f64, error: f64, place: f64) {
+    assert!((found - due).abs() < error, "{place}: {found:e} {due:e}");
+}
+
 #[test]
 fn hertz_and_cattaneo_are_exact() {
-    let run = run(&[], 0.25);
+    let run = run::<&str>(&[], 0.25);
     let (moment, seen) = (run.moment(), run.observe(Curves::all()));
     is_near(moment.contact_radius, 1.0, 1e-13);
     is_near(moment.normal_force, 2.0 * CYLINDER.load, 1e-14);
@@ -77,22 +79,13 @@ fn hertz_and_cattaneo_are_exact() {
     );
     let gauge = run.setup().drive.gauge_length().expect("a gauge");
     is_near(moment.shift, CYLINDER.shift(FORCE, gauge), 1e-10);
-    assert!(run.force_residual(&seen.pressure).expect("a load").abs() < 1e-3);
-    for (j, &x) in seen.radii.iter().enumerate() {
-        let (p, tau) = (CYLINDER.pressure(1.0, x), CYLINDER.shear(FORCE, x));
-        assert!(
-            (seen.pressure[j] - p).abs() < 1e-13,
-            "{x}: {:e}",
-            seen.pressure[j] - p
-        );
-        assert!(
-            (seen.shear[j] - tau).abs() < 1e-13,
-            "{x}: {:e}",
-            seen.shear[j] - tau
-        );
+    assert!(run.force_residual(seen.pressure()).expect("a load").abs() < 1e-3);
+    for (j, &x) in seen.radii().iter().enumerate() {
+        is_at(seen.pressure()[j], CYLINDER.pressure(1.0, x), 1e-13, x);
+        is_at(seen.shear()[j], CYLINDER.shear(FORCE, x), 1e-13, x);
         if x <= 1.0 {
-            let slip = seen.spring[0] - seen.surface[j] - CYLINDER.slip(FORCE, x);
-            assert!(slip.abs() < 1e-13, "{x}: {slip:e}");
+            let slip = seen.spring()[0] - seen.surface()[j];
+            is_at(slip, CYLINDER.slip(FORCE, x), 1e-13, x);
         }
     }
 }
@@ -110,13 +103,10 @@ fn other_sections_press_as_they_should() {
         0.0,
     );
     is_near(quartic.moment().contact_radius, 1.0, 1e-5);
-    let nodes = quartic.setup().grid.nodes();
-    let error = nodes
-        .iter()
-        .zip(quartic.pressure())
-        .map(|(&x, p)| (p - 0.25 * (1.0 + 2.0 * x * x) * (1.0 - x * x).max(0.0).sqrt()).abs());
-    let error = error.fold(0.0, f64::max);
-    assert!(error < 1e-4, "{error:e}");
+    for (&x, p) in quartic.setup().grid.nodes().iter().zip(quartic.pressure()) {
+        let exact = 0.25 * (1.0 + 2.0 * x * x) * (1.0 - x * x).max(0.0).sqrt();
+        is_at(p, exact, 1e-4, x);
+    }
     let wedge = run(
         &[
             "indenter.shape=cone",
@@ -132,14 +122,8 @@ fn other_sections_press_as_they_should() {
         is_near(p, slope / PI * (0.01 / slope / x).acosh(), 5e-3);
     }
     let punch = run(&["indenter.shape=flat-punch", "indenter.radius=1.0"], 0.0);
-    for (x, p) in punch
-        .setup()
-        .grid
-        .nodes()
-        .iter()
-        .zip(punch.pressure())
-        .take(90)
-    {
+    let nodes = punch.setup().grid.nodes();
+    for (x, p) in nodes.iter().zip(punch.pressure()).take(90) {
         is_near(p, CYLINDER.load / (PI * (1.0 - x * x).sqrt()), 1e-12);
     }
 }
@@ -177,11 +161,8 @@ fn the_permanent_stick_zone_is_melans_under_a_load_that_moves() {
             6.0,
         );
         let swing = |sign: f64| {
-            let (along, across) = (
-                0.1 + sign * 0.25 * f64::cos(phase),
-                sign * 0.25 * phase.sin(),
-            );
-            along.hypot(across)
+            let (sine, cosine) = f64::sin_cos(phase);
+            (0.1 + sign * 0.25 * cosine).hypot(sign * 0.25 * sine)
         };
         let share = (CYLINDER.load - 0.5 * (swing(1.0) + swing(-1.0))) / CYLINDER.load;
         let stick = run.moment().permanent_stick_radius.expect("a zone");
@@ -232,17 +213,12 @@ fn gross_slip_begins_and_wears_as_it_should() {
             }
             sets
         };
-        let at = |share: f64| {
-            let sets = sets(share);
-            let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
-            run(&sets, 2.0).moment()
-        };
+        let at = |share: f64| run(&sets(share), 2.0).moment();
         let (below, beyond) = (at(0.999), at(1.001));
         assert!(below.permanent_stick_radius > Some(0.0));
         assert_eq!(beyond.permanent_stick_radius, Some(0.0));
         let mut sets = sets(1.5);
         sets.extend(["wear.coefficient=0.6", "numerics.integrator=direct"].map(str::to_owned));
-        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
         let worn = run(&sets, 12.0).moment();
         assert!(worn.contact_radius > 1.5, "{}", worn.contact_radius);
         let volume = 2.0 * CYLINDER.sliding_volume(worn.contact_radius);
@@ -269,33 +245,16 @@ fn stresses_inside_are_those_of_plane_strain() {
     for z in [0.1, 0.5, 0.786, 2.0] {
         let (found, s) = (load.stress(0.0, z), f64::hypot(1.0, z));
         // Of the tangential load, only σ_xz does not vanish there.
-        let exact = [-1.0 / s, 2.0 * z - (1.0 + 2.0 * z * z) / s];
-        assert!(
-            (found.zz / peak - exact[0]).abs() < 1e-9,
-            "{z}: {}",
-            found.zz
-        );
-        assert!(
-            (found.xx / peak - exact[1]).abs() < 1e-9,
-            "{z}: {}",
-            found.xx
-        );
-        assert!((found.yy - 0.3 * (found.xx + found.zz)).abs() < 1e-12);
+        is_at(found.zz / peak, -1.0 / s, 1e-9, z);
+        is_at(found.xx / peak, 2.0 * z - (1.0 + 2.0 * z * z) / s, 1e-9, z);
+        is_at(found.yy, 0.3 * (found.xx + found.zz), 1e-12, z);
     }
-    for (x, normal) in [
-        (-0.6_f64, -0.8_f64),
-        (0.3, -0.91_f64.sqrt()),
-        (1.5, 0.0),
-        (-2.0, 0.0),
-    ] {
+    for x in [-0.6_f64, 0.3, 1.5, -2.0] {
+        let normal = -(1.0 - x * x).max(0.0).sqrt();
         let outside = (x * x - 1.0).max(0.0).sqrt();
         let tangential = -(x - outside.copysign(x));
-        let found = load.stress(x, 0.0);
-        assert!(
-            (found.xx / peak - normal - tangential).abs() < 1e-6,
-            "{x}: {}",
-            found.xx
-        );
+        let found = load.stress(x, 0.0).xx;
+        is_at(found / peak, normal + tangential, 1e-6, x);
     }
 }
 
@@ -408,11 +367,11 @@ impl Bem {
     }
 }
 
-/// Four cycles of harsh wear in partial slip, by both codes.
+/// Thirty cycles of wear in partial slip, by both codes.
 #[test]
 fn boundary_elements_wear_alike() {
-    let (k, cycles, steps) = (1.0, 4, 32);
-    let bem = Bem::new(90, 1.12);
+    let (k, cycles, steps) = (0.2, 30, 64);
+    let bem = Bem::new(100, 1.25);
     let mut f: Vec<f64> = bem.x.iter().map(|x| 0.5 * x * x).collect();
     let (unworn, mut tau) = (f.clone(), vec![0.0; f.len()]);
     for step in 1..=cycles * steps {
@@ -436,18 +395,19 @@ fn boundary_elements_wear_alike() {
         .collect();
     let ours = run(
         &[
-            "wear.coefficient=1.0",
+            "wear.coefficient=0.2",
             "numerics.integrator=direct",
             "numerics.points=200",
         ],
         f64::from(cycles),
     );
     let volume = 2.0 * 2.0 * bem.h * worn.iter().sum::<f64>();
-    is_near(ours.wear_volume(), volume, 1e-2);
+    let of_volume = (ours.wear_volume() / volume - 1.0).abs();
     let deepest = largest(&worn);
     let errors = bem.x.iter().zip(&worn);
     let errors =
         errors.map(|(&x, worn)| ours.setup().grid.interpolate(ours.worn_depth(), x) - worn);
-    let rms = (errors.map(|error| error * error).sum::<f64>() / 90.0).sqrt() / deepest;
-    assert!(rms < 1e-2, "{rms:e}");
+    let mean = errors.map(|error| error * error).sum::<f64>() / bem.x.len() as f64;
+    let rms = mean.sqrt() / deepest;
+    assert!(rms < 2e-3 && of_volume < 4e-3, "{rms:e} {of_volume:e}");
 }

@@ -3,6 +3,7 @@
 //! `cargo test NAME` runs the tests whose path holds NAME, e.g. `oracles::` for the
 //! closed forms or `screens::` for the pinned screens.
 
+mod closed_forms;
 // Its lines of bash need the tools of Linux.
 #[cfg(target_os = "linux")]
 mod command_table;
@@ -26,6 +27,7 @@ mod circles;
 mod cli;
 mod conformance;
 mod convergence;
+mod coverage;
 mod cycle_figures;
 mod cycle_jump;
 mod fatigue;

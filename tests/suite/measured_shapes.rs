@@ -15,6 +15,20 @@ fn table(points: u32, from: f64, f: impl Fn(f64) -> f64) -> String {
     text
 }
 
+/// What an instrument could not measure is left out, and the run says how much.
+#[test]
+fn gaps_of_a_table_are_left_out_and_counted() {
+    let dir = TestDir::new();
+    let text = table(30, 0.0, |r| r * r / 0.02) + "3e-4,nan\n3.1e-4,\n";
+    dir.write("shape.csv", text.as_bytes());
+    let run = "run li2019-fig3 --set indenter.shape=table --set indenter.file=shape.csv --set numerics.points=20 \
+               --cycles 0.1 --out new";
+    dir.line(run).ends(
+        0,
+        "shape.csv: 2 of 33 rows have missing values and are left out",
+    );
+}
+
 /// F_z, F_x, a and V after two cycles.
 fn results(sets: &[&str]) -> [f64; 4] {
     let session = ran(load("li2019-fig3", sets), 2.0);

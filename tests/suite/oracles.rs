@@ -2,10 +2,10 @@
 //!
 //! The constants are about 1.5 times what was measured at N = 50 … 800.
 
+use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
 use crate::common::{Scene, cattaneo, fig3_motion, force, holds, largest, limit, near, run, swing};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
-use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::fretting_loop::Branch;
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
@@ -59,7 +59,7 @@ fn check_normal(
         let g = |x| exact.mdr_profile(x);
         let p = |r| exact.pressure(1.0, 1.0, r);
         let load = exact.force(1.0, 1.0);
-        let error = worst(&seen.radii, &seen.profile_1d, EVERYWHERE, g);
+        let error = worst(seen.radii(), seen.profile_1d(), EVERYWHERE, g);
         holds(what("g"), error, profile);
         let error = (seen.moment.contact_radius - 1.0).abs();
         holds(what("a"), error, scalars);
@@ -68,9 +68,9 @@ fn check_normal(
         let held = scene.normal(force(load, 0.0));
         let error = (run(held, 0.0).moment().depth - 1.0).abs();
         holds(what("d of F"), error, scalars);
-        let error = worst(&seen.radii, &seen.pressure, 0.2..0.8, p);
+        let error = worst(seen.radii(), seen.pressure(), 0.2..0.8, p);
         holds(what("p inside"), error, pressure);
-        let error = worst(&seen.radii, &seen.pressure, 0.5 * h..1.5, p);
+        let error = worst(seen.radii(), seen.pressure(), 0.5 * h..1.5, p);
         holds(what("p"), error, edge);
     }
 }
@@ -130,10 +130,10 @@ fn cattaneo_and_mindlin_on_first_loading() {
                 let error = (moment.tangential_force - load).abs() / friction;
                 holds(what("F_x"), error, 0.6 * h.powf(1.5));
                 let tau = |r| exact.shear_stress(r);
-                let error = worst(&seen.radii, &seen.shear, EVERYWHERE, tau);
+                let error = worst(seen.radii(), seen.shear(), EVERYWHERE, tau);
                 holds(what("tau"), error, 0.04 * h.sqrt());
-                let slip: Vec<f64> = seen.surface.iter().map(|u| exact.amplitude - u).collect();
-                let error = worst(&seen.radii, &slip, 0.0..1.0, |r| exact.slip(r));
+                let slip: Vec<f64> = seen.surface().iter().map(|u| exact.amplitude - u).collect();
+                let error = worst(seen.radii(), &slip, 0.0..1.0, |r| exact.slip(r));
                 let bound = match method {
                     A | Product => 0.04 * h.powf(1.5),
                     APlusB | B => 0.1 * h.powf(1.5),
@@ -268,14 +268,16 @@ fn the_limiting_profile() {
             let permanent = seen.moment.permanent_stick_radius.expect("springs");
             // Near the limit d − g falls to nothing within c's cell: it can only be placed in it.
             holds(what("c"), (permanent - c).abs(), h);
-            let error = worst(&seen.radii, &seen.profile, EVERYWHERE, |r| exact.profile(r));
+            let error = worst(seen.radii(), seen.profile(), EVERYWHERE, |r| {
+                exact.profile(r)
+            });
             holds(what("f"), error, 0.8 * h);
             let g = |x| exact.mdr_profile(x);
-            let stuck = worst(&seen.radii, &seen.profile_1d, 0.0..c - h, g);
+            let stuck = worst(seen.radii(), seen.profile_1d(), 0.0..c - h, g);
             let case = what("g in the permanent stick zone");
             holds(&case, stuck, 0.4 * h.powf(1.5));
             let ring = c + 2.0 * h..b - 2.0 * h;
-            let ring = worst(&seen.radii, &seen.profile_1d, ring, |_| 1.0);
+            let ring = worst(seen.radii(), seen.profile_1d(), ring, |_| 1.0);
             holds(what("g in the ring"), ring, 1e-7);
             let error = (seen.moment.normal_force / exact.force() - 1.0).abs();
             holds(what("F"), error, 0.4 * h);
@@ -321,11 +323,11 @@ fn gross_slip_unloads_the_contact() {
         }
         holds(format!("load left by {method}"), before / unworn, 0.01);
         let seen = simulation.observe(Curves::PROFILE);
-        let nodes = seen.profile.iter().zip(&*seen.wear);
+        let nodes = seen.profile().iter().zip(seen.wear());
         let worn = nodes.filter(|(_, w)| **w > 0.0);
         let touched = largest(worn.map(|(f, _)| *f));
         holds(format!("highest worn point by {method}"), touched, 1.0);
-        holds(format!("tip left by {method}"), 1.0 - seen.wear[0], 0.01);
+        holds(format!("tip left by {method}"), 1.0 - seen.wear()[0], 0.01);
     }
 }
 
@@ -347,20 +349,20 @@ fn separation_leaves_no_traction_and_no_memory() {
                 open_steps += 1;
                 let [radius, force] = [now.moment.contact_radius, now.moment.tangential_force];
                 assert_eq!([radius, force], [0.0; 2]);
-                for curve in [&now.pressure, &now.shear, &now.spring, &now.surface] {
+                for curve in [now.pressure(), now.shear(), now.spring(), now.surface()] {
                     assert!(curve.iter().all(|&value| value == 0.0));
                 }
-                assert!(now.tangential_load.iter().all(|&load| load == 0.0));
-                assert_eq!(now.wear, before.wear);
+                assert!(now.tangential_load().iter().all(|&load| load == 0.0));
+                assert_eq!(now.wear(), before.wear());
             }
-            for (j, &load) in now.normal_load.iter().enumerate() {
+            for (j, &load) in now.normal_load().iter().enumerate() {
                 if load == 0.0 {
-                    assert_eq!((now.spring[j], now.tangential_load[j]), (0.0, 0.0));
-                } else if before.normal_load[j] == 0.0 {
+                    assert_eq!((now.spring()[j], now.tangential_load()[j]), (0.0, 0.0));
+                } else if before.normal_load()[j] == 0.0 {
                     touching += 1;
                     let fresh = moved.clamp(-reach * load, reach * load);
                     let case = format!("node {j} by {method}");
-                    holds(&case, (now.spring[j] - fresh).abs(), 1e-15);
+                    holds(&case, (now.spring()[j] - fresh).abs(), 1e-15);
                 }
             }
             before = now;

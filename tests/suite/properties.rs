@@ -1,13 +1,13 @@
 //! What must hold whatever the numbers: linearity, similarity, signs, silence outside the contact,
 //! and states that stay finite at every extreme.
 
+use crate::closed_forms::abel_pairs::p_of_cut_power;
 use crate::common::{Scene, holds, largest, limit, ours, run, run_setup, swing};
 use crate::test_dir::has;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B};
 use mdr_tui::math::abel::AbelPlan;
 use mdr_tui::math::grid::RadialGrid;
-use mdr_tui::oracle::abel_pairs::p_of_cut_power;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Observation, Zone};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation, Target};
@@ -144,11 +144,11 @@ proptest! {
         let close = |values: &[f64], units: &[f64], scale: f64| within(1e-9, values, units, scale);
         // Next to the kinks of the default numerics.
         let stress = if method == AbelMethod::Product { 1e-7 } else { 1e-9 };
-        prop_assert!(close(&seen.radii, &unit.radii, a0));
-        prop_assert!(close(&seen.wear, &unit.wear, depth));
-        prop_assert!(close(&seen.profile_1d, &unit.profile_1d, depth));
-        prop_assert!(within(stress, &seen.pressure, &unit.pressure, pressure));
-        prop_assert!(within(stress, &seen.shear, &unit.shear, pressure));
+        prop_assert!(close(seen.radii(), unit.radii(), a0));
+        prop_assert!(close(seen.wear(), unit.wear(), depth));
+        prop_assert!(close(seen.profile_1d(), unit.profile_1d(), depth));
+        prop_assert!(within(stress, seen.pressure(), unit.pressure(), pressure));
+        prop_assert!(within(stress, seen.shear(), unit.shear(), pressure));
         let (now, then) = (seen.moment, unit.moment);
         let force = modulus * depth * a0;
         prop_assert!(close(&[now.normal_force], &[then.normal_force], force));
@@ -183,12 +183,12 @@ fn watch(scene: Scene, cycles: f64) -> Simulation {
         }
         let now = simulation.observe(Curves::all());
         assert!(is_finite(&now), "{scene:?} at {}", now.moment.cycle);
-        let mut worn = now.wear.iter().zip(&before.wear);
+        let mut worn = now.wear().iter().zip(before.wear());
         let grows = worn.all(|(&now, &then)| now >= then && now >= 0.0);
         assert!(grows, "{scene:?}");
         assert!(now.moment.dissipated_energy >= before.moment.dissipated_energy - 1e-18);
         quiet_outside(&now);
-        for (u, load) in now.spring.iter().zip(&now.normal_load) {
+        for (u, load) in now.spring().iter().zip(now.normal_load()) {
             assert!(u.abs() <= reach * load * (1.0 + 1e-12), "{scene:?}");
         }
         before = now;
@@ -199,13 +199,13 @@ fn watch(scene: Scene, cycles: f64) -> Simulation {
 /// No load beyond the contact, and no stress beyond its last node; under B, whose difference looks
 /// one node across, none beyond the next one.
 fn quiet_outside(seen: &Observation) {
-    let last = seen.normal_load.iter().rposition(|&load| load > 0.0);
+    let last = seen.normal_load().iter().rposition(|&load| load > 0.0);
     let outside = last.map_or(0, |j| j + 1);
     let smeared = outside + usize::from(seen.method == B && last.is_some());
-    for (j, &r) in seen.radii.iter().enumerate().skip(outside) {
-        let [load, spring] = [&seen.tangential_load, &seen.spring].map(|curve| curve[j]);
+    for (j, &r) in seen.radii().iter().enumerate().skip(outside) {
+        let [load, spring] = [seen.tangential_load(), seen.spring()].map(|curve| curve[j]);
         assert_eq!((load, spring, seen.zones[j]), (0.0, 0.0, Zone::Open));
-        let stresses = [seen.pressure[j], seen.shear[j]];
+        let stresses = [seen.pressure()[j], seen.shear()[j]];
         assert!(j < smeared || stresses == [0.0; 2], "at {r}");
         assert!(r >= seen.moment.contact_radius * (1.0 - 1e-12));
     }
@@ -261,9 +261,10 @@ fn the_shear_stress_in_the_slip_zone_is_mu_p() {
             for _ in 0..80 {
                 simulation.step().expect("a step");
                 let seen = simulation.observe(Curves::all());
-                for j in 0..seen.radii.len() {
+                for j in 0..seen.radii().len() {
                     if seen.zones[j] == Zone::Slip {
-                        excess = excess.max((seen.shear[j].abs() - 0.1 * seen.pressure[j]).abs());
+                        excess =
+                            excess.max((seen.shear()[j].abs() - 0.1 * seen.pressure()[j]).abs());
                         slipping += 1;
                     }
                 }
@@ -407,7 +408,7 @@ fn a_wear_coefficient_of_a_thousand() {
         assert!(is_finite(&simulation.observe(Curves::all())));
         let seen = simulation.observe(Curves::PROFILE);
         let limit = limit((1.0 - 0.5 * stiffness_ratio(0.3)).sqrt());
-        let nodes = seen.radii.iter().zip(&seen.wear);
+        let nodes = seen.radii().iter().zip(seen.wear());
         let errors = nodes.map(|(&r, w)| w - limit.worn_depth(r));
         // The front of slip wears through the ring in its first passage; the node next to c takes
         // the square root that the limit has there. Measured 0.72√h and 0.26√h.

@@ -44,7 +44,7 @@ fn gross_slip_grows_by_argatovs_law() {
     let law = (first.powi(4) + 4.0 * moment.wear_volume * radius / std::f64::consts::PI).powf(0.25);
     within("a by the law from V", moment.contact_radius, law, 0.02);
     within("a", moment.contact_radius, 1.770e-3, 0.01);
-    let deepest = simulation.observe(Curves::PROFILE).wear[0];
+    let deepest = simulation.observe(Curves::PROFILE).wear()[0];
     within("depth of the scar", deepest, 3.134e-5, 0.03);
 }
 
@@ -54,8 +54,8 @@ fn gross_slip_grows_by_argatovs_law() {
 fn partial_slip_stops_wearing() {
     let mut session = begin(load("julia2022-partial-slip", &SMALL));
     let deepest = |session: &Session| {
-        let wear = session.simulation().observe(Curves::PROFILE).wear;
-        wear.into_iter().fold(0.0, f64::max)
+        let seen = session.simulation().observe(Curves::PROFILE);
+        seen.wear().iter().copied().fold(0.0, f64::max)
     };
     session.advance_to(1e4).expect("ten thousand cycles");
     let middle = deepest(&session);

@@ -42,11 +42,11 @@ fn causal_methods_keep_the_stick_zone_and_b_and_benad_do_not() {
     ];
     for (method, last_unworn, error) in measured {
         let seen = worn(method, 400.0).observe(Curves::PROFILE);
-        let first = seen.wear.iter().position(|&worn| worn != 0.0);
-        let border = seen.radii[first.expect("a worn ring") - 1];
+        let first = seen.wear().iter().position(|&worn| worn != 0.0);
+        let border = seen.radii()[first.expect("a worn ring") - 1];
         let case = format!("{method} keeps {border}");
         holds(&case, (border - last_unworn).abs(), 1e-9);
-        let nodes = seen.radii.iter().zip(&seen.profile);
+        let nodes = seen.radii().iter().zip(seen.profile());
         let found = rms(nodes.map(|(&r, f)| f - limit.profile(r)));
         let case = format!("{method}, rms error {found:.3e} of f");
         holds(&case, (found / error - 1.0).abs(), 0.1);
@@ -166,7 +166,7 @@ fn worn_fig3(method: AbelMethod, wear_number: f64) -> (Observation, f64, f64) {
     let seen = simulation.observe(Curves::all());
     let c = seen.moment.permanent_stick_radius.expect("springs");
     holds(format!("c by {method}"), (c - 0.4164).abs(), h);
-    let (at, _) = peak(&seen.radii, &seen.pressure);
+    let (at, _) = peak(seen.radii(), seen.pressure());
     let case = format!("peak of p by {method} at {at}");
     holds(case, (at - 0.4164).abs(), h);
     (seen, h, c)
@@ -177,16 +177,16 @@ fn worn_fig3(method: AbelMethod, wear_number: f64) -> (Observation, f64, f64) {
 fn the_worn_contact_of_fig_3_carries_its_peak_at_the_stick_border() {
     for method in [A, APlusB] {
         let (seen, h, _) = worn_fig3(method, 0.3);
-        let (_, pressure) = peak(&seen.radii, &seen.pressure);
+        let (_, pressure) = peak(seen.radii(), seen.pressure());
         // Measured 1.66 times (a) and 1.69 times (a+b) the pressure next to the axis.
-        assert!(pressure > 1.5 * seen.pressure[1], "{method}: {pressure}");
-        let (at, shear) = peak(&seen.radii, &seen.shear);
+        assert!(pressure > 1.5 * seen.pressure()[1], "{method}: {pressure}");
+        let (at, shear) = peak(seen.radii(), seen.shear());
         let case = format!("peak of tau by {method} at {at}");
         holds(&case, (at - 0.4164).abs(), h);
-        assert!(shear > 2.5 * seen.shear[1], "{method}: {shear}");
+        assert!(shear > 2.5 * seen.shear()[1], "{method}: {shear}");
         // The unworn contact has its largest pressure in the middle.
         let fresh = run(fig3(method, 0.0, 100, 40), 0.24).observe(Curves::PRESSURE);
-        assert!(peak(&fresh.radii, &fresh.pressure).0 < 0.1);
+        assert!(peak(fresh.radii(), fresh.pressure()).0 < 0.1);
     }
 }
 
@@ -195,7 +195,7 @@ fn the_worn_contact_of_fig_3_carries_its_peak_at_the_stick_border() {
 fn a_strongly_worn_ring_is_flat_at_the_largest_depth() {
     for method in [A, APlusB] {
         let (seen, h, c) = worn_fig3(method, 3.0);
-        let nodes = || seen.radii.iter().zip(&seen.profile_1d);
+        let nodes = || seen.radii().iter().zip(seen.profile_1d());
         let ring = nodes().filter(|(r, _)| (c + 2.0 * h..1.2).contains(*r));
         let lag = ring.map(|(_, g)| (1.1 - g).abs()).fold(0.0, f64::max);
         // Measured 0.029: what 200 cycles have left to wear.
@@ -204,8 +204,8 @@ fn a_strongly_worn_ring_is_flat_at_the_largest_depth() {
         let moved = stuck.map(|(r, g)| (g - r * r).abs()).fold(0.0, f64::max);
         let case = format!("g in the permanent stick zone by {method}");
         holds(&case, moved, 0.3 * h);
-        let (_, pressure) = peak(&seen.radii, &seen.pressure);
-        assert!(pressure > 5.0 * seen.pressure[1], "{method}: {pressure}");
+        let (_, pressure) = peak(seen.radii(), seen.pressure());
+        assert!(pressure > 5.0 * seen.pressure()[1], "{method}: {pressure}");
     }
 }
 

@@ -143,6 +143,17 @@ fn an_older_checkpoint_does_not_undo_what_its_run_has_done_since() {
 }
 
 #[test]
+fn a_resumed_run_writes_the_field_that_was_asked_for() {
+    let dir = TestDir::new();
+    let line = "run li2019-fig3 --cycles 200 --set numerics.points=20 --checkpoint-every 0.001 --field --out x";
+    let mut child = dir.start(line, &[]);
+    dir.wait_for(&mut child, "x/run.checkpoint");
+    kill(child);
+    dir.done("run --resume x/run.checkpoint --quiet");
+    assert!(names(&dir.path("x")).contains(&"field.csv".into()));
+}
+
+#[test]
 fn a_resumed_run_may_go_further() {
     let dir = TestDir::new();
     let plan = "run li2019-fig3 --set numerics.points=40 --set run.snapshot_at=[1,3.5]";

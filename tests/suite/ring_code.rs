@@ -200,7 +200,7 @@ fn worn_gross_slip_is_that_of_rings() {
             let case = format!("{share} of the radius after {cycles} cycles");
             let r = share * a;
             let [p, due] = [
-                (&seen.radii[..], &seen.pressure),
+                (seen.radii(), seen.pressure()),
                 (&truth.radii[..], &truth.pressure),
             ]
             .map(|(radii, p)| between(radii, p, r) / mean);
@@ -208,21 +208,21 @@ fn worn_gross_slip_is_that_of_rings() {
             let bound = if share < 0.7 { 1e-2 } else { 2e-2 };
             near(format!("p at {case}"), p, due, bound);
             let [worn, due] = [
-                (&seen.radii[..], &seen.wear),
+                (seen.radii(), seen.wear()),
                 (&truth.radii[..], &truth.depth),
             ]
             .map(|(radii, depth)| between(radii, depth, r));
             near(format!("depth at {case}"), worn, due, 1e-2);
         }
-        let top = largest(seen.pressure.iter().copied()) / mean;
+        let top = largest(seen.pressure().iter().copied()) / mean;
         near(
             format!("largest p after {cycles} cycles"),
             top,
             highest,
             5e-3,
         );
-        assert_eq!(top, seen.pressure[0] / mean, "it is at the centre");
-        let force = simulation.force_residual(&seen.pressure).expect("a load");
+        assert_eq!(top, seen.pressure()[0] / mean, "it is at the centre");
+        let force = simulation.force_residual(seen.pressure()).expect("a load");
         assert!(force.abs() < 1e-2, "∫p dA: {force:e}");
         let balance = moment.energy_residual.expect("wear");
         assert!(balance.abs() < 5e-3, "V = k E_d: {balance:e}");

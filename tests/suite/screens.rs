@@ -97,7 +97,7 @@ fn a_lecture_speeds_up_by_itself() {
         (0.5, 91.0, &paused, false),
         (0.5, 99.0, &paused, false),
     ] {
-        frame.observation.moment.cycle = cycle;
+        Arc::make_mut(&mut frame.observation).moment.cycle = cycle;
         frame.pace = at;
         frame.activity = activity.clone();
         let before = stage.frame().pace;

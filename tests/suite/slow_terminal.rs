@@ -10,6 +10,7 @@ use mdr_tui::scenario::session::Session;
 use tempfile::TempDir;
 use vt100::Screen;
 
+use crate::flow::bounds;
 use crate::pty::{Line, Terminal, at_home, cycle, home, kept, patiently, read};
 
 fn is_under_way(screen: &Screen) -> bool {
@@ -68,40 +69,83 @@ fn on_a_slow_line_a_key_shows_within_two_seconds() {
     }
 }
 
-/// However far away it is, and whether it answers or not; each takes a few seconds, mostly of waiting.
+/// What a busy machine takes to start the program, and to answer a key.
+const BUSY: [f64; 2] = [4.0, 1.0];
+
+/// However far away it is, slow and large, and whether it answers or not: within the bounds of the simulated line. Each
+/// takes a few seconds, mostly of waiting.
 #[test]
-fn a_terminal_far_away_shows_the_whole_screen() {
+fn a_terminal_far_away_shows_the_whole_screen_and_keys() {
     let lines = [
-        (None, true, 300, [120, 40]),
-        (None, true, 1000, [80, 24]),
-        (Some(9600), true, 300, [120, 40]),
-        (None, false, 0, [80, 24]),
+        (f64::INFINITY, 0.3, 1),
+        (f64::INFINITY, 1.0, 0),
+        (9600.0, 0.3, 1),
+        (9600.0, 0.05, 2),
+        (1200.0, 1.0, 1),
+        (600.0, 0.1, 0),
     ];
-    let far = lines.map(|(rate, answers, round_trip, [columns, rows])| {
+    let far = lines.map(|(rate, round_trip, size)| {
         thread::spawn(move || {
             let home = home();
-            let round_trip = Duration::from_millis(round_trip);
+            let ([columns, rows], [complete, echo]) = bounds(rate, round_trip, size);
             let line = Line {
-                rate,
-                answers,
-                round_trip,
+                rate: rate.is_finite().then_some(rate as u32),
+                answers: true,
+                round_trip: Duration::from_secs_f64(round_trip),
             };
             let start = Instant::now();
             let mut terminal = Terminal::start_on(line, at_home(&home, &[]), columns, rows);
-            terminal.wait_until("whole screen", |screen| {
-                let rows: Vec<String> = screen.rows(0, columns).collect();
-                let shown = rows.iter().filter(|row| !row.trim().is_empty());
-                is_under_way(screen) && shown.count() + 5 > rows.len()
+            let whole = shown_whole(&terminal, start);
+            let mut keys = [" ", " ", " "].map(|key| {
+                thread::sleep(Duration::from_millis(300));
+                let was = terminal.text().contains("paused");
+                let pressed = Instant::now();
+                terminal.press(key);
+                terminal.wait_until("other state", |screen| {
+                    screen.contents().contains("paused") != was
+                });
+                pressed.elapsed().as_secs_f64()
             });
-            let took = start.elapsed();
-            eprintln!("{line:?}, {columns} by {rows}: complete after {took:.1?}");
-            assert!(took < Duration::from_secs(8), "{line:?}: {took:.1?}");
+            keys.sort_by(f64::total_cmp);
+            eprintln!(
+                "{line:?}, {columns} by {rows}: complete after {whole:.1} s (at most {complete:.1}), keys \
+                 {keys:.1?} (at most {echo:.1})"
+            );
+            assert!(whole < complete + BUSY[0], "{line:?}: {whole} s");
+            assert!(keys[1] < echo + BUSY[1], "{line:?}: {keys:?} s");
             assert_eq!(terminal.ends_soon("TERM"), 0);
         })
     });
     for far in far {
         far.join().expect("a line");
     }
+}
+
+/// The seconds from `start` until nearly all rows show something; some of the picture's are empty, on a large screen a
+/// third.
+fn shown_whole(terminal: &Terminal, start: Instant) -> f64 {
+    terminal.wait_until("whole screen", |screen| {
+        let (_, columns) = screen.size();
+        let rows: Vec<String> = screen.rows(0, columns.get()).collect();
+        let shown = rows.iter().filter(|row| !row.trim().is_empty());
+        let empty = if rows.len() > 48 { 30 } else { 5 };
+        is_under_way(screen) && shown.count() + empty > rows.len()
+    });
+    start.elapsed().as_secs_f64()
+}
+
+#[test]
+fn a_terminal_that_never_answers_shows_the_whole_screen() {
+    let home = home();
+    let line = Line {
+        answers: false,
+        ..Line::default()
+    };
+    let start = Instant::now();
+    let mut terminal = Terminal::start_on(line, at_home(&home, &[]), 80, 24);
+    let whole = shown_whole(&terminal, start);
+    assert!(whole < 8.0, "{whole} s");
+    assert_eq!(terminal.ends_soon("TERM"), 0);
 }
 
 /// An explorer whose first screen is more than a line holds that nobody reads.

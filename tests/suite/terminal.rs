@@ -7,7 +7,8 @@ use std::time::Duration;
 use portable_pty::CommandBuilder;
 use vt100::{Cell, Color, MouseProtocolMode, Screen};
 
-use crate::pty::{Terminal, cycle, program};
+use crate::pty::{Line, Terminal, cycle, program};
+use crate::random::Random;
 use crate::test_dir::{TestDir, end, has};
 
 fn is_running(screen: &Screen) -> bool {
@@ -309,6 +310,7 @@ fn no_color_means_no_colour_unless_asked_for() {
     for (no_color, arguments, coloured) in [
         (None, vec![], true),
         (Some("1"), vec![], false),
+        (Some("0"), vec![], false),
         (Some(""), vec![], true),
         (None, vec!["--color", "never"], false),
         (Some("1"), vec!["--color", "always"], true),
@@ -410,6 +412,138 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_takes_it_back() {
         terminal.press("exit\n");
         terminal.wait_for_end();
     }
+}
+
+/// It waits, stopped, for the terminal, whether it begins there or gets there by `bg`, and ends when it is asked to.
+#[test]
+fn a_job_in_the_background_hears_that_it_shall_end() {
+    let base = tempfile::tempdir().expect("a directory");
+    let bin = env!("CARGO_BIN_EXE_mdr-tui");
+    let end = "clear; kill %1; while jobs | grep -q .; do sleep 0.1; done; echo ended $((6*7))\n";
+    let mut terminal = shell(base.path());
+    terminal.press(&format!("set -b; '{bin}' &\n"));
+    terminal.wait_for("Stopped");
+    terminal.press(end);
+    terminal.wait_for("ended 42");
+    terminal.press(&format!("clear; '{bin}' &\n"));
+    terminal.wait_for("Stopped");
+    terminal.press("clear; fg\n");
+    terminal.wait_until("running explorer", is_running);
+    terminal.press("\x1a");
+    terminal.wait_for("Stopped");
+    terminal.press("clear\n");
+    let is_told = |screen: &Screen| screen.contents().contains("Stopped");
+    terminal.wait_until("empty screen", |screen| !is_told(screen));
+    terminal.press("bg\n");
+    terminal.wait_until("stop", is_told);
+    terminal.press(end);
+    terminal.wait_for("ended 42");
+    has(&terminal.text(), "resume with");
+    terminal.press("clear; echo $((7*7))\n");
+    terminal.wait_for("49");
+    terminal.press("exit\n");
+    terminal.wait_for_end();
+}
+
+/// A program that is started by a line of bash in a terminal like this.
+fn by_bash(line: Line, script: &str, columns: u16) -> Terminal {
+    let mut command = program(&[]);
+    let script = script.replace("BIN", &format!("'{}'", env!("CARGO_BIN_EXE_mdr-tui")));
+    *command.get_argv_mut() = ["bash", "-c", &script].map(Into::into).to_vec();
+    Terminal::start_on(line, command, columns, 24)
+}
+
+#[test]
+fn what_is_typed_before_the_start_is_a_key() {
+    let mut terminal = by_bash(Line::default(), "sleep 0.4; exec BIN", 80);
+    terminal.press("?");
+    terminal.wait_for("keys (");
+    terminal.press("\x03");
+    assert_eq!(terminal.wait_for_end().exit_code(), 0);
+    assert_given_back(&terminal);
+}
+
+#[test]
+fn answers_under_way_at_the_end_do_not_reach_the_shell() {
+    let line = Line {
+        round_trip: Duration::from_millis(400),
+        ..Line::default()
+    };
+    let then = "IFS= read -rs -t 1 -n 99 rest; printf 'rest:%q:' \"$rest\"";
+    let mut terminal = by_bash(line, &format!("BIN; {then}"), 80);
+    terminal.wait_until("running explorer", is_running);
+    terminal.press("q");
+    terminal.wait_for("rest:'':");
+    terminal.wait_for_end();
+}
+
+#[test]
+fn a_bar_of_progress_fits_any_width() {
+    for columns in [0, 5, 80] {
+        let run = "run li2019-fig3 --cycles 60 --set numerics.points=20 --out";
+        let dir = TestDir::new();
+        let out = dir.path("x");
+        let script = format!("stty cols {columns}; exec BIN {run} {}", out.display());
+        let mut terminal = by_bash(Line::default(), &script, 80);
+        assert_eq!(terminal.wait_for_end().exit_code(), 0, "{columns} columns");
+        assert!(out.join("state.csv").exists());
+        let rows = terminal.look(|screen| screen.rows(0, 80).collect::<Vec<_>>());
+        let parts = rows.iter().filter(|row| row.contains("cycles/s"));
+        assert_eq!(parts.count(), 0, "{rows:?}");
+    }
+}
+
+#[test]
+fn terminals_of_any_kind_are_drawn_on() {
+    let kinds = [
+        "xterm",
+        "vt100",
+        "linux",
+        "ansi",
+        "screen.xterm-256color",
+        "tmux-256color",
+        "no-such-kind",
+        "",
+    ];
+    for pair in kinds.chunks(2) {
+        let started = pair.iter().map(|kind| {
+            let mut command = program(&[]);
+            command.env("TERM", kind);
+            Terminal::start(command, 80, 24)
+        });
+        for mut terminal in started.collect::<Vec<_>>() {
+            terminal.wait_until("running explorer", is_running);
+            terminal.press("q");
+            assert_clean_end(&mut terminal);
+        }
+    }
+}
+
+/// Some that no terminal has, each with keys, and with an overlay open or not.
+#[test]
+fn sizes_of_all_kinds_with_keys_break_nothing() {
+    let mut terminal = by_bash(Line::default(), "stty cols 0 rows 0; exec BIN", 80);
+    terminal.wait_for_silence_of(Duration::from_millis(300));
+    let odd = [(1, 1), (500, 200), (65535, 1), (1, 65535), (2, 3)];
+    let mut random = Random::new(3);
+    let any = (0..35).map(|_| (1 + random.below(250) as u16, 1 + random.below(80) as u16));
+    let keys = [
+        "?", "\x1b", "p", "\x1b", "e", "\x1b", ":", "\x1b", "z", "z", ".", " ",
+    ];
+    for (i, (columns, rows)) in odd.into_iter().chain(any.collect::<Vec<_>>()).enumerate() {
+        terminal.resize(columns, rows);
+        terminal.press(keys[i % keys.len()]);
+        thread::sleep(Duration::from_millis(15));
+    }
+    terminal.press("\x1b");
+    thread::sleep(Duration::from_millis(200));
+    terminal.press("\x1b");
+    terminal.resize(80, 24);
+    terminal.wait_until("an explorer", |screen| {
+        screen.contents().contains("3D profile") && cycle(screen).is_some()
+    });
+    terminal.press("\x03");
+    assert_clean_end(&mut terminal);
 }
 
 /// Stopped in the middle of a frame, with raw mode on: the shell sets its own modes, and the explorer its own again.

@@ -111,7 +111,7 @@ fn every_setting_is_a_scenario() {
         let settings = trade::settings(&scenario, &AbelMethod::ALL, &POINTS, &STEPS);
         assert!(settings.len() > 50, "{}", settings.len());
         for setting in &settings {
-            let made = scenario.with_all(&setting.keys()).expect("a scenario");
+            let made = setting.of_scenario(&scenario).expect("a scenario");
             let setup = made.setup();
             let (method, scheme) = (setup.method, setup.scheme);
             assert_eq!((method, scheme), (setting.method, setting.scheme));

@@ -7,6 +7,7 @@ use crate::common::{Explorer, begin, load, rehearsed_on};
 use crate::test_dir::has;
 use mdr_tui::plot::Marker;
 use mdr_tui::plot::theme::{Depth, Look, Role, Theme};
+use mdr_tui::reading::Column;
 use mdr_tui::reading::subsurface::Stress;
 use mdr_tui::tui::frame::Frame;
 use mdr_tui::tui::keys::Key;
@@ -78,7 +79,8 @@ fn the_cursor_reads_true_values_of_what_is_drawn_magnified() {
     assert!(factor > 1.0);
     let read = value(&screen, &format!("worn ×{factor}"));
     let state = frame.run.states.last().expect("a state");
-    let [radii, profile] = ["r_m", "f_m"].map(|name| state.column(name).expect("a column"));
+    let [radii, profile] =
+        [Column::Radius, Column::Profile].map(|column| state.column(column).expect("a column"));
     let above = radii.iter().position(|node| *node > r).expect("a node");
     let within = profile[above - 1] * 0.999..=profile[above] * 1.001;
     assert!(
@@ -173,7 +175,7 @@ fn the_axis_of_stresses_holds_for_a_cycle_and_is_not_that_of_a_spike() {
         assert!(axes.len() <= before + 1, "{preset}: {axes:?}");
         // In the middle the pressure is seen.
         let frame = explorer.frame();
-        let pressure = frame.observation.pressure[0];
+        let pressure = frame.observation.pressure()[0];
         let highest = explorer
             .app
             .explorer
@@ -348,4 +350,24 @@ fn no_key_pressed_in_a_modal_changes_the_run() {
     let session = begin(load("li2019-fig3", &[]));
     let typed = rehearsed_on(session, ",,pmild<Esc>?r<Esc>", (80, 24));
     has(&typed, "cycle 2.00/199.24");
+}
+
+/// Between bodies that are apart there is air, and below it the half-space: nothing but the scar is drawn as worn.
+#[test]
+fn a_lifted_indenter_leaves_air_above_the_half_space() {
+    let size = (120, 40);
+    let mut explorer = explorer("separation", size, DARK);
+    explorer.press("V,,");
+    while explorer.frame().observation.moment.contact_radius > 0.0 {
+        explorer.press(".");
+    }
+    let screen = shown(&explorer, size);
+    assert!(screen.contains("Nothing touches"), "{screen}");
+    assert!(!screen.contains("slips in each cycle"), "{screen}");
+    let worn = screen.matches('╱').count();
+    let scar = screen.lines().filter(|line| line.contains('╱')).count();
+    assert!(
+        worn < 100 && scar < 8,
+        "{worn} cells of {scar} rows\n{screen}"
+    );
 }

@@ -1,9 +1,10 @@
 //! Two programs that want the same files: one has them, the other is told so.
 
+use std::fs;
 use std::thread;
 use std::time::Duration;
 
-use crate::test_dir::{Said, TestDir, end, kill, names};
+use crate::test_dir::{Said, TestDir, end, has, kill, names, signal};
 
 /// Starts two programs, the second one `pause` after the first; what the winner and the loser say.
 fn race(dir: &TestDir, lines: [&str; 2], pause: Duration) -> (usize, Said, Said) {
@@ -72,6 +73,42 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
     dir.done("run cone --cycles 1 --out x --force --quiet");
     let files = ["history.csv", "loop.csv", "scenario.toml", "state.csv"];
     assert_eq!(names(&dir.path("x")), files);
+}
+
+/// Moved, or removed: what another run has put in its place since stays as it is, and the first keeps its checkpoint
+/// elsewhere.
+#[test]
+fn a_run_whose_directory_is_gone_writes_over_no_other() {
+    let dir = TestDir::new();
+    let state = dir.path("state");
+    let state = [("XDG_STATE_HOME", state.to_str().expect("a path"))];
+    let plan =
+        "run li2019-fig3 --cycles 1e9 --set numerics.points=20 --quiet --checkpoint-every 0.02";
+    dir.done("run hertz --cycles 1 --out whole --quiet");
+    for is_moved in [true, false] {
+        let out = if is_moved { "x" } else { "y" };
+        let mut first = dir.start(&format!("{plan} --out {out}"), &state);
+        dir.wait_for(&mut first, &format!("{out}/run.checkpoint"));
+        match is_moved {
+            true => fs::rename(dir.path(out), dir.path("away")).expect("a directory"),
+            false => fs::remove_dir_all(dir.path(out)).expect("a directory"),
+        }
+        dir.done(&format!("run hertz --cycles 1 --out {out} --quiet"));
+        thread::sleep(Duration::from_millis(300));
+        signal(&first, "TERM");
+        let said = end(first);
+        assert_eq!(said.code, 1, "{}", said.err);
+        has(&said.err, "was moved, removed or cleared meanwhile");
+        has(&said.err, "resume with: mdr-tui run --resume ");
+        dir.alike("whole", out);
+        let kept = said
+            .err
+            .rsplit_once("--resume ")
+            .map(|(_, path)| path.trim());
+        let kept = kept.expect("a checkpoint");
+        // Where the other run is now, it does not go on.
+        dir.refuse_line(&format!("run --resume {kept}"), "not empty");
+    }
 }
 
 #[test]

@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
-use super::Changes;
 use super::values::{CycleAsGiven, cycles, named, within};
+use super::{Changes, Naming};
 use crate::charts::{Recipe, field};
 use crate::cli::complete;
 use crate::figure::look::Style;
 use crate::tui::panels::Panel;
 
-/// What is said of another size of the font.
+/// Error for a font size outside the limits.
 const FONT: &str = "a font has from 3 to 72 points, e.g. 8";
 
 /// Options of `figure`.
@@ -46,6 +46,9 @@ pub struct Figure {
         add = ArgValueCompleter::new(complete::overlays)
     )]
     pub overlay: Vec<OsString>,
+    /// How the columns of measured overlays are to be read.
+    #[command(flatten)]
+    pub naming: Naming,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
@@ -85,10 +88,10 @@ pub enum PaperFigure {
     Fig3,
 }
 
-/// The charts that a paper can have: those of the explorer that have a name here, and maps of the half-space.
+/// Returns the charts available on paper: the explorer's charts that have a name, and maps of the half-space.
 pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
     let maps = [&field::VON_MISES, &field::PRINCIPAL, &field::SWT];
-    let charts = Panel::ALL.into_iter().map(Panel::recipe).chain(maps);
+    let charts = Panel::ALL.into_iter().filter_map(Panel::chart).chain(maps);
     charts.filter(|recipe| !recipe.name.is_empty())
 }
 

@@ -21,7 +21,7 @@ mod sweep;
 mod values;
 
 pub use figure::{Figure, PaperFigure, on_paper};
-pub use studies::{Beside, Fit, Guard, Inspect, Output, Stability, Stroke, Trade, Verify};
+pub use studies::{Beside, Fit, Guard, Inspect, Naming, Output, Stability, Stroke, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::cycles;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
@@ -112,6 +112,9 @@ pub struct Explore {
     /// beside.
     #[arg(long, value_name = "FILE", add = ArgValueCompleter::new(complete::overlays))]
     pub overlay: Vec<OsString>,
+    /// How the columns of measured overlays are to be read.
+    #[command(flatten)]
+    pub naming: Naming,
     /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
     #[arg(long)]
     pub present: bool,
@@ -255,11 +258,20 @@ pub struct New {
     #[serde(skip)]
     pub file: PathBuf,
     /// A ball of this radius.
-    #[arg(long, value_name = "RADIUS", conflicts_with = "punch")]
+    #[arg(long, value_name = "RADIUS", conflicts_with_all = ["punch", "cylinder"])]
     pub ball: Option<String>,
     /// A flat punch of this radius.
-    #[arg(long, value_name = "RADIUS")]
+    #[arg(long, value_name = "RADIUS", conflicts_with = "cylinder")]
     pub punch: Option<String>,
+    /// A cylinder of this radius on its side: a line contact.
+    #[arg(long, value_name = "RADIUS", conflicts_with = "depth")]
+    pub cylinder: Option<String>,
+    /// The length of the cylinder.
+    #[arg(long, value_name = "LENGTH")]
+    pub length: Option<String>,
+    /// The depth of the point that the stroke of a cylinder is measured against.
+    #[arg(long, value_name = "LENGTH")]
+    pub gauge: Option<String>,
     /// The indenter's material: a name such as steel, bronze, alumina, rigid, or E,NU.
     #[arg(long, value_name = "NAME|E,NU")]
     pub material: Option<String>,

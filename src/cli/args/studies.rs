@@ -15,7 +15,7 @@ use crate::studies::measured::Pick;
 use crate::studies::verify::{LADDER, Problem};
 use crate::studies::{stability, trade};
 
-/// What is said of another accuracy.
+/// Error for an accuracy outside the limits.
 const ACCURACY: &str =
     "an accuracy is greater than 0 and at most 1, relative to the largest depth, e.g. 1e-3";
 
@@ -239,7 +239,7 @@ pub struct Naming {
 }
 
 impl Naming {
-    /// The same for the reader of tables.
+    /// Returns the same for the reader of tables.
     pub fn of_columns(&self) -> columns::Naming {
         let (fields, units) = (self.fields.clone(), self.units.clone());
         columns::Naming { fields, units }
@@ -273,7 +273,7 @@ fn methods() -> impl TypedValueParser<Value = AbelMethod> {
     named(AbelMethod::ALL.to_vec(), AbelMethod::name)
 }
 
-/// Numbers of steps per cycle.
+/// Parses numbers of steps per cycle.
 fn steps() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=100_000)
 }
@@ -322,7 +322,7 @@ pub struct Drawing {
     pub marker: Marker,
 }
 
-/// Help texts of shared options, worded for each study.
+/// Replaces the help texts of shared options by ones worded for each study.
 fn in_words(help: &'static [(&'static str, &'static str)]) -> impl Fn(Arg) -> Arg {
     |arg| match help.iter().find(|(name, _)| arg.get_id() == name) {
         Some((_, words)) => arg.help(*words),

@@ -86,7 +86,7 @@ pub struct Sweep {
     pub screen: Screen,
 }
 
-/// A word that a job script contains as it is.
+/// Parses a word that a job script can contain unquoted.
 fn word() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|word| {
         let is_plain = |c: char| !c.is_whitespace() && !"#'\"\\$`;&|<>()".contains(c);

@@ -34,7 +34,7 @@ pub enum ColorChoice {
 }
 
 impl ColorChoice {
-    /// Whether colours are used; `None` where the environment decides.
+    /// Whether to use colours; `None` if the environment decides.
     pub fn is_colored(self) -> Option<bool> {
         match self {
             Self::Auto => None,
@@ -44,7 +44,7 @@ impl ColorChoice {
     }
 }
 
-/// Seconds between two checkpoints; 0: only at the end.
+/// Parses the seconds between two checkpoints; 0 means only at the end.
 pub(super) fn interval(text: &str) -> Result<Duration, String> {
     match text.parse() {
         Ok(seconds) if seconds == 0.0 || (1e-3..=1e6).contains(&seconds) => {
@@ -54,12 +54,12 @@ pub(super) fn interval(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// A cycle as it was typed, which names the file.
+/// A cycle as it was typed; it becomes part of the file's name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleAsGiven(pub String);
 
 impl CycleAsGiven {
-    /// The cycle.
+    /// Returns the cycle as a number.
     pub fn cycle(&self) -> f64 {
         self.0.parse().unwrap_or(f64::NAN)
     }
@@ -74,7 +74,7 @@ impl FromStr for CycleAsGiven {
     }
 }
 
-/// Seconds, as `60`, `60s`, `5min` or `1h`.
+/// Parses a time in seconds, as `60`, `60s`, `5min` or `1h`.
 pub(super) fn budget(text: &str) -> Result<f64, String> {
     let with_unit = units::in_unit(text, "s").and_then(Result::ok);
     let seconds = with_unit.or_else(|| text.trim().parse().ok());
@@ -82,7 +82,7 @@ pub(super) fn budget(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "a budget is a time of 0 or more, e.g. 60s, 5min or 1h".into())
 }
 
-/// A force, as `30`, `30 N` or `30mN`.
+/// Parses a force, as `30`, `30 N` or `30mN`.
 pub(super) fn load(text: &str) -> Result<f64, String> {
     let with_unit = units::in_unit(text, "N").and_then(Result::ok);
     let force = with_unit
@@ -91,7 +91,7 @@ pub(super) fn load(text: &str) -> Result<f64, String> {
     force.ok_or_else(|| "a load is a force greater than 0, e.g. 30N".into())
 }
 
-/// A number of cycles.
+/// Parses a number of cycles.
 pub fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.0..=MOST_CYCLES).contains(&value) => Ok(value),
@@ -102,8 +102,8 @@ pub fn cycles(text: &str) -> Result<f64, String> {
     }
 }
 
-/// An option whose value is named `X,...` takes a list. Its parser, and that of a number `X`, complains of what begins
-/// with a dash.
+/// Lets an option with a value named `X,...` take a list. The value of such an option, or of a number `X`, may begin
+/// with a dash, so that its own parser can reject it.
 pub(super) fn listed(arg: Arg) -> Arg {
     let names = arg.get_value_names().unwrap_or_default();
     let is_list = names.iter().any(|name| name.ends_with(",..."));
@@ -114,7 +114,7 @@ pub(super) fn listed(arg: Arg) -> Arg {
     }
 }
 
-/// A number of a range, or the rule that it breaks.
+/// Parses a number within a range; the error is `rule`.
 pub(super) fn within<T: FromStr + PartialOrd>(
     range: RangeInclusive<T>,
     rule: impl Into<String>,
@@ -136,7 +136,7 @@ pub(super) fn points() -> impl Fn(&str) -> Result<usize, String> + Clone {
     within(least..=most, rule)
 }
 
-/// One of these, by its name.
+/// Parses one of these values by its name.
 pub(super) fn named<T: Copy + Send + Sync + 'static>(
     all: Vec<T>,
     name: fn(T) -> &'static str,

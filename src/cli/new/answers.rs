@@ -1,6 +1,6 @@
-//! The questions of `mdr-tui new`, how their answers are read, and the commented scenario made from them.
+//! The questions of `mdr-tui new`, the parsing of their answers, and the commented scenario made from them.
 //!
-//! `questions.toml` has each question with what it means, its default, and the key that it is about.
+//! `questions.toml` holds each question with its meaning, its default, and the key that it sets.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -11,7 +11,7 @@ use toml::Value;
 use crate::scenario::schema;
 use crate::scenario::{Refusal, Scenario, units, values, write};
 
-/// What `questions.toml` says.
+/// The contents of `questions.toml`.
 #[derive(Deserialize)]
 struct Form {
     #[serde(rename = "question")]
@@ -24,15 +24,15 @@ static FORM: LazyLock<Form> = LazyLock::new(|| {
     toml::from_str(include_str!("questions.toml")).expect("the questions are whole")
 });
 
-/// A question that is answered by a line, about a key of the scenario.
+/// A question that is answered with one line and sets a key of the scenario.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Question {
-    /// The option that answers it beforehand.
+    /// The option that answers it in advance.
     pub option: String,
-    /// What a title calls what it is about.
+    /// Its subject, as named in a title.
     pub name: String,
-    /// What it is, in a list.
+    /// Its name in a list.
     pub item: String,
     with: Option<[String; 3]>,
     key: String,
@@ -42,12 +42,12 @@ pub struct Question {
     pub prompt: String,
     /// What it means.
     pub meaning: String,
-    /// The answer of who gives none.
+    /// Default answer.
     pub default: String,
     note: String,
 }
 
-/// The question that an option answers.
+/// Returns the question that an option answers.
 pub fn question(option: &str) -> &'static Question {
     let mut questions = FORM.questions.iter();
     let found = questions.find(|question| question.option == option);
@@ -55,10 +55,10 @@ pub fn question(option: &str) -> &'static Question {
 }
 
 impl Question {
-    /// Reads an answer; a bare number is in the question's unit.
+    /// Reads an answer; a bare number has the question's unit.
     ///
     /// # Errors
-    /// The rule that it breaks.
+    /// The rule that the answer breaks.
     pub fn read(&self, text: &str) -> Result<Quantity, String> {
         quantity(text, &self.key, &self.unit)
     }
@@ -69,20 +69,20 @@ impl Question {
 pub struct Body {
     /// The material's name.
     pub name: String,
-    /// Young's modulus with its unit, and Poisson's ratio; none if it is rigid.
+    /// Young's modulus with its unit, and Poisson's ratio; `None` if it is rigid.
     pub elastic: Option<(String, f64)>,
 }
 
-/// The materials of the short list.
+/// Returns the materials of the short list.
 pub fn materials() -> &'static [Body] {
     &FORM.materials
 }
 
 impl Body {
-    /// Reads a name of the list, or `E,NU` such as `200 GPa,0.3`.
+    /// Reads a name from the list, or `E,NU` such as `200 GPa,0.3`.
     ///
     /// # Errors
-    /// What would be right.
+    /// Says what would be valid.
     pub fn read(text: &str) -> Result<Self, String> {
         let text = text.trim();
         let mut known = materials().iter();
@@ -105,7 +105,7 @@ impl Body {
     }
 }
 
-/// A number with its unit, as typed, and in SI.
+/// A number with its unit, as typed, and its value in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
     /// As written in the scenario.
@@ -114,7 +114,7 @@ pub struct Quantity {
     pub value: f64,
 }
 
-/// Reads a value of a key; a bare number is in `unit`.
+/// Reads the value of a key; a bare number has the unit `unit`.
 fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
     let text = text.trim();
     let known = schema::find(key).expect("a key of the table");
@@ -135,7 +135,7 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
     }
 }
 
-/// The scenario so far: its keys, each with its value and a note.
+/// The scenario so far: its keys, each with a value and a note.
 #[derive(Debug, Default)]
 pub struct Draft(BTreeMap<String, (Value, String)>);
 
@@ -145,7 +145,7 @@ impl Draft {
         self.0.insert(path.to_owned(), (value.into(), note.into()));
     }
 
-    /// Sets the key of a question, and the one that goes with it.
+    /// Sets the key of a question to its answer, and any second key that goes with it.
     pub fn answer(&mut self, question: &Question, given: &Quantity) {
         let value = match question.share {
             Some(share) => Value::Float(share * given.value),
@@ -173,15 +173,15 @@ impl Draft {
         }
     }
 
-    /// The scenario.
+    /// Makes the scenario.
     ///
     /// # Errors
-    /// Answers that make no contact together.
+    /// If the answers together do not make a contact.
     pub fn scenario(&self, origin: &str) -> Result<Scenario, Refusal> {
         Scenario::from_toml(&self.to_toml(), origin, &[])
     }
 
-    /// The scenario as a commented file.
+    /// Returns the scenario as a commented file.
     pub fn to_toml(&self) -> String {
         write::sections(|known| {
             let (value, note) = self.0.get(known.path)?;

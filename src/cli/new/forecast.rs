@@ -1,24 +1,25 @@
-//! What closed forms say of a scenario before it is run: size and pressure of the unworn contact, and
-//! whether it will stick in the middle or slip as a whole.
+//! Predictions of closed forms before a scenario is run: size and pressure of the unworn contact, and whether it will
+//! be in partial or gross slip.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_2_PI, TAU};
 
+use crate::math::geometry::Geometry;
 use crate::plot::units::{format_value, plain};
 use crate::scenario::Scenario;
 use crate::simulation::drive::Oscillation;
 use crate::simulation::{Setup, Unworn};
 
-/// Seconds of a day.
+/// Seconds per day.
 const DAY: f64 = 86_400.0;
 
-/// The closed forms of a scenario whose tangential displacement is prescribed.
+/// The closed forms of a scenario with a prescribed tangential displacement.
 pub struct Forecast<'a> {
     setup: &'a Setup,
     shift: &'a Oscillation,
 }
 
 impl<'a> Forecast<'a> {
-    /// What is known of a scenario; `None` where nothing is moved by a displacement.
+    /// Returns the predictions for a scenario; `None` without a prescribed displacement.
     pub fn of(scenario: &'a Scenario) -> Option<Self> {
         let setup = scenario.setup();
         let shift = setup.drive.tangential()?.displacement()?;
@@ -30,49 +31,66 @@ impl<'a> Forecast<'a> {
     }
 
     /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
-    /// and Jäger.
+    /// and Jäger. A line slips from an amplitude against its gauge.
     fn threshold(&self) -> f64 {
-        Unworn::of(self.setup).deepest() / self.setup.material.stick_ratio()
+        let unworn = Unworn::of(self.setup);
+        match self.setup.geometry {
+            Geometry::Round => unworn.deepest() / self.setup.material.stick_ratio(),
+            Geometry::Line { .. } => unworn.line_shift(unworn.deepest(), 0.0),
+        }
     }
 
-    /// Size and pressure of the unworn contact.
+    /// Describes size and pressure of the unworn contact.
     pub fn contact(&self) -> String {
         let value = |value: f64, unit: &str| format_value(value, unit, 3);
         let unworn = Unworn::of(self.setup);
         let depth = unworn.deepest();
         let mean = unworn.mean_pressure(depth);
+        let is_line = self.setup.geometry.is_line();
+        // Hertz: p0 is 3/2 of the mean under a ball, 4/π of it under a cylinder.
         let (what, pressure, place) = match self.is_ball() {
-            // Hertz: p0 = 3/2 of the mean.
+            true if is_line => ("Hertz pressure", 2.0 * FRAC_2_PI * mean, " at its centre"),
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
             false => ("mean pressure", mean, ""),
         };
+        let approach = match is_line {
+            true => String::new(),
+            false => format!("depth {}, ", value(depth, "m")),
+        };
         format!(
-            "contact radius {}, depth {}, load {}, {what} {}{place}",
+            "{} {}, {approach}load {}, {what} {}{place}",
+            self.setup.geometry.named("contact radius"),
             value(unworn.radius(depth), "m"),
-            value(depth, "m"),
             value(unworn.force(depth), "N"),
             value(pressure, "Pa"),
         )
     }
 
-    /// The regime that the unworn contact is in.
+    /// Describes the regime of the unworn contact.
     pub fn regime(&self) -> String {
         let share = self.shift.amplitude() / self.threshold();
         let threshold = format_value(self.threshold(), "m", 3);
         if share >= 1.0 {
             return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
         }
-        // c² = a² (1 − U/u_t) of Cattaneo and Mindlin's sphere; a punch slips nowhere or everywhere.
-        match self.is_ball() {
-            true => format!(
-                "partial slip: a ring outside {:.0} % of the contact radius; all slips from an amplitude of {threshold}",
-                100.0 * (1.0 - share).sqrt()
+        // A punch slips nowhere or everywhere.
+        let ring = Unworn::of(self.setup).ring().filter(|_| self.is_ball());
+        match ring {
+            Some(ring) => format!(
+                "partial slip: {} outside {:.0} % of the {}; all slips from an amplitude of {threshold}",
+                if self.setup.geometry.is_line() {
+                    "strips"
+                } else {
+                    "a ring"
+                },
+                100.0 * ring.stick_radius / ring.contact_radius,
+                self.setup.geometry.named("contact radius"),
             ),
-            false => format!("stick, but for the rim; all slips from an amplitude of {threshold}"),
+            None => format!("stick, but for the rim; all slips from an amplitude of {threshold}"),
         }
     }
 
-    /// How many cycles of the test a day takes.
+    /// Says how many cycles the rig runs per day.
     pub fn a_day(&self) -> String {
         let frequency = self.shift.angular_frequency() / TAU;
         let (cycles, frequency) = (plain(frequency * DAY), plain(frequency));

@@ -1,6 +1,6 @@
-//! `mdr-tui new`: a few questions, each with what it means and a default, and a commented scenario of the
-//! answers. What closed forms say of them stands at once below the question. Without a terminal the
-//! options are the answers.
+//! `mdr-tui new`: asks a few questions, each with its meaning and a default, and writes a commented scenario from the
+//! answers. Predictions of closed forms appear at once below each question. Without a terminal, the options are the
+//! answers.
 
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -26,13 +26,13 @@ mod forecast;
 use answers::{Body, Draft, Quantity, Question, materials, question};
 use forecast::Forecast;
 
-/// A scenario with more cycles than this jumps over those that are alike.
+/// A scenario with more cycles than this uses cycle jumps.
 const JUMP_FROM: f64 = 1000.0;
 
 /// Writes a new scenario.
 pub fn new(options: &New) -> Result<()> {
     let path = options.file.as_path();
-    // Not held while questions wait for answers.
+    // Only a check: the file is not claimed while questions wait for answers.
     drop(Target::claim(path, options.force)?);
     let asks = io::stdin().is_terminal() && io::stderr().is_terminal();
     let interview = Interview {
@@ -60,7 +60,7 @@ pub fn new(options: &New) -> Result<()> {
         opens = answer.context("the scenario is written, but not opened")?;
     }
     if opens {
-        // A name that begins with a dash is not an option.
+        // `--` keeps a name that begins with a dash from being taken for an option.
         let words = ["mdr-tui".as_ref(), "--".as_ref(), options.file.as_os_str()];
         let explorer = Arguments::parse_from(words).explore;
         explore::explore(&explorer, None)?;
@@ -68,7 +68,7 @@ pub fn new(options: &New) -> Result<()> {
     Ok(())
 }
 
-/// Whether a question was ended by a signal or by Ctrl-C.
+/// Whether a signal or Ctrl-C interrupted a question.
 fn is_interrupted(error: &anyhow::Error) -> bool {
     let cause = error.downcast_ref();
     matches!(cause, Some(dialoguer::Error::IO(cause)) if cause.kind() == io::ErrorKind::Interrupted)
@@ -90,10 +90,10 @@ impl Drop for Cursor {
     }
 }
 
-/// The fewest rows and columns for questions.
+/// Minimum number of rows and columns for questions.
 const LEAST: (u16, u16) = (3, 20);
 
-/// Refuses a terminal that has no room for questions.
+/// Refuses a terminal that is too small for questions.
 fn check_room() -> Result<(), Refusal> {
     let (rows, columns) = Term::stderr().size();
     if rows >= LEAST.0 && columns >= LEAST.1 {
@@ -109,14 +109,14 @@ fn check_room() -> Result<(), Refusal> {
 
 /// Takes each answer from its option, from the user, or from its default.
 struct Interview {
-    /// The options by their names.
+    /// The options, by name.
     options: serde_json::Value,
-    /// How questions look; `None` without a terminal.
+    /// The look of the questions; `None` without a terminal.
     theme: Option<Box<dyn Theme>>,
 }
 
 impl Interview {
-    /// The answers; where questions are asked, the terminal is given back if a signal or a key ends them.
+    /// Returns the answers; restores the terminal if a signal or a key interrupts the questions.
     fn attended(&self) -> Result<Draft> {
         if self.theme.is_none() {
             return self.answers();
@@ -136,9 +136,9 @@ impl Interview {
         if !matches!(&answers, Ok(Err(error)) if is_interrupted(error)) {
             closing.close();
         }
-        // A signal, or Ctrl-C, which a question passes on as one, ends the process.
+        // A signal ends the process here, and so does Ctrl-C, which a question reports as a signal.
         let _ = watch.join();
-        // The terminal may have become too small meanwhile.
+        // The terminal may have been made too small in the meantime.
         answers.unwrap_or_else(|panic| match check_room() {
             Err(refusal) => Err(refusal.into()),
             Ok(()) => resume_unwind(panic),
@@ -148,18 +148,39 @@ impl Interview {
     fn answers(&self) -> Result<Draft> {
         let mut draft = Draft::default();
         // What is not asked yet has its default, so that the contact can be described already.
-        for question in ["stroke", "friction", "frequency", "cycles"].map(question) {
-            let usual = question.read(&question.default).map_err(Refusal::from)?;
-            draft.answer(question, &usual);
+        let usual = |option| {
+            let question = question(option);
+            question.read(&question.default).map_err(Refusal::from)
+        };
+        for option in ["stroke", "friction", "frequency", "cycles"] {
+            draft.answer(question(option), &usual(option)?);
         }
         let what = "Which shape presses on the flat body?";
-        let (shape, _) = self.one_of(["ball", "punch"], what, &mut draft)?;
+        let (shape, _) = self.one_of(&["ball", "punch", "cylinder"], what, &mut draft)?;
+        let of_line = ["length", "gauge"];
+        let is_line = shape.option == "cylinder";
+        if is_line {
+            self.number("length", &mut draft)?;
+            draft.answer(question("gauge"), &usual("gauge")?);
+        } else if let Some(option) = of_line.iter().find(|option| self.given(option).is_some()) {
+            let place = format!("--{option}");
+            return Err(Refusal::new(place, "needs --cylinder").into());
+        }
         let of = self.body("material", &mut draft)?;
         let on = self.body("against", &mut draft)?;
         let what = "What presses the bodies together?";
-        let (_, press) = self.one_of(["load", "depth"], what, &mut draft)?;
+        // A line has no depth: in the plane it is infinite.
+        let presses = if is_line {
+            &["load"][..]
+        } else {
+            &["load", "depth"]
+        };
+        let (_, press) = self.one_of(presses, what, &mut draft)?;
         self.tell(&draft, |of| of.contact())?;
         let stroke = self.number("stroke", &mut draft)?;
+        if is_line {
+            self.number("gauge", &mut draft)?;
+        }
         self.number("friction", &mut draft)?;
         self.tell(&draft, |of| of.regime())?;
         self.number("frequency", &mut draft)?;
@@ -183,20 +204,23 @@ impl Interview {
         Ok(draft)
     }
 
-    /// One of two questions, and its answer: the one whose option is given, or whose item the user chooses.
+    /// One of some questions, and its answer: the one whose option is given, or whose item the user chooses.
     fn one_of(
         &self,
-        both: [&str; 2],
+        all: &[&str],
         prompt: &str,
         draft: &mut Draft,
     ) -> Result<(&'static Question, Quantity)> {
-        let given = both.iter().position(|option| self.given(option).is_some());
-        let items = || both.map(|option| &question(option).item);
-        let which = given.map_or_else(|| self.choose(prompt, &items()), Ok)?;
-        Ok((question(both[which]), self.number(both[which], draft)?))
+        let given = all.iter().position(|option| self.given(option).is_some());
+        let items = all.iter().map(|option| &question(option).item);
+        let which = match given {
+            None if all.len() > 1 => self.choose(prompt, &items.collect::<Vec<_>>())?,
+            given => given.unwrap_or(0),
+        };
+        Ok((question(all[which]), self.number(all[which], draft)?))
     }
 
-    /// A material, which the draft takes, by its option, from the list, or by two numbers; its name.
+    /// Adds a material to the draft: from its option, from the list, or from two numbers. Returns its name.
     fn body(&self, option: &str, draft: &mut Draft) -> Result<String> {
         let mut question = question(option).clone();
         let mut listed = None;
@@ -220,7 +244,7 @@ impl Interview {
         Ok(body.name)
     }
 
-    /// The answer to the question of an option, which the draft takes.
+    /// Asks the question of an option and adds the answer to the draft.
     fn number(&self, option: &str, draft: &mut Draft) -> Result<Quantity> {
         let question = question(option);
         let answer = self.ask(question, |text| question.read(text))?;
@@ -228,12 +252,12 @@ impl Interview {
         Ok(answer)
     }
 
-    /// What is given by an option.
+    /// Returns the value of an option, if given.
     fn given(&self, option: &str) -> Option<&str> {
         self.options[option].as_str()
     }
 
-    /// An answer of one line: the option's, the user's, or the default.
+    /// Returns a one-line answer: the option's, the user's, or the default.
     fn ask<T>(&self, question: &Question, read: impl Fn(&str) -> Result<T, String>) -> Result<T> {
         let text = match (self.given(&question.option), &self.theme) {
             (Some(given), _) => given.to_owned(),
@@ -250,7 +274,7 @@ impl Interview {
         Ok(read(&text).map_err(|rule| Refusal::new(place, rule))?)
     }
 
-    /// The place of the item that is chosen; the first without a terminal.
+    /// Returns the index of the item that the user chooses; the first without a terminal.
     fn choose(&self, prompt: &str, items: &[impl std::fmt::Display]) -> Result<usize> {
         let Some(theme) = &self.theme else {
             return Ok(0);
@@ -260,7 +284,7 @@ impl Interview {
         answer.context("nothing was written")
     }
 
-    /// Tells a user what closed forms say of the answers so far.
+    /// Shows the user what closed forms predict from the answers so far.
     fn tell(&self, draft: &Draft, what: fn(&Forecast) -> String) -> Result<()> {
         if self.theme.is_some()
             && let Ok(scenario) = draft.scenario("so far")

@@ -1,19 +1,28 @@
-//! How a run begins: from a scenario, or where an interrupted one ended.
+//! How a run begins: from a scenario, or where an interrupted run ended.
 
 use std::ffi::OsStr;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
 
-use anyhow::Context;
+use anyhow::{Context, Result};
 
 use super::past::Past;
-use super::*;
-use crate::export::autosave::state_directory;
-use crate::export::file::directory_of;
-use crate::export::run_directory::RUN_CHECKPOINT;
-use crate::scenario::checkpoint::Stamp;
-use crate::studies::refinement::Budget;
+use super::{Job, Safe};
+use crate::cli::args::Run;
+use crate::cli::job::RunJob;
+use crate::cli::{accuracy, given};
+use crate::export::autosave::{Autosave, Recent};
+use crate::export::file::{WriteError, directory_of};
+use crate::export::own_directory;
+use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
+use crate::panics::locked;
+use crate::scenario::checkpoint::{self, Stamp};
+use crate::scenario::session::Session;
+use crate::scenario::{Scenario, printable};
+use crate::studies::refinement::{self, Budget};
 
 impl<'a> Job<'a> {
-    /// Starts the scenario that is given as `name`.
+    /// Starts the scenario called `name`.
     pub(super) fn start(options: &'a Run, name: &OsStr, go_on: &dyn Fn() -> bool) -> Result<Self> {
         let mut scenario = given::scenario(name, &options.changes.set)?;
         let name = &*scenario.origin().to_owned();
@@ -39,7 +48,7 @@ impl<'a> Job<'a> {
         }
         job = job.identify(&scenario);
         let session = Session::start(scenario).with_context(|| printable(name))?;
-        // Only now, when there is something to put in their place.
+        // Clears the old files only now, when there is something to replace them.
         if options.force {
             directory.clear(|_| false)?;
         }
@@ -54,12 +63,14 @@ impl<'a> Job<'a> {
         let is_out = |home: &Path| out.is_none_or(|out| is_same(home, out));
         let is_of_a_run = file.is_file() && file.ends_with(RUN_CHECKPOINT);
         let beside = is_of_a_run.then(|| directory_of(file));
-        // Only the first process may resume it.
+        // Only the first process that claims the directory may resume it.
         let claimed = beside.filter(|home| is_out(home));
         let claimed = claimed.map(RunDirectory::reopen).transpose()?;
         let kept = checkpoint::read::<RunJob>(file)?;
         let session = kept.session;
         let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
+        job.field |= options.field;
+        job.estimates |= options.estimate_error;
         let home = beside.or(job.home.as_deref()).map(Path::to_owned);
         let past = Past::find(&job, home.as_deref())?;
         let is_returning = claimed.is_none();
@@ -97,9 +108,9 @@ impl<'a> Job<'a> {
         directory: RunDirectory,
     ) -> Self {
         session.state(job.statements.clone());
-        let home = directory.checkpoint();
+        let home = Some(directory.clone());
         let safe = Safe {
-            checkpoints: Autosave::new(Some(home), state_directory(), options.checkpoint_every),
+            checkpoints: Autosave::new(home, own_directory::state(), options.checkpoint_every),
             copy: Recent::new((session.clone(), job.clone())),
         };
         Self {
@@ -115,13 +126,13 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Whether two paths lead to one directory.
+/// Whether two paths lead to the same directory.
 fn is_same(one: &Path, other: &Path) -> bool {
     let [one, other] = [one, other].map(|path| path.canonicalize().ok());
     one.is_some() && one == other
 }
 
-/// A new directory named after the scenario.
+/// Claims a new directory named after the scenario.
 fn new_directory(scenario: &Scenario) -> Result<RunDirectory, WriteError> {
     RunDirectory::claim_new(&format!("{}-run", scenario.stem()))
 }

@@ -1,11 +1,8 @@
 //! `mdr-tui run`: the simulation without a screen.
-//!
-//! What its parts need is imported here, and they begin with `use super::*`.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -17,16 +14,15 @@ use anyhow::{Result, anyhow};
 use super::args::{CycleAsGiven, Run};
 use super::job::RunJob;
 use super::progress::Progress;
-use super::{FAILED, UNFINISHED, accuracy, complain, given, provenance, stop};
+use super::{FAILED, UNFINISHED, accuracy, complain, provenance, stop};
 use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::{WriteError, shell_path, write_whole_with};
+use crate::export::file::{WriteError, shell_path};
 use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, last_loop, state};
 use crate::panics::locked;
+use crate::scenario::checkpoint;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Scenario, checkpoint, printable};
-use crate::studies::refinement;
 
 mod begin;
 mod past;
@@ -78,19 +74,19 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if matches!(outcome, Ok(Some(_))) {
         locked(&job.safe).save(&job.session, &job.job);
     }
-    // What has come up during the run; the same warning may have got another cycle.
+    // Shows what has come up during the run; the same warning may now name another cycle.
     let now = remarks(&job.session);
     if now.len() > told.len() {
         let new = now.iter().filter(|line| !told.contains(line));
         new.for_each(remark);
     }
-    if options.estimate_error && matches!(outcome, Ok(None)) {
+    if job.job.estimates && matches!(outcome, Ok(None)) {
         job.estimate(&|| why_stop().is_none());
     }
     // Saves what was computed, whatever happened.
     if let Err(error) = job.write_end() {
-        // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may go
-        // elsewhere.
+        // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may still be
+        // saved elsewhere.
         locked(&job.safe).save_silently(&job.session, &job.job);
         return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
@@ -110,7 +106,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         }
         Ok(Some(why)) => {
             complain(&format!("{why}; {}", job.how_to_resume()));
-            // After a bug, the same command would end in the same place.
+            // After a bug, the same command would fail at the same place.
             let can_resume = !is_bug && locked(&job.safe).checkpoints.kept().is_some();
             Ok(ExitCode::from(if can_resume { UNFINISHED } else { FAILED }))
         }
@@ -118,42 +114,45 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     }
 }
 
-/// Ends the process soon after a signal, whatever it is doing: a long step, or a search before the first one.
+/// Ends the process soon after a signal, even during a long step or a search before the first step.
 struct Guard {
-    /// Set by the first of the two that end the run: the run itself, or the thread that waits for a signal.
+    /// Set by whichever ends the run first: the run itself, or the thread that waits for a signal.
     is_over: Arc<AtomicBool>,
-    /// What is saved at the end; nothing before the first step.
+    /// What to save at the end; unset before the first step.
     safe: Arc<OnceLock<Arc<Mutex<Safe>>>>,
 }
 
 impl Guard {
-    /// Waits for `stop` in a thread of its own.
+    /// Waits for `stop` in a separate thread.
     fn watch(stop: Arc<AtomicBool>) -> Self {
         let guard = Self {
             is_over: Arc::default(),
             safe: Arc::default(),
         };
-        let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::clone(&guard.safe));
+        // A weak reference: this thread never ends, and would keep the directory claimed.
+        let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::downgrade(&guard.safe));
         let watch = move || {
             while !stop.load(Ordering::Relaxed) {
                 thread::sleep(GLANCE);
             }
             thread::sleep(STEP_TIMEOUT);
             if !is_over.swap(true, Ordering::SeqCst) {
-                std::process::exit(end_at_once(safe.get()).into());
+                let safe = safe.upgrade();
+                let safe = safe.as_ref().and_then(|safe| safe.get());
+                std::process::exit(end_at_once(safe).into());
             }
         };
-        // A system that has no thread left ends runs between steps alone.
+        // If the system cannot start a thread, runs end only between steps.
         let _ = thread::Builder::new().spawn(watch);
         guard
     }
 
-    /// Saves the run that `safe` keeps from here on.
+    /// Saves the run in `safe` from now on.
     fn keeps(&self, safe: &Arc<Mutex<Safe>>) {
         let _ = self.safe.set(Arc::clone(safe));
     }
 
-    /// From here on the run ends by itself; never returns if the process is being ended.
+    /// Marks the end of the run; never returns if the process is already being ended.
     fn is_done(&self) {
         while self.is_over.swap(true, Ordering::SeqCst) {
             thread::park();
@@ -161,7 +160,7 @@ impl Guard {
     }
 }
 
-/// Saves the copy of a run in the middle of a step, and tells the exit code.
+/// Saves the copy of a run in the middle of a step, and returns the exit code.
 fn end_at_once(safe: Option<&Arc<Mutex<Safe>>>) -> u8 {
     let Some(safe) = safe else {
         complain("interrupted before the first step: nothing is computed yet");
@@ -181,7 +180,7 @@ fn end_at_once(safe: Option<&Arc<Mutex<Safe>>>) -> u8 {
     }
 }
 
-/// What survives the run: a copy in memory, and a checkpoint on disk.
+/// What survives a failure: a copy in memory, and a checkpoint on disk.
 struct Safe {
     checkpoints: Autosave,
     /// The run a moment ago.
@@ -189,7 +188,7 @@ struct Safe {
 }
 
 impl Safe {
-    /// Writes a checkpoint. If that fails, the user is told once and the run continues.
+    /// Writes a checkpoint. If that fails, tells the user once; the run continues.
     fn save(&mut self, session: &Session, job: &RunJob) {
         if let Some(word) = self.save_silently(session, job) {
             complain(&word);
@@ -219,7 +218,7 @@ impl Safe {
 
 struct Job<'a> {
     options: &'a Run,
-    /// What messages call the run.
+    /// The name of the run in messages.
     name: String,
     session: Session,
     job: RunJob,
@@ -227,12 +226,13 @@ struct Job<'a> {
     safe: Arc<Mutex<Safe>>,
     /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
-    /// Snapshots that could not be written when their cycle came, to be tried again at the end.
+    /// Snapshots that could not be written at their cycle and are tried again at the end.
     owed: Vec<(String, String)>,
 }
 
 impl Job<'_> {
-    /// Estimates the error at the end, which the headers of the files then state. An accuracy has stated it before.
+    /// Estimates the error at the end for the headers of the files, unless a search for an accuracy has already stated
+    /// it.
     fn estimate(&mut self, go_on: &dyn Fn() -> bool) {
         if !self.job.statements.is_empty() {
             return;
@@ -246,7 +246,8 @@ impl Job<'_> {
         }
     }
 
-    /// The snapshots state what the run states at its end, as they do where its `scenario.toml` is run again.
+    /// Copies the errors stated at the end into the snapshots' headers, as if the run's `scenario.toml` had been run
+    /// again.
     fn restate(&mut self) {
         let line = |(key, value): &(String, String)| header::line(key, value);
         let stated: String = self.session.statements().iter().map(line).collect();
@@ -264,11 +265,11 @@ impl Job<'_> {
     }
 
     /// Steps to the end, taking snapshots on the way, until there is a reason to stop. Returns why and where it stopped
-    /// before its end.
+    /// early.
     fn advance(&mut self, why_stop: &dyn Fn() -> Option<&'static str>) -> Result<Option<String>> {
         let end = self.job.cycles;
         let progress = Progress::new(end, self.options.quiet);
-        // A bug leaves this one behind, and the copy takes its place.
+        // A bug may leave this clone half-stepped; the copy then replaces it.
         let mut session = self.session.clone();
         let (mut before, mut outcome) = (None, Ok(()));
         let goal = session.heading(end);
@@ -290,8 +291,8 @@ impl Job<'_> {
         }
     }
 
-    /// Takes the snapshots that are due, records the moment and saves what is due. `before` is the session before
-    /// the step, where a snapshot may lie within it.
+    /// Takes the snapshots that are due, records the moment and saves if due. `before` is the session before the step,
+    /// if a snapshot may lie within the step.
     fn step_is_over(&mut self, session: &Session, before: &mut Option<Session>) -> Result<()> {
         let simulation = session.simulation();
         let (cycle, close) = (simulation.cycle(), simulation.rounding());
@@ -312,7 +313,7 @@ impl Job<'_> {
             true => f64::INFINITY,
             false => simulation.next_moment(),
         };
-        // A copy between two steps takes a fraction of a step and does not change the run.
+        // A copy between two steps costs a fraction of a step and does not change the run.
         *before = self.job.next_snapshot(reach).map(|_| session.clone());
         Ok(())
     }
@@ -321,17 +322,19 @@ impl Job<'_> {
     fn checkpoint_if_due(&mut self, session: &Session) {
         let mut safe = locked(&self.safe);
         safe.copy.refresh(|| (session.clone(), self.job.clone()));
-        if self.unwritten.is_none_or(|at| at.elapsed() >= ANOTHER_TRY) {
+        let is_time = |at: Instant| at.elapsed() >= ANOTHER_TRY;
+        if self.job.history.is_full() && self.unwritten.is_none_or(is_time) {
             // Rows that cannot be written stay in memory.
-            let written = self.job.history.spill(|| self.directory.rows());
-            self.unwritten = written.is_err().then(Instant::now);
+            let rows = self.directory.check().map(|()| self.directory.rows());
+            let is_written = rows.is_ok_and(|rows| self.job.history.spill(&rows).is_ok());
+            self.unwritten = (!is_written).then(Instant::now);
         }
         if safe.checkpoints.is_due() {
             safe.save(session, &self.job);
         }
     }
 
-    /// After a bug, goes back to the copy: the interrupted step has left half a state.
+    /// After a bug, returns to the copy, because the interrupted step has left an inconsistent state.
     fn go_back(&mut self) -> String {
         let (session, job) = locked(&self.safe).copy.get().clone();
         self.session = session;
@@ -346,8 +349,8 @@ impl Job<'_> {
         locked(&self.safe).how_to_resume(self.session.simulation().cycle())
     }
 
-    /// Takes the snapshots that are due before the cycle `end` and not before `session`. Those that cannot be
-    /// written are tried again at the end.
+    /// Takes the snapshots that are due from the cycle of `session` to the cycle `end`. Those that cannot be written
+    /// are tried again at the end.
     fn take_snapshots(&mut self, session: &Session, end: f64) -> Result<()> {
         while let Some(snapshot) = self.job.next_snapshot(end) {
             let (name, table) = (file_of(snapshot), table_at(snapshot, session)?);
@@ -361,16 +364,16 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// Writes the final files, as many as possible.
+    /// Writes as many of the final files as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
         let rows = self.directory.rows();
-        let file = self.directory.path().join("history.csv");
-        let mut outcome = write_whole_with(&file, |out| job.history.write(session, &rows, out));
+        let history = |out: &mut dyn io::Write| job.history.write(session, &rows, out);
+        let mut outcome = self.directory.write_with("history.csv", history);
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
         let last_loop = is_done.then(|| last_loop::file(session)).flatten();
-        let field = self.options.field.then(|| field::table(session));
+        let field = job.field.then(|| field::table(session));
         let scenario = session.as_run(job.snapshot_at()).to_toml();
         let files = [
             ("scenario.toml", Some(scenario)),
@@ -389,7 +392,7 @@ impl Job<'_> {
     }
 }
 
-/// The table of the state at a cycle that `session` has reached or is yet to reach.
+/// Returns the table of the state at a cycle that `session` has reached or has yet to reach.
 fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let simulation = session.simulation();
     if snapshot.cycle() <= simulation.cycle() + simulation.rounding() {
@@ -400,7 +403,7 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     Ok(state::table(&glimpse))
 }
 
-/// The name of a snapshot's file.
+/// Returns the name of a snapshot's file.
 fn file_of(snapshot: &CycleAsGiven) -> String {
     format!("state-{}.csv", snapshot.0)
 }

@@ -1,26 +1,30 @@
-//! What an interrupted run has written so far. Its checksums tell, so that files which another run has put in their
-//! place are never taken for its own.
+//! The files that an interrupted run has written so far. They are recognised by checksum, so that files that another
+//! run has put in their place are never mistaken for them.
 
-use std::io::Read;
-use std::path::PathBuf;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
-use super::*;
-use crate::cli::job::rows_sum;
-use crate::export::run_directory::RUN_ROWS;
+use anyhow::Result;
+
+use super::file_of;
+use crate::cli::job::{RunJob, rows_sum};
+use crate::cli::{complain, provenance};
+use crate::export::file::write_whole_with;
+use crate::export::run_directory::{RUN_ROWS, RunDirectory};
 use crate::export::safe_open;
 use crate::scenario::Refusal;
 use crate::scenario::bounded_read::Unread;
 
-/// The files of a run that its checkpoint counts on.
+/// The files of a run that its checkpoint relies on.
 pub(super) struct Past {
     /// Their directory.
     home: PathBuf,
-    /// Those that are as the run has written them.
+    /// Files unchanged since the run wrote them.
     own: Vec<String>,
     missing: Vec<String>,
-    /// Those that something else has written.
+    /// Files that something else has written.
     foreign: Vec<String>,
-    /// Whether the directory says that this run was the last one to write its end there.
+    /// Whether this run was the last one to complete its files in the directory.
     is_last: bool,
 }
 
@@ -29,7 +33,7 @@ impl Past {
     ///
     /// # Errors
     ///
-    /// If the system refuses to read one.
+    /// If one of them cannot be read.
     pub(super) fn find(job: &RunJob, home: Option<&Path>) -> Result<Self, Refusal> {
         let home = home.unwrap_or(Path::new(".")).to_owned();
         let mut past = Self {
@@ -41,7 +45,7 @@ impl Past {
         };
         for (snapshot, sum) in job.taken() {
             let name = file_of(snapshot);
-            // The explorer writes none: what has this name is something else.
+            // The explorer does not write these snapshots, so a file of this name is something else.
             if sum.is_some() {
                 let found = sum_of(&past.home.join(&name)).map(|found| Some(found) == sum);
                 past.sort(name, found)?;
@@ -71,7 +75,7 @@ impl Past {
         Ok(())
     }
 
-    /// Whether the run has written the file of this name.
+    /// Whether the run wrote the file of this name.
     pub(super) fn is_own(&self, name: &str) -> bool {
         self.is_last || self.own.iter().any(|own| own == name)
     }
@@ -80,7 +84,7 @@ impl Past {
     ///
     /// # Errors
     ///
-    /// If there is one.
+    /// If there is such a file.
     pub(super) fn refuse_foreign(&self, force: bool) -> Result<(), Refusal> {
         let Some(name) = self.foreign.first().filter(|_| !force) else {
             return Ok(());
@@ -91,11 +95,11 @@ impl Past {
         Err(Refusal::new(path.display(), rule))
     }
 
-    /// Brings the files into `directory`, unless they are there, and tells what is lost.
+    /// Copies the files into `directory` unless they are already there, and reports what is lost.
     ///
     /// # Errors
     ///
-    /// If one cannot be copied.
+    /// If a file cannot be copied.
     pub(super) fn bring(
         &self,
         job: &mut RunJob,
@@ -125,7 +129,7 @@ impl Past {
     }
 }
 
-/// The checksum of the rows in a file.
+/// Returns the checksum of the rows in a file.
 fn sum_of(path: &Path) -> io::Result<u32> {
     let mut table = Vec::new();
     safe_open::read(path)?.read_to_end(&mut table)?;

@@ -1,13 +1,18 @@
-//! What a run says of itself: remarks at its start, and its end in words or as JSON.
+//! A run's reports: remarks at its start, and its result as text or JSON.
 
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 
-use super::*;
-use crate::reading::{Quantity, verdict};
-use crate::scenario::escape;
+use anyhow::Result;
+
+use super::Job;
+use crate::export::header::{self, number};
+use crate::reading::{Column, Quantity, verdict};
 use crate::scenario::scalars::Value;
+use crate::scenario::session::Session;
+use crate::scenario::{escape, printable};
 
-/// What a user should know of a run: why it never jumps, what its indenter is made from, warnings.
+/// Returns what a user should know about a run: why it never jumps, what its indenter is made from, warnings.
 pub(super) fn remarks(session: &Session) -> Vec<String> {
     let never = session.simulation().why_never_jumped();
     let never = never.map(|why| format!("no cycle jumps: {why}"));
@@ -20,7 +25,7 @@ pub(super) fn remarks(session: &Session) -> Vec<String> {
 }
 
 impl Job<'_> {
-    /// The last row of the history and the header of the files, by the names that they have there.
+    /// Prints the last row of the history and the header of the files, by the names used there.
     pub(super) fn print_json(&self) -> Result<()> {
         let header = header::entries(&self.session).into_iter();
         let header = header.map(|(key, text)| match text.parse::<f64>() {
@@ -28,7 +33,7 @@ impl Job<'_> {
             Err(_) => (key, text.into()),
         });
         let values = self.job.history.values(&self.session).into_iter();
-        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let values = values.map(|(column, value)| (column.name().to_owned(), value));
         let directory = self.directory.path().display().to_string();
         let directory = [("directory".to_owned(), directory.into())];
         let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
@@ -36,7 +41,7 @@ impl Job<'_> {
         Ok(writeln!(io::stdout().lock(), "{summary}")?)
     }
 
-    /// The end in words.
+    /// Prints the result as text.
     pub(super) fn summarize(&self) -> Result<()> {
         let simulation = self.session.simulation();
         let (moment, stats) = (simulation.moment(), simulation.stats());
@@ -59,13 +64,18 @@ impl Job<'_> {
         lines.extend(residual.map(|residual| ("energy residual", residual)));
         let error = "estimated error";
         let stated = self.session.statements().iter();
-        if volume > 0.0 && stated.clone().all(|(key, _)| key != "estimated_error") {
+        if volume > 0.0
+            && stated
+                .clone()
+                .all(|(key, _)| key != Column::WornDepthError.name())
+        {
             lines.push((error, "not run (--estimate-error measures it)".into()));
         }
         for (key, value) in stated {
             let mut quantities = Quantity::ALL.iter();
-            let of = quantities.find(|quantity| quantity.column() == key);
-            lines.extend(of.map(|of| (error, format!("{value}   of {}", of.name()))));
+            let of = quantities.find(|quantity| quantity.column().name() == key);
+            let name = |of: &Quantity| setup.geometry.named(of.name());
+            lines.extend(of.map(|of| (error, format!("{value}   of {}", name(of)))));
         }
         if let Some(verdict) = verdict(&self.session.checks()) {
             lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
@@ -80,9 +90,10 @@ impl Job<'_> {
         let mut out = io::stdout().lock();
         let title = self.session.scenario().title();
         writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
+        let width = if setup.geometry.is_line() { 26 } else { 22 };
         for (name, text) in lines {
             let name = setup.geometry.named(name);
-            writeln!(out, "  {name:<22}  {text}")?;
+            writeln!(out, "  {name:<width$}  {text}")?;
         }
         Ok(())
     }

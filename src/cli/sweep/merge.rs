@@ -1,14 +1,24 @@
 //! `sweep --merge`: merges the shards of a study into one table.
 
 use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::{env, fs};
 
-use super::*;
-use crate::studies::sweep::record::Refused;
+use anyhow::{Context, Result, bail};
+
+use crate::cli::args::Sweep;
+use crate::cli::complain;
+use crate::export::target::Target;
+use crate::scenario::{Refusal, printable};
+use crate::studies::sweep::ledger::Ledger;
+use crate::studies::sweep::record::{self, Arithmetic, Record, Refused};
+use crate::studies::sweep::{Shard, Study};
 
 /// Maximum number of points named in a message.
 const NAMED: usize = 3;
 
-/// Reads every table of the directory and writes the whole one.
+/// Reads every table of the directory and writes the merged one.
 pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let shown = printable(&directory.display().to_string());
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
@@ -20,7 +30,7 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let record = Record::of_file(first)?;
     let study = &record.study()?;
     record.expect(study, "this version of mdr-tui")?;
-    // Rows in a file without a name, where the merged table will stand.
+    // Collects the rows in an unnamed file, in the directory of the merged table.
     let beside = target.as_ref().map(|target| target.directory().to_owned());
     let beside = beside.unwrap_or_else(env::temp_dir);
     let rows = tempfile::tempfile_in(&beside);
@@ -81,8 +91,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     Ok(())
 }
 
-/// The names of the CSV files of a directory, sorted. Nothing else is opened:
-/// a pipe would wait for its other end.
+/// Returns the names of the CSV files in a directory, sorted. Opens nothing else: opening a pipe would block until its
+/// other end is opened.
 fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(directory)?.map(|entry| Ok(entry?.path()));
     let mut files: Vec<PathBuf> = entries.collect::<io::Result<_>>()?;
@@ -94,7 +104,7 @@ fn tables(directory: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Names points without a row, and the shards that should have them.
+/// Refuses a study with missing points; names some of them, and the shards that should have them.
 fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Result<()> {
     let missing = || rows.missing(study, Shard::WHOLE);
     let (all, left) = (study.points(), study.points() - rows.rows());
@@ -111,7 +121,7 @@ fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Re
     )
 }
 
-/// The first few names.
+/// Lists the first few names.
 fn some(names: &[String]) -> String {
     let more = if names.len() > NAMED { ", ..." } else { "" };
     names[..names.len().min(NAMED)].join(", ") + more

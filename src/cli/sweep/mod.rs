@@ -1,12 +1,10 @@
 //! `mdr-tui sweep`: a study of many points, whole or in shards.
-//!
-//! What its parts need is imported here, and they begin with `use super::*`.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use std::{env, fs, thread};
+use std::{env, thread};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Parser;
@@ -14,12 +12,11 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::args::{Arguments, Sweep};
 use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
-use crate::export::file::{shell_path, shell_word};
-use crate::export::target::Target;
+use crate::export::file::shell_path;
 use crate::scenario::{Refusal, bounded_read, printable};
 use crate::studies::sweep::engine;
 use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::record::{self};
 use crate::studies::sweep::{Shard, Study, Success};
 use crate::tui::map::live::Live;
 
@@ -30,10 +27,10 @@ mod slurm;
 
 use output::Output;
 
-/// The largest file that is read as a study, in bytes.
+/// The largest study file to be read, in bytes.
 const LARGEST_STUDY: u64 = 1 << 26;
 
-/// The variable in which Slurm gives a task of an array its index.
+/// The variable with which Slurm gives a task of an array its index.
 const SLURM_INDEX: &str = "SLURM_ARRAY_TASK_ID";
 
 /// Runs the command.
@@ -72,7 +69,7 @@ fn view(file: &Path, options: &Sweep) -> Result<()> {
     explore::explore(&explorer, Some(map))
 }
 
-/// The threads to run this many `points` on: as many as are asked for, or one for each processor, but no idle ones.
+/// Starts the threads for this many `points`: the number asked for, or one per processor, but no idle ones.
 fn pool(options: &Sweep, points: usize) -> Result<ThreadPool> {
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     let threads = options.threads.map_or_else(processors, usize::from);
@@ -81,7 +78,7 @@ fn pool(options: &Sweep, points: usize) -> Result<ThreadPool> {
     pool.context("cannot start the threads")
 }
 
-/// Reads a study, with the assignments of the command line in its `[set]`.
+/// Reads a study and applies the assignments of the command line.
 fn read(path: &Path, sets: &[String]) -> Result<Study> {
     let name = printable(&path.display().to_string());
     let text = bounded_read::text(path, LARGEST_STUDY)
@@ -103,11 +100,11 @@ fn print_point(study: &Study, point: usize) -> Result<()> {
     Ok(writeln!(io::stdout(), "# {name}\n{scenario}")?)
 }
 
-/// How long points are checked before the first one runs.
+/// Maximum time for checking points before the first one runs.
 const CHECKED_FIRST: Duration = Duration::from_secs(1);
 
-/// Refuses a study with an invalid point, unless invalid points are skipped. What is not checked within `patience` is
-/// found invalid when its turn comes.
+/// Refuses a study with an invalid point, unless invalid points are skipped. Points not checked within `patience` are
+/// checked when they run.
 fn refuse_invalid(
     options: &Sweep,
     study: &Study,
@@ -148,7 +145,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     bar.set_position(output.ledger.rows() as u64);
     bar.reset_eta();
     let mut points = shard.points(study.points()).peekable();
-    // With --json, each row as soon as all before it are there.
+    // With --json, prints each row as soon as all rows before it are known.
     let mut print = |ledger: &Ledger| -> Result<()> {
         let mut out = io::stdout().lock();
         while options.json
@@ -207,7 +204,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
             "{failed} of {there} points failed; their status says why, and --resume --failed runs \
              them again"
         ));
-        // Invalid points were to be skipped.
+        // Invalid points do not count as failures: they were to be skipped.
         let is_failure = failed == there || output.ledger.count(Success::Failed) > 0;
         return Ok(succeeded(!is_failure));
     }
@@ -217,7 +214,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The part of the study to run.
+/// Returns the part of the study to run.
 fn shard(options: &Sweep) -> Result<Shard> {
     let Some(count) = options.shards else {
         return Ok(options.shard.unwrap_or(Shard::WHOLE));
@@ -232,7 +229,7 @@ fn shard(options: &Sweep) -> Result<Shard> {
     shard.map_err(|why: String| Refusal::of_value(SLURM_INDEX, &index, why).into())
 }
 
-/// The default output file.
+/// Returns the default output file.
 fn default_out(study: &Path, shard: Shard) -> PathBuf {
     match shard {
         Shard::WHOLE => named_after(study, "csv"),
@@ -240,7 +237,8 @@ fn default_out(study: &Path, shard: Shard) -> PathBuf {
     }
 }
 
-/// A path here with the name of a study and another `ending`: its table, and the directory for its shards.
+/// Returns a path in the working directory, named after the study, with another `ending`: for its table, or for the
+/// directory of its shards.
 fn named_after(study: &Path, ending: &str) -> PathBuf {
     Path::new(study.file_name().unwrap_or_default()).with_extension(ending)
 }

@@ -1,12 +1,24 @@
-//! The output file: rows are appended as they finish, and sorted at the end. Its size is no matter of
-//! memory.
+//! The output file: rows are appended as they finish, and sorted at the end. Memory use does not grow with its size.
 
-use super::*;
+use std::env;
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail, ensure};
+
+use crate::cli::args::Sweep;
 use crate::export::file::{WriteError, write_with};
+use crate::export::target::Target;
 use crate::export::{header, safe_open};
+use crate::scenario::Refusal;
+use crate::scenario::bounded_read::Unread;
+use crate::studies::sweep::ledger::Ledger;
+use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::{Shard, Study, Success};
 
-/// How often rows are flushed to disk. A killed process loses none, since the system has them
-/// already; a crash of the machine loses at most this much.
+/// Interval for flushing rows to disk. A killed process loses none, since the system already has them; a crash of the
+/// machine loses at most this much.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
 /// The rows of a study in a file.
@@ -16,14 +28,14 @@ pub struct Output {
     head: String,
     /// The rows.
     pub ledger: Ledger,
-    /// Whether rows could be added up to now.
+    /// Whether all rows could be written so far.
     is_whole: bool,
     flushed: Instant,
 }
 
 impl Output {
-    /// Makes the file, or continues it, which no other process writes. What was there before stays until its rows are
-    /// written again, so that new ones can be appended.
+    /// Creates the file, or continues it, and claims it. An existing file is replaced only when its rows have been
+    /// copied, so that new ones can be appended.
     pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
         let target = Target::hold_in_new_directory(path)?;
         let mut arithmetic: Arithmetic = [header::arithmetic().to_owned()].into();
@@ -33,7 +45,8 @@ impl Output {
             let rule = "already exists; --resume continues it, --force starts over, --out names another file";
             ensure!(options.resume, refuse(rule.into()));
             let file = safe_open::read(path);
-            let file = file.map_err(|error| refuse(format!("cannot be read: {error}")))?;
+            let unread = |error| Refusal::unread(path.display(), &Unread::Io(error));
+            let file = file.map_err(unread)?;
             let record = Record::open(file, &path.display().to_string())?;
             record.expect(study, "the study now")?;
             let rule = format!("holds shard {}, not {shard}", record.shard);
@@ -43,7 +56,7 @@ impl Output {
         }
         let head = record::head(study, shard, &arithmetic);
         let ledger = if target.is_stdout() {
-            // Sorted, they come out at the end.
+            // For stdout, rows are collected in a temporary file and printed in order at the end.
             let directory = env::temp_dir();
             let rows = tempfile::tempfile_in(&directory);
             let ledger = rows.and_then(|rows| Ledger::new(study, rows, &directory));
@@ -77,7 +90,7 @@ impl Output {
         })
     }
 
-    /// Adds the row of a point. On an error the file ends with the last whole row.
+    /// Adds the row of a point. On an error the file ends with the last complete row.
     pub fn add(&mut self, point: usize, fields: &[String]) -> Result<(), WriteError> {
         let mut written = self.ledger.add(point, fields);
         if self.flushed.elapsed() >= FLUSH_INTERVAL {
@@ -88,8 +101,8 @@ impl Output {
         written.map_err(WriteError::io(self.target.path()))
     }
 
-    /// Writes the rows in the order of the points. A file that rows could not be added to is left
-    /// as it is: it is whole.
+    /// Writes the rows in the order of the points. After a failed [`add`](Self::add) the file stays unsorted, but every
+    /// row in it is complete.
     pub fn close(&self) -> Result<(), WriteError> {
         if !self.is_whole {
             return Ok(());

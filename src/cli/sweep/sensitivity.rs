@@ -1,10 +1,14 @@
 //! `sweep --sensitivity`: how sensitive the results are to the keys, as a table.
 
-use super::super::results;
-use super::*;
-use crate::studies::sweep::sensitivity;
+use anyhow::{Context, Result};
 
-/// Runs the study of sensitivities and prints, or writes, its table.
+use super::super::results;
+use crate::cli::args::Sweep;
+use crate::cli::{complain, stop};
+use crate::export::target::Target;
+use crate::studies::sweep::{Study, record, sensitivity};
+
+/// Runs the sensitivity study and prints or writes its table.
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let pool = super::pool(options, usize::MAX)?;

@@ -1,17 +1,22 @@
 //! `sweep --slurm`: a job script that runs a study as an array of tasks.
 //!
-//! It relies on this:
-//! - `--signal=B:TERM@60` goes to the batch shell alone, which passes it on; the trap is set before
-//!   the program starts. `scancel`, preemption and `scontrol requeue` send SIGTERM to all processes,
-//!   so that the program may get it twice.
+//! It relies on the following:
+//! - `--signal=B:TERM@60` sends the signal only to the batch shell, which passes it on; the trap is set before
+//!   the program starts. `scancel`, preemption and `scontrol requeue` send SIGTERM to all processes, so the
+//!   program may get it twice.
 //! - Interrupted, the program keeps its rows and exits with 75; then the task asks to be queued again,
 //!   as often as [`MOST_REQUEUES`].
 //! - The number of shards is written down: Slurm's own count shrinks when single tasks are queued
 //!   again.
 
-use super::*;
+use std::path::Path;
 
-/// How often a task that was interrupted asks to be queued again.
+use super::named_after;
+use crate::cli::UNFINISHED;
+use crate::cli::args::Sweep;
+use crate::export::file::{shell_path, shell_word};
+
+/// Maximum number of times that an interrupted task asks to be queued again.
 const MOST_REQUEUES: u32 = 100;
 
 /// Returns the job script for a study of this many `points`.

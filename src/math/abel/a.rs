@@ -1,4 +1,4 @@
-//! Method A of the paper: the singularity of Eq. (2) weakened by splitting u in two.
+//! Method A of the paper: weakens the singularity of Eq. (2) by splitting u in two.
 //!
 //! # Formula
 //!
@@ -10,11 +10,11 @@
 //!                     + (u_k − u′_k x_k) [asin(x_{k+1}/r_j) − asin(x_k/r_j)] }
 //! ```
 //!
-//! which is the exact integral of the piecewise linear u. Eqs. (1) and (3) are [`benad`](super::benad)'s.
+//! This integrates the piecewise linear u exactly. For Eqs. (1) and (3) see [`benad`](super::benad).
 //!
 //! - **Order**, in the largest error over smooth data: 2. At a kink that falls between nodes: 3/2.
 //! - **At r = 0**: w = u(0).
-//! - **At the contact edge**: nothing special, u is a displacement and has no jump.
+//! - **At the contact edge**: nothing special, since u is a displacement and has no jump.
 //! - **Known failure**: none in fretting; the row sums are one, so a rigid shift maps to itself.
 
 use std::f64::consts::FRAC_2_PI;
@@ -31,7 +31,7 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
         for k in 0..j {
             let (a, b) = (nodes[k], nodes[k + 1]);
             let arc = asin_step(a, b, r);
-            // ∫ (x − a)/(b − a) dx/√(r² − x²): the share of the right node.
+            // ∫ (x − a)/(b − a) dx/√(r² − x²): the right node's share.
             let right = (root_step(a, b, r) - a * arc) / (b - a);
             weights[(j, k)] += FRAC_2_PI * (arc - right);
             weights[(j, k + 1)] += FRAC_2_PI * right;

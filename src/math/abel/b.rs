@@ -1,8 +1,8 @@
-//! Method B of the paper: the kernel under the differential, the rest by trapezoids.
+//! Method B of the paper: takes the kernel under the differential, the rest by trapezoids.
 //!
 //! # Formula
 //!
-//! Eqs. (11) to (13); the factor before the sum of (11) is x_j, the paper's x_k is a misprint:
+//! Eqs. (11) to (13). The factor before the sum of (11) is x_j; the paper's x_k is a misprint:
 //!
 //! ```text
 //! g_j = f_0 + x_j Σ_{k≤j} ½(f′_{k−1} + f′_k) [asin(r_k/x_j) − asin(r_{k−1}/x_j)]
@@ -17,9 +17,9 @@
 //!   at the tip is taken as zero. At a kink that falls between nodes: ½ in g and p, 3/2 in w.
 //! - **At r = 0**: g = f(0), w = u(0); in p the first cell takes q′ ∝ x, so the integral is finite.
 //! - **At the contact edge**: the central difference smears the edge over two cells.
-//! - **Known failure**: a central difference reaches one node across, so wear outside the stick
-//!   border is felt inside it; the worn ring grows into the permanent stick zone. The response of p
-//!   to f has near-null modes, so a sawtooth grows at large wear coefficients.
+//! - **Known failure**: a central difference reaches one node across the stick border, so wear outside it
+//!   changes g inside, and the worn ring grows into the permanent stick zone. The response of p to f has
+//!   near-null modes, so a sawtooth grows at large wear coefficients.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
@@ -99,7 +99,7 @@ mod tests {
                 .zip(&nodes)
                 .map(|(w, r)| w * r * r)
                 .sum();
-            // f = r² gives g = 2x²; what is left is the trapezoid's error, of order 3/2.
+            // f = r² gives g = 2x²; the trapezoidal error remains, of order 3/2.
             let bound = 0.3 * (nodes[1] / x).powf(1.5);
             assert!((bowl / (2.0 * x * x) - 1.0).abs() < bound, "{x}: {bowl}");
         }

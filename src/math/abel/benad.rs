@@ -1,4 +1,4 @@
-//! Integration by parts: the singular kernel is integrated once more, the data differentiated.
+//! Integration by parts: integrates the singular kernel once more and differentiates the data.
 //!
 //! J. Benad (2018), Fast numerical implementation of the MDR transformations, Facta Univ. Mech.
 //! Eng. 16(2), 127–138: the paper's reference 9.
@@ -11,24 +11,24 @@
 //! p(r) = (1/π) [ ∫ᵣᵃ q″(x) acosh(x/r) dx − q′(a⁻) acosh(a/r) ]
 //! ```
 //!
-//! With central second differences and trapezoids his g and p equal, by summation by parts, the
-//! exact integral of the piecewise linear interpolant to the last digit, and are computed so here:
+//! With central second differences and trapezoids, Benad's g and p equal the exact integral of the piecewise linear
+//! interpolant (summation by parts), and are computed in that form:
 //!
 //! ```text
 //! g_j = f_0 + x_j Σ_{k<j} (Δf_k/Δr_k) [asin(r_{k+1}/x_j) − asin(r_k/x_j)]
 //! p_j = −(1/π) Σ_{k≥j} (Δq_k/Δx_k) [acosh(x_{k+1}/r_j) − acosh(x_k/r_j)]
 //! ```
 //!
-//! His w stays as he has it: u′ by central differences, the integral by trapezoids.
+//! His w is computed as published: u′ by central differences, the integral by trapezoids.
 //!
 //! - **Order**, in the largest error over smooth data: 3/2 in g, p and w (1 in p at r = 0). At a kink
 //!   that falls between nodes: ½ in g and p, 1 in w.
-//! - **At r = 0**: g = f(0), w = u(0). In p the first cell takes q linear in x² (q′ = O(x)), or the
-//!   integral would be infinite; for a cone, whose p(0) is truly infinite, a finite value stands
-//!   there that grows like ln N.
-//! - **At the contact edge**: q is taken as linear down to zero in the cell that holds the edge.
+//! - **At r = 0**: g = f(0), w = u(0). In p the first cell takes q as linear in x² (q′ = O(x)), since
+//!   the integral would diverge otherwise; for a cone, whose p(0) is infinite, the result is finite and
+//!   grows like ln N.
+//! - **At the contact edge**: q falls linearly to zero in the cell that contains the edge.
 //! - **Known failure**: w looks one node ahead and inverts g badly: the round trip f → g → f has a
-//!   spectral radius that grows with N (13, 19, 28 at N = 50, 100, 200), so that fretting explodes.
+//!   spectral radius that grows with N (13, 19, 28 at N = 50, 100, 200), so fretting runs diverge.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
 
@@ -74,15 +74,15 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
     weights
 }
 
-/// Eq. (3): weights of the stress. The line load ends at the last node; where it is not zero there,
-/// it jumps, as at the rim of a punch.
+/// Eq. (3): weights of the stress. The line load ends at the last node; if it is not zero there, it jumps, as at the
+/// rim of a punch.
 pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
     let last = nodes.len() - 1;
     let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
     for (j, &r) in nodes.iter().enumerate() {
         for k in j..last {
             let (a, b) = (nodes[k], nodes[k + 1]);
-            // ∫ q′ dx/√(x² − r²) over the cell: q linear in x, but in x² where r = a = 0.
+            // ∫ q′ dx/√(x² − r²) over the cell, with q linear in x, or in x² where r = a = 0.
             let integral = if b > 0.0 && a == 0.0 && r == 0.0 {
                 2.0
             } else {
@@ -105,7 +105,7 @@ mod tests {
         (0..=cells).map(|i| i as f64 / cells as f64).collect()
     }
 
-    /// The formula as Benad prints it, with f″ by central differences, against the summed form.
+    /// Compares the formula as Benad prints it, with f″ by central differences, with the summed form.
     #[test]
     fn summation_by_parts_changes_nothing() {
         let nodes = uniform(40);
@@ -126,7 +126,7 @@ mod tests {
         assert!((ours - f[0] - x * printed).abs() < 1e-13);
     }
 
-    /// §3 of the physics notes: 13, 19, 28. This is why the method fails in fretting.
+    /// §3 of the physics notes gives 13, 19, 28: why the method fails in fretting.
     #[test]
     fn the_round_trip_has_a_growing_spectral_radius() {
         for (cells, expected) in [(50, 13.0), (100, 19.0), (200, 28.0)] {

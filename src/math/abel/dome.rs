@@ -1,9 +1,9 @@
-//! The line load of an even pressure: how a load ends at the edge of a scar that slips as a whole.
+//! The line load of a uniform pressure: how the load ends at the edge of a scar in gross slip.
 //!
 //! # Formula
 //!
-//! Wear evens the pressure out up to the edge a of a scar, so the load falls to zero there like the root
-//! D(x) = h √(a² − x²), and not on a line in t = x². Its images are closed forms:
+//! Wear makes the pressure uniform up to the edge a of a scar, so the load falls to zero there like the square root
+//! D(x) = h √(a² − x²), not linearly in t = x². Its images are closed forms:
 //!
 //! ```text
 //! (2)  w(r) = (2/π) h a E(r²/a²)                                     for r < a
@@ -17,19 +17,19 @@
 //! | h, a | height and edge of the dome | unit of the data per m, m |
 //! | K, E | complete elliptic integrals of the parameter m = k² | |
 //!
-//! A [`Field`](super::field::Field) with a dome transforms what its values lack to it, the *rest*, which ends on a line,
-//! and adds these images.
+//! A [`Field`](super::field::Field) with a dome transforms the *rest*, its values minus the dome, which ends linearly
+//! in t, and adds these images.
 //!
-//! With the moving edge of a scar, dδ/dn ∝ p, the pressure falls like (a − r)^θ, θ = 0.015 and 0.003 in gross slip
-//! after 20,000 and 200,000 cycles of a ball on a flat: all but a step. Lines in t alone put a spike of 3 to 16 times the
-//! mean pressure on the last node instead, which never wears off.
+//! While the edge of the scar moves, dδ/dn ∝ p, the pressure falls like (a − r)^θ, with θ = 0.015 and 0.003 in gross
+//! slip after 20,000 and 200,000 cycles of a ball on a flat: nearly a step. Lines in t alone would put a spike of 3 to
+//! 16 times the mean pressure on the last node, which never wears off.
 //!
 //! - **Order**: exact for a dome and a polyline in t on top of it.
 //! - **Cost**: N square roots for the rest.
 //! - **At r = 0**: w = h a, p = h/2.
 //! - **At the contact edge**: p ends with a step.
-//! - **Known failure**: where the load oscillates, p rises towards the edge of the largest contact, which is neither
-//!   line nor root.
+//! - **Known failure**: if the load oscillates, p rises towards the edge of the largest contact; neither a line nor a
+//!   root represents that.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 
@@ -45,15 +45,15 @@ pub struct Dome {
     pub height: f64,
     /// a², m².
     pub edge: f64,
-    /// The last node inside, one at least before the end of the grid.
+    /// Last node inside; at least one more node follows it.
     pub last: usize,
-    /// ∫ dx of the dome from 0 to a without that of its polyline in t, which ends at a, in the unit of the values times m.
+    /// ∫ dx of the dome from 0 to a minus the same of its polyline in t, in the unit of the values times m.
     pub beyond: f64,
 }
 
 impl Dome {
-    /// The dome of the height at which the last two of the `touching` values are h √(a² − x²) + c (a² − x²); `None` if
-    /// h is not positive. `squares` are those of the nodes, `edge` is a², both in m².
+    /// Fits the height so that the last two of the `touching` values are h √(a² − x²) + c (a² − x²);
+    /// `None` unless h > 0. `squares` holds r² of the nodes and `edge` is a², both in m².
     pub fn fit(touching: &[f64], squares: &[f64], edge: f64) -> Option<Self> {
         let last = touching.len().checked_sub(1).filter(|&last| last > 0)?;
         let [inner, outer] = [last - 1, last].map(|j| edge - squares[j]);
@@ -62,8 +62,8 @@ impl Dome {
         Self::of_height(height, edge, last)
     }
 
-    /// The dome of the height at which the last two `values` are h √(a² − x²) + c, a being the last node; `None` if h
-    /// is not positive.
+    /// Fits the height so that the last two `values` are
+    /// h √(a² − x²) + c, with a at the last node; `None` unless h > 0.
     pub fn at_rim(values: &[f64], squares: &[f64]) -> Option<Self> {
         let last = values.len().checked_sub(2)?;
         let edge = squares[last + 1];
@@ -82,14 +82,14 @@ impl Dome {
         (height > 0.0 && height.is_finite()).then_some(dome)
     }
 
-    /// Whether a dome that comes from a file lies on the grid with these `squares`.
+    /// Checks that a dome read from a file lies on the grid with these `squares`.
     pub fn fits(&self, squares: &[f64]) -> bool {
         let cell = squares.get(self.last).zip(squares.get(self.last + 1));
         let is_inside = cell.is_some_and(|(&from, &to)| (from..=to).contains(&self.edge));
         is_inside && self.height.is_finite() && self.beyond.is_finite()
     }
 
-    /// The same dome, `times` as high.
+    /// Returns the same dome, `times` as high.
     pub fn scaled(self, times: f64) -> Self {
         Self {
             height: times * self.height,
@@ -98,12 +98,12 @@ impl Dome {
         }
     }
 
-    /// Its value at x² = `square`.
+    /// Returns its value at x² = `square`.
     pub fn at(&self, square: f64) -> f64 {
         self.height * (self.edge - square).max(0.0).sqrt()
     }
 
-    /// Writes the `rest` of nodal `values` without the dome.
+    /// Writes the `rest`: nodal `values` minus the dome.
     pub fn take_from(&self, values: &[f64], squares: &[f64], rest: &mut Vec<f64>) {
         let Self { height, edge, .. } = *self;
         rest.resize(values.len(), 0.0);
@@ -116,23 +116,23 @@ impl Dome {
         );
     }
 
-    /// The kinks by which its polyline in t ends at a.
+    /// Returns the kinks that end its polyline in t at a.
     pub fn hat(&self, squares: &[f64]) -> [Kink; 3] {
         let cell = [squares[self.last], squares[self.last + 1]];
         kink::hat(cell, self.at(cell[0]), self.edge)
     }
 
-    /// ∫ D dx from 0 to a, in the unit of the values times m.
+    /// Returns ∫ D dx from 0 to a, in the unit of the values times m.
     pub fn line_integral(&self) -> f64 {
         FRAC_PI_4 * self.height * self.edge
     }
 
-    /// Eq. (3): its stress at the nodes inside, in the unit of the values per m.
+    /// Eq. (3): returns its stress at the nodes inside, in the unit of the values per m.
     pub fn stress(&self) -> f64 {
         0.5 * self.height
     }
 
-    /// Eq. (2): its surface displacement at r² = `square`, in the unit of the values.
+    /// Eq. (2): returns its surface displacement at r² = `square`, in the unit of the values.
     pub fn displacement(&self, square: f64) -> f64 {
         let edge = self.edge;
         let per_height = if square < edge {
@@ -148,7 +148,7 @@ impl Dome {
     }
 }
 
-/// K(m) and E(m) for 0 ≤ m ≤ 1, by the arithmetic-geometric mean: DLMF 19.8.5 and 19.8.6.
+/// Returns K(m) and E(m) for 0 ≤ m ≤ 1, by the arithmetic-geometric mean: DLMF 19.8.5 and 19.8.6.
 fn elliptic(m: f64) -> [f64; 2] {
     if m >= 1.0 {
         return [f64::INFINITY, 1.0];
@@ -177,7 +177,7 @@ mod tests {
         beyond: 0.0,
     };
 
-    /// x = min(a, r) sin φ takes both roots out of Eq. (2) but for that of the farther one.
+    /// The substitution x = min(a, r) sin φ removes the nearer of the two roots from Eq. (2).
     #[test]
     fn the_displacement_is_equation_2() {
         let a2 = DOME.edge;

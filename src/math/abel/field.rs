@@ -1,10 +1,10 @@
-//! A nodal field with its kinks and its dome, and its images.
+//! A nodal field with its kinks and its dome, and its transforms.
 //!
-//! Line loads and spring displacements are linear in t = x² between nodes, except for [kinks](super::kink) between two
-//! of them, at the stick border and at the contact's edge, and for a [dome](super::dome), as which they end at the edge of
-//! a scar. A [`Field`] owns them, so that every image and integral has them.
+//! Line loads and spring displacements are linear in t = x² between nodes, except for [kinks](super::kink) inside a
+//! cell, at the stick border and at the contact's edge, and for a [dome](super::dome), the shape in which they end at
+//! the edge of a scar. A [`Field`] owns both, so every transform and integral includes them.
 //!
-//! The published methods use nodal values only: their images ignore kinks and dome.
+//! The published methods use nodal values only: they ignore kinks and dome.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,16 +16,16 @@ use crate::math::grid::RadialGrid;
 /// Values at the nodes of a grid, and the kinks between them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Field {
-    /// One value a node, N + 1 of them; none of a field that a scene does not have.
+    /// One value per node, N + 1 in all; empty if the scene has no such field.
     pub nodal: Vec<f64>,
-    /// In the unit of the values per m², from the tip outwards, hat by hat.
+    /// In the unit of the values per m², from the tip outwards, one hat after another.
     pub kinks: Vec<Kink>,
-    /// How the values fall to zero where a scar ends, if they do so like a root.
+    /// How the values fall to zero at the end of a scar, if they do so like a root.
     pub dome: Option<Dome>,
 }
 
 impl Field {
-    /// Zero on `nodes` nodes.
+    /// Returns a field of zeros on `nodes` nodes.
     pub fn zeros(nodes: usize) -> Self {
         Self {
             nodal: vec![0.0; nodes],
@@ -34,7 +34,7 @@ impl Field {
         }
     }
 
-    /// Eq. (2): the surface displacement `w` (m, N + 1 values) of springs that stand at the field's values (m).
+    /// Eq. (2): computes the surface displacement `w` (m, N + 1 values) of springs displaced by the field's values (m).
     pub fn displacement(&self, plan: &AbelPlan, grid: &RadialGrid, w: &mut [f64]) {
         let (dome, mut rest) = (self.dome_for(plan), Vec::new());
         plan.displacement(self.without(dome, grid, &mut rest), w);
@@ -58,8 +58,9 @@ impl Field {
         }
     }
 
-    /// Eq. (3): the stress `p` (N/m², N + 1 values) of the line load (N/m) from the node `first` on, or from one before
-    /// it, which is returned; nothing beyond the first `touching` nodes. `rest` is overwritten, whatever its length.
+    /// Eq. (3): computes the stress `p` (N/m²) of the line load (N/m) from the node
+    /// `first` on, or from slightly before it, and returns the node where it began;
+    /// zero beyond the first `touching` nodes. Overwrites `rest`, whatever its length.
     pub fn stress_from(
         &self,
         first: usize,
@@ -79,23 +80,23 @@ impl Field {
                 kink::add_to_stress(&hat, squares, within);
                 within.iter_mut().for_each(|p| *p += dome.stress());
             }
-            // Kinks cancel there but for rounding.
+            // Kinks cancel there except for rounding.
             beyond.fill(0.0);
         }
         first
     }
 
-    /// ∫ dx of what the kinks and the dome add to the chords between the nodes, from the tip to `radius` (m).
+    /// Returns ∫ dx of the kinks and the dome beyond the chords between the nodes, from the tip to `radius` (m).
     pub fn between_nodes(&self, radius: f64) -> f64 {
         kink::line_integral(&self.kinks, radius) + self.dome.map_or(0.0, |dome| dome.beyond)
     }
 
-    /// The dome, for a method that takes it into account.
+    /// Returns the dome if the method supports one.
     fn dome_for(&self, plan: &AbelPlan) -> Option<Dome> {
         self.dome.filter(|_| has_kinks(plan))
     }
 
-    /// The nodal values without a dome, in `rest` if there is one.
+    /// Returns the nodal values minus the dome, in `rest` if there is one.
     fn without<'a>(
         &'a self,
         dome: Option<Dome>,
@@ -110,7 +111,7 @@ impl Field {
     }
 }
 
-/// Whether a method takes more than nodal values into account.
+/// Whether the method handles kinks and domes.
 fn has_kinks(plan: &AbelPlan) -> bool {
     plan.method() == AbelMethod::Product
 }
@@ -120,7 +121,7 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_2_PI;
 
-    /// q = 1 − x² up to a = 1, between two nodes, and the nodes that touch.
+    /// q = 1 − x² up to a = 1, between two nodes, and the number of nodes that touch.
     fn load(grid: &RadialGrid) -> (Field, usize) {
         let (x, t) = (grid.nodes(), grid.squares());
         let mut field = Field {
@@ -154,7 +155,7 @@ mod tests {
         assert!(p[touching..].iter().all(|&p| p == 0.0));
     }
 
-    /// An even pressure and that of Hertz, up to an edge between two nodes.
+    /// A uniform and a Hertzian pressure, up to an edge between two nodes.
     #[test]
     fn a_load_with_a_dome_has_its_images() {
         let grid = RadialGrid::graded(90, 0.4, 1.37).expect("a grid");

@@ -1,4 +1,4 @@
-//! Integrals of the Abel kernels over one cell, free of cancellation, and difference formulas.
+//! Integrates the Abel kernels over one cell without cancellation, and gives difference formulas.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
@@ -11,8 +11,8 @@ pub(super) fn leg(a: f64, b: f64) -> f64 {
 
 /// ∫ₐᵇ dx/√(r² − x²) = asin(b/r) − asin(a/r), for 0 ≤ a ≤ b ≤ r.
 ///
-/// Written by the addition theorem: sin of the difference is (b² − a²)/(b√(r²−a²) + a√(r²−b²)),
-/// in which nothing cancels.
+/// Uses the addition theorem: the sine of the difference is
+/// (b² − a²)/(b√(r²−a²) + a√(r²−b²)), in which nothing cancels.
 pub(super) fn asin_step(a: f64, b: f64, r: f64) -> f64 {
     if a == 0.0 {
         return if b == r { FRAC_PI_2 } else { (b / r).asin() };
@@ -34,7 +34,7 @@ pub(super) fn acosh_step(a: f64, b: f64, r: f64) -> f64 {
 }
 
 /// ∫ₐᵇ (x² − a²) dx/√(r² − x²) = (r²/2 − a²) [asin(b/r) − asin(a/r)] − ½ [b√(r²−b²) − a√(r²−a²)],
-/// for 0 ≤ a ≤ b ≤ r; `arc` is [`asin_step`] of the three: callers already have it.
+/// for 0 ≤ a ≤ b ≤ r. Callers already have `arc`, the [`asin_step`] of the three; they pass it in.
 pub(super) fn square_step(a: f64, b: f64, r: f64, arc: f64) -> f64 {
     let ends = (b - a) * leg(b, r) - a * root_step(a, b, r);
     (0.5 * r * r - a * a) * arc - 0.5 * ends
@@ -45,8 +45,8 @@ pub(super) fn outer_root_step(a: f64, b: f64, r: f64) -> f64 {
     (b - a) * (b + a) / (leg(r, a) + leg(r, b))
 }
 
-/// Adds to the weights of Eq. (3) what a jump of the line load from q to nothing at the last node
-/// does: q/(π√(a² − r²)), infinite at the rim itself. There stands the mean over the last cell.
+/// Adds to the weights of Eq. (3) the effect of a jump of the line load from q to zero at the last node,
+/// q/(π√(a² − r²)). It is infinite at the rim itself, where the mean over the last cell replaces it.
 pub(super) fn add_jump_at_rim(weights: &mut DMatrix<f64>, nodes: &[f64]) {
     let last = nodes.len() - 1;
     let rim = nodes[last];
@@ -56,10 +56,10 @@ pub(super) fn add_jump_at_rim(weights: &mut DMatrix<f64>, nodes: &[f64]) {
     weights[(last, last)] += 2.0 * FRAC_1_PI / leg(nodes[last - 1], rim);
 }
 
-/// The first derivative at node k as weights of nodal values: central differences inside,
-/// zero at r = 0 (every profile is even in r), one-sided at the domain's edge.
+/// Returns the first derivative at node k as weights of nodal values: central differences inside, zero at r = 0 (every
+/// profile is even in r), one-sided at the domain's edge.
 ///
-/// The three-point formula for unequal cells; on a uniform grid it is (v_{k+1} − v_{k−1})/2h.
+/// Uses the three-point formula for unequal cells; on a uniform grid it is (v_{k+1} − v_{k−1})/2h.
 pub(super) fn central_difference(nodes: &[f64], k: usize) -> [(usize, f64); 3] {
     let last = nodes.len() - 1;
     if k == 0 {
@@ -100,7 +100,7 @@ mod tests {
             sum += (x - a) * (x + a) / leg(x, r) * (b - a) / f64::from(cells);
         }
         assert!((square_step(a, b, r, asin_step(a, b, r)) - sum).abs() < 1e-9);
-        // The whole quarter circle: ∫₀ʳ x² dx/√(r² − x²) = πr²/4.
+        // Over the whole quarter circle, ∫₀ʳ x² dx/√(r² − x²) = πr²/4.
         assert!((square_step(0.0, r, r, FRAC_PI_2) - 0.5 * FRAC_PI_2 * r * r).abs() < 1e-16);
     }
 

@@ -1,4 +1,4 @@
-//! Kinks between nodes: what the three transforms lack where the data kink inside a cell.
+//! Kinks between nodes: corrects the three transforms where the data kink inside a cell.
 //!
 //! # Formula
 //!
@@ -18,17 +18,16 @@
 //! | t_m, x_m = √t_m | place of the kink | m², m |
 //! | J | jump of the slope d/dt there | unit of the data per m² |
 //!
-//! This is ours. Against the subtraction of a singular part it has the merit that it is local and
-//! bounded: the data are known on both sides of the kink and nothing is extrapolated. With the stick
-//! border and the contact edge given so, Cattaneo's shear stress of a paraboloid is right to 2e-14 of
-//! its peak at N = 100 (2e-2 to 6e-2 without).
+//! This form is ours. Unlike the subtraction of a singular part it is local and bounded: the data are known on both
+//! sides of the kink, so nothing is extrapolated. With the stick border and the contact edge given as kinks, Cattaneo's
+//! shear stress of a paraboloid is right to 2e-14 of its peak at N = 100 (2e-2 to 6e-2 without).
 //!
 //! - **Order**: exact for polylines in t.
-//! - **Cost**: O(N) square roots a kink, and arc cosines in (2).
+//! - **Cost**: O(N) square roots per kink, and arc cosines in (2).
 //! - **At r = 0**: g and w of a kink vanish there; p is (2/π) J x_m.
 //! - **At the contact edge**: the edge is one of the inner points, with the value 0.
-//! - **Known failure**: (3) takes the load as even about the far field it is given: only hats, whose
-//!   kinks cancel beyond their cell, leave the load's end where it was.
+//! - **Known failure**: (3) takes the load to be even about the far field; only hats, whose kinks cancel beyond
+//!   their cell, leave the end of the load in place.
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -37,24 +36,23 @@ use serde::{Deserialize, Serialize};
 use crate::math::grid::RadialGrid;
 use crate::math::vector::vectorized;
 
-/// A kink closer to a node than this share of its cell is taken to be the node.
+/// Kinks closer to a node than this share of the cell count as on the node.
 const CLOSEST: f64 = 1e-9;
 
 /// One kink J (t − t_m)₊ of a profile over t = x².
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Kink {
-    /// Where: t_m = x_m², m².
+    /// Position t_m = x_m², m².
     pub at: f64,
     /// The jump J of the slope d/dt, in the unit of the profile per m².
     pub jump: f64,
 }
 
-/// Pushes the kinks of a cell from `t[0]` to `t[1]`, with the values `v` at its ends, whose profile
-/// runs straight in t through the `inner` points (t, value), relative to the chord.
+/// Pushes the kinks of the cell from `t[0]` to `t[1]`, relative to the chord. The profile takes the values `v` at the
+/// ends and runs straight in t through the `inner` points (t, value).
 ///
-/// Points that do not lie inside the cell, or not beyond the point before, are passed over; so are
-/// those that stand on a node as near as makes no difference (1e-9 of the cell). Without inner
-/// points nothing is pushed.
+/// Skips points outside the cell, points not beyond the previous one, and points within 1e-9 of the cell from a node.
+/// Without inner points it pushes nothing.
 pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], kinks: &mut Vec<Kink>) {
     let least = CLOSEST * (t[1] - t[0]);
     let chord = (v[1] - v[0]) / (t[1] - t[0]);
@@ -75,8 +73,8 @@ pub fn polyline(t: [f64; 2], v: [f64; 2], inner: &[(f64, f64)], kinks: &mut Vec<
     }
 }
 
-/// The kinks of a cell from `t[0]` to `t[1]` whose profile falls from `height` to zero at `end` and stays there, relative
-/// to the chord; without jumps where that is on a node.
+/// Returns the kinks, relative to the chord, of a cell from `t[0]` to `t[1]` whose profile falls from `height` to zero
+/// at `end` and stays zero; they have no jumps if `end` is on a node.
 pub fn hat(t: [f64; 2], height: f64, end: f64) -> [Kink; 3] {
     let least = CLOSEST * (t[1] - t[0]);
     let is_inside = end > t[0] + least && end < t[1] - least;
@@ -95,8 +93,8 @@ pub fn hat(t: [f64; 2], height: f64, end: f64) -> [Kink; 3] {
     jumps.map(|(at, jump)| Kink { at, jump })
 }
 
-/// Whether kinks that come from a file are hats on this grid: each begins inside it and goes on to the outer node of
-/// its cell at most.
+/// Checks that kinks read from a file are hats on this grid: each begins inside the grid and ends at the outer node of
+/// its cell at the latest.
 pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
     let mut hat = None;
     kinks.iter().all(|kink| {
@@ -109,7 +107,7 @@ pub fn are_hats(kinks: &[Kink], squares: &[f64]) -> bool {
     })
 }
 
-/// Eq. (2): adds what kinks of u do to the surface displacement `w`.
+/// Eq. (2): adds the effect of kinks of u to the surface displacement `w`.
 pub fn add_to_displacement(kinks: &[Kink], grid: &RadialGrid, w: &mut [f64]) {
     let squares = grid.squares();
     for kink in kinks {
@@ -123,15 +121,15 @@ pub fn add_to_displacement(kinks: &[Kink], grid: &RadialGrid, w: &mut [f64]) {
     }
 }
 
-/// Eq. (3): adds what kinks of q (N/m) do to the stress `p` (N/m²) on nodes with the given `squares`.
+/// Eq. (3): adds the effect of kinks of q (N/m) to the stress `p` (N/m²) on nodes with the given `squares`.
 pub fn add_to_stress(kinks: &[Kink], squares: &[f64], p: &mut [f64]) {
     vectorized(
         #[inline(always)]
         || {
-            // By value: the loop writes, and would read them anew for every node.
+            // Copied by value: the loop writes, and would otherwise reload them for every node.
             for &Kink { at, jump } in kinks {
                 let weight = FRAC_2_PI * jump;
-                // Nothing behind the kink.
+                // Zero behind the kink.
                 for (value, &t) in p.iter_mut().zip(squares) {
                     *value += weight * (at - t).max(0.0).sqrt();
                 }
@@ -140,7 +138,7 @@ pub fn add_to_stress(kinks: &[Kink], squares: &[f64], p: &mut [f64]) {
     );
 }
 
-/// ∫ of the kinks dx from x = 0 to `radius`, half of what they add to the force of the springs.
+/// Returns ∫ of the kinks dx from x = 0 to `radius`, half of what they add to the force of the springs.
 pub fn line_integral(kinks: &[Kink], radius: f64) -> f64 {
     let integral = |kink: &Kink| {
         let x = kink.at.sqrt();
@@ -165,7 +163,7 @@ mod tests {
         va + (vb - va) * (t - a) / (b - a)
     }
 
-    /// The coarse grid with hats against a grid that has nodes at the kinks.
+    /// Compares hats on a coarse grid with a grid that has nodes at the kinks.
     #[test]
     fn hats_are_as_good_as_nodes() {
         let grid = RadialGrid::uniform(12, 1.2).expect("a grid");
@@ -193,7 +191,7 @@ mod tests {
             }
         };
 
-        // Eq. (1) of the kinks; a run has none in its profile.
+        // Eq. (1) of the kinks; profiles in a run have no kinks.
         let mut g = apply(&product::profile(grid.nodes()), &values);
         for (g, &t) in g.iter_mut().zip(squares) {
             let behind = kinks.iter().filter(|kink| kink.at < t);

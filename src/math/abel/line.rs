@@ -1,10 +1,10 @@
-//! The transforms of a line contact in plane strain: Eqs. (1) and (2) with another kernel, Eq. (3) as it is.
+//! The transforms of a line contact in plane strain: other kernels in Eqs. (1) and (2), the same Eq. (3).
 //!
 //! # Formula
 //!
-//! A flat strip punch of half-width s and unit load has p = 1/(π√(s² − x²)) and, by Flamant, presses the surface outside
-//! of it to the slope −(2/πE*)/√(x² − s²). A pressure is made of such punches, P(s) the load when the half-width was
-//! s. With g = P/E* and the slip e of the springs,
+//! A flat strip punch of half-width s under unit load has p = 1/(π√(s² − x²)) and, by Flamant, presses the surface
+//! outside it to the slope −(2/πE*)/√(x² − s²). A pressure is a superposition of such punches, with P(s) the load when
+//! the half-width was s. With g = P/E* and the slip e of the springs,
 //!
 //! ```text
 //! g(x) = ∫₀ˣ r f′(r)/√(x² − r²) dr                                          (1L)
@@ -12,8 +12,8 @@
 //! p(x) = −(1/π) ∫ₓ^∞ q′(s)/√(s² − x²) ds                                    (3)
 //! ```
 //!
-//! The first two are Eqs. (1) and (2) with the factor r/x more in the integrand. A constant f has no image: how far the
-//! bodies approach each other makes no difference to a half-plane. A constant e, the rigid slip, maps to itself. Both are
+//! The first two are Eqs. (1) and (2) with an extra factor r/x in the integrand. A constant f has no image: the
+//! approach of the bodies makes no difference to a half-plane. A constant e, the rigid slip, maps to itself. Both are
 //! ours.
 //!
 //! The data are linear in t = r² in each cell, as in [`product`](super::product): f = f_k + σ_k (t − t_k),
@@ -25,8 +25,8 @@
 //! w of a kink J (t − t_m)₊ of e: (2/π) J [x √(x² − t_m) − t_m acosh(x/x_m)]
 //! ```
 //!
-//! - **Order**: exact for a cylinder, on any nodes; on other smooth data 3/2 in g, since f′ is taken, and second in w.
-//! - **Cost, contact edge**: those of [`product`](super::product), in the dense form only: up to
+//! - **Order**: exact for a cylinder, on any nodes; on other smooth data 3/2 in g, which needs f′, and second in w.
+//! - **Cost, contact edge**: as in [`product`](super::product), but in the dense form only: up to
 //!   [`MOST_DENSE_CELLS`](super::MOST_DENSE_CELLS).
 //! - **At x = 0**: g = 0, w = e(0).
 //! - **Known failure**: a wedge is curved in r² at the tip, as a cone is.
@@ -73,8 +73,8 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
     weights
 }
 
-/// ∫ₐᵇ x dy/(y √(x² − y²)) = acosh(x/a) − acosh(x/b), for 0 < a ≤ b ≤ x; in the cell at the centre 0, since what is
-/// integrated there vanishes like y².
+/// ∫ₐᵇ x dy/(y √(x² − y²)) = acosh(x/a) − acosh(x/b), for 0 < a ≤ b ≤ x; 0 in the cell at the centre, where the
+/// integrand vanishes like y².
 fn acosh_step(a: f64, b: f64, x: f64) -> f64 {
     if a == 0.0 {
         return 0.0;
@@ -83,7 +83,7 @@ fn acosh_step(a: f64, b: f64, x: f64) -> f64 {
     sine.asinh()
 }
 
-/// Eq. (2L): adds what kinks of e do to the surface slip `w` on nodes with the given `squares`.
+/// Eq. (2L): adds the effect of kinks of e to the surface slip `w` on nodes with the given `squares`.
 pub fn add_to_displacement(kinks: &[Kink], squares: &[f64], w: &mut [f64]) {
     for kink in kinks {
         let first = squares.partition_point(|&t| t <= kink.at);
@@ -98,14 +98,14 @@ pub fn add_to_displacement(kinks: &[Kink], squares: &[f64], w: &mut [f64]) {
     }
 }
 
-/// Eq. (1L): what a kink of f makes of g at the place x² = `square`: J [x² acos(x_m/x) + x_m √(x² − t_m)].
+/// Eq. (1L): returns g of a kink of f at x² = `square`: J [x² acos(x_m/x) + x_m √(x² − t_m)].
 pub fn image_of_kink(kink: &Kink, square: f64) -> f64 {
     let root = (square - kink.at).max(0.0).sqrt();
     let at = kink.at.sqrt();
     kink.jump * (square * root.atan2(at) + at * root)
 }
 
-/// Eq. (2L): the surface displacement of a dome h √(a² − y²) at x² = `square`,
+/// Eq. (2L): returns the surface displacement of a dome h √(a² − y²) at x² = `square`,
 /// h a − (h/π) [(a + x) ln(1 + x/a) + (a − x) ln|1 − x/a|].
 pub fn of_dome(dome: &Dome, square: f64) -> f64 {
     let (edge, x) = (dome.edge.sqrt(), square.sqrt());
@@ -117,8 +117,8 @@ pub fn of_dome(dome: &Dome, square: f64) -> f64 {
     dome.height * (edge - FRAC_1_PI * (part(x) + part(-x)))
 }
 
-/// ∫ dx/x of a dome from 0 to its edge without that of its polyline in t, which ends there; ∫ (√(a² − x²) − a) dx/x =
-/// a (ln 2 − 1).
+/// Returns ∫ dx/x of a dome from 0 to its edge minus the same of its polyline in t, which ends there, by
+/// ∫ (√(a² − x²) − a) dx/x = a (ln 2 − 1).
 pub fn beyond_polyline(dome: &Dome, squares: &[f64]) -> f64 {
     let tip = dome.at(0.0);
     let cell = |from: f64, to: f64| {
@@ -143,7 +143,7 @@ pub fn beyond_polyline(dome: &Dome, squares: &[f64]) -> f64 {
     tip * (LN_2 - 1.0) - inside.sum::<f64>() - end
 }
 
-/// ∫ dx/x of the kinks from x = 0 to `radius`.
+/// Returns ∫ dx/x of the kinks from x = 0 to `radius`.
 pub fn log_integral(kinks: &[Kink], radius: f64) -> f64 {
     let integral = |kink: &Kink| {
         let end = (radius * radius).max(kink.at);
@@ -194,7 +194,7 @@ mod tests {
         }
     }
 
-    /// g = ½ n B((n+1)/2, ½) xⁿ of rⁿ: 3π/4 of r⁴, 15π/16 of r⁶; (2L) takes y⁴ to (4/3π)x⁴.
+    /// rⁿ has g = ½ n B((n+1)/2, ½) xⁿ: 3π/4 for r⁴, 15π/16 for r⁶; (2L) takes y⁴ to (4/3π)x⁴.
     #[test]
     fn powers_converge() {
         let error = |cells: usize| {
@@ -216,7 +216,7 @@ mod tests {
         assert!(order[0] > 1.45 && order[1] > 1.9, "{order:?}");
     }
 
-    /// Cattaneo's slip outside of c, and its hat in one coarse cell.
+    /// Cattaneo's slip outside c, with its hat in one coarse cell.
     #[test]
     fn a_stick_border_between_nodes_is_exact() {
         for grid in grids() {
@@ -249,7 +249,7 @@ mod tests {
         }
     }
 
-    /// By quadrature: (2L) with y = x sin φ, and the integral over dx/x.
+    /// Checks by quadrature: (2L) with y = x sin φ, and the integral over dx/x.
     #[test]
     fn a_dome_and_a_kink_have_their_images() {
         let dome = Dome {

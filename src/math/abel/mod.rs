@@ -11,16 +11,18 @@
 //! p(r) = −(1/π) ∫ᵣ^∞ q′(x) / √(x² − r²) dx          stress, 1D → 3D               (3)
 //! ```
 //!
-//! The term f(0) in (1) is ours: a tip that wears recedes, and a constant must map to itself.
+//! The term f(0) in (1) is ours: a worn tip recedes, and a constant must map to itself.
 //!
-//! A contact of the plane has two other kernels: see [`line`].
+//! A line contact has other kernels in Eqs. (1) and (2): see [`line`].
 //!
-//! [`kink`] adds what a kink between two nodes does, [`dome`] what a load does that ends like a root, and [`worn`] transforms the worn part of a profile that has a
-//! permanent stick zone. A [`field`] is nodal values with their kinks and their dome, and has all its images.
+//! [`kink`] adds the effect of a kink between two nodes, [`dome`] a load that ends like a root, and [`worn`]
+//! transforms the worn part of a profile with a permanent stick zone. A [`field`] holds nodal values with their kinks
+//! and dome, and provides all transforms.
 //!
-//! All methods here are linear in the nodal values, so an [`AbelPlan`] holds three operators, and with a border a fourth,
-//! for Eq. (1) of the worn depth, made once for a grid and applied with the caller's buffers. The dense form of each is a
-//! matrix: O(N²) kernel evaluations to set up, at most N²/2 multiply-adds to apply, N²/2 numbers. The product method has a form in O(N) as well: see [`fast`].
+//! All methods here are linear in the nodal values. An [`AbelPlan`] holds three operators, and with a border a fourth
+//! for Eq. (1) of the worn depth; they are made once per grid and write into the caller's buffers. The dense form of
+//! each is a matrix: O(N²) kernel evaluations to set up, at most N²/2 multiply-adds to apply, N²/2 numbers. The product
+//! method also has a form in O(N): see [`fast`].
 //!
 //! | method | Eq. (1) | Eq. (2) | Eq. (3) | causal |
 //! |---|---|---|---|---|
@@ -30,7 +32,7 @@
 //! | `b` | [`b::profile`] | [`b::displacement`] | [`b::stress`] | no: Eqs. (1) and (3) look one node across |
 //! | `a+b` | [`benad::profile`] | [`b::displacement`] | [`benad::stress`] | yes |
 //!
-//! What each part is worth, left out alone and in groups, stands in the guide's page on methods.
+//! The guide's page on methods measures the effect of each part, left out alone and in groups.
 //!
 //! ```
 //! use mdr_tui::math::abel::{AbelMethod, AbelPlan};
@@ -53,6 +55,7 @@
 use std::fmt::Debug;
 
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 use strum::{Display, EnumString, IntoStaticStr, VariantNames};
 
 use super::geometry::Geometry;
@@ -75,22 +78,23 @@ pub mod product;
 mod testing;
 pub mod worn;
 
-/// The most cells of a method that has the dense form alone: its three triangular matrices then take
-/// about 0.8 GB.
+/// Maximum number of cells of a method that only has the dense
+/// form; its three triangular matrices then take about 0.8 GB.
 pub const MOST_DENSE_CELLS: usize = 8192;
 
 /// A way to compute the three transforms.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantNames,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[derive(Display, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum AbelMethod {
     /// Product integration, linear in r²: ours.
     Product,
-    /// The paper's Method A: the singularity of (2) split off, Eq. (7).
+    /// The paper's Method A: splits off the singularity of (2), Eq. (7).
     A,
     /// The paper's suggestion (b): Method A for (1) and (3), Method B for (2).
     #[strum(serialize = "a+b")]
+    #[serde(rename = "a+b")]
     APlusB,
     /// The paper's Method B: trapezoids in asin and acosh, Eqs. (11) to (13).
     B,
@@ -99,13 +103,13 @@ pub enum AbelMethod {
 }
 
 impl AbelMethod {
-    /// Every method, in the order in which keys step through them.
+    /// All methods, in the order in which keys step through them.
     pub const ALL: [Self; 5] = [Self::Product, Self::A, Self::APlusB, Self::B, Self::Benad];
 
-    /// The methods of the paper and of its reference 9.
+    /// The methods of the paper and its reference 9.
     pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
 
-    /// The methods of a contact of this `geometry`: those that were published are of round ones.
+    /// Returns the methods available for this `geometry`; the published ones are for round contacts only.
     pub fn of(geometry: Geometry) -> &'static [Self] {
         match geometry {
             Geometry::Round => &Self::ALL,
@@ -113,17 +117,17 @@ impl AbelMethod {
         }
     }
 
-    /// The name in scenarios, on the screen and in files.
+    /// Returns the name used in scenarios, on the screen and in files.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// Whether it is computed in the [`fast`] form on this many cells, and not in the dense one.
+    /// Whether it uses the [`fast`] form instead of the dense one on this many cells.
     pub fn prefers_fast(self, cells: usize) -> bool {
         self == Self::Product && cells >= CROSSOVER
     }
 
-    /// The most cells that the method is computed with.
+    /// Returns the maximum number of cells.
     pub fn most_cells(self) -> usize {
         match self {
             Self::Product => MAX_CELLS,
@@ -131,7 +135,7 @@ impl AbelMethod {
         }
     }
 
-    /// The name in a sentence: a letter of the paper as the paper has it.
+    /// Returns the name for use in a sentence, with the paper's capital letters.
     pub fn spoken(self) -> &'static str {
         match self {
             Self::Product => "product",
@@ -142,7 +146,7 @@ impl AbelMethod {
         }
     }
 
-    /// One line on what the method does.
+    /// Describes the method in one line.
     pub fn description(self) -> &'static str {
         match self {
             Self::Product => "product integration linear in r²; exact for a paraboloid",
@@ -154,10 +158,10 @@ impl AbelMethod {
     }
 }
 
-/// One of the transforms on a grid, in a form of its own.
+/// A transform on a grid, dense or fast.
 trait Transform: Debug + Send + Sync {
-    /// Writes the `image` of nodal `values` from the node `first` on, or from one before it, which is returned. Where the
-    /// image looks inwards, it may be that of the first nodes only.
+    /// Writes the `image` of nodal `values` from the node `first` on, or from slightly before it, and returns the node
+    /// where it began. If the image looks inwards, it may cover the first nodes only.
     fn apply_from(&self, first: usize, values: &[f64], image: &mut [f64]) -> usize;
 }
 
@@ -167,8 +171,8 @@ impl Transform for Skyline {
     }
 }
 
-/// The cells from which every operator takes less time in the [`fast`] form than in the dense one, as measured by
-/// `cargo bench --bench transforms`: the three transforms do so from about 100 on, the worn depth from 200 on.
+/// Number of cells from which every operator is faster in the [`fast`] form than in the dense one, by `cargo bench
+/// --bench transforms`: the three transforms are from about 100 on, the worn depth from 200 on.
 const CROSSOVER: usize = 200;
 
 /// The transforms of one method on one grid, ready to apply.
@@ -179,12 +183,12 @@ pub struct AbelPlan {
     profile: Box<dyn Transform>,
     displacement: Box<dyn Transform>,
     stress: Box<dyn Transform>,
-    /// Eq. (1) of the worn depth, see [`worn`], where it has a form of its own.
+    /// Eq. (1) of the worn depth, see [`worn`], if its form differs.
     worn: Option<Box<dyn Transform>>,
 }
 
 impl AbelPlan {
-    /// The plan of a contact of this `geometry`; that of a [`line`] is of the product method, in the dense form.
+    /// Makes the plan of a contact of this `geometry`; a [`line`] uses the product method in the dense form.
     pub fn of(geometry: Geometry, method: AbelMethod, grid: &RadialGrid) -> Self {
         if !geometry.is_line() {
             return Self::new(method, grid);
@@ -200,7 +204,7 @@ impl AbelPlan {
         }
     }
 
-    /// Computes the weights of `method` on `grid`, in the quicker form: the [`fast`] one to the first tolerance that is
+    /// Computes the weights of `method` on `grid`, in the faster form; the [`fast`] one uses the tightest tolerance
     /// within reach.
     pub fn new(method: AbelMethod, grid: &RadialGrid) -> Self {
         let tolerances = method
@@ -211,8 +215,8 @@ impl AbelPlan {
         fast.unwrap_or_else(|| Self::dense(method, grid))
     }
 
-    /// The product method on `grid` in the fast form, to a tolerance that [`fast`] explains; none if that is
-    /// out of reach.
+    /// Makes the product method on `grid` in the fast form, to a tolerance defined in [`fast`]; `None` if that is out
+    /// of reach.
     pub fn fast(grid: &RadialGrid, tolerance: f64) -> Option<Self> {
         let [roots, arcs] =
             [fast::ROOT, fast::ARC].map(|kernel| fast::powers(grid.nodes(), kernel, tolerance));
@@ -230,7 +234,7 @@ impl AbelPlan {
         })
     }
 
-    /// `method` on `grid` in the dense form.
+    /// Makes `method` on `grid` in the dense form.
     pub fn dense(method: AbelMethod, grid: &RadialGrid) -> Self {
         type Weights = fn(&[f64]) -> DMatrix<f64>;
         let (profile, displacement, stress): (Weights, Weights, Weights) = match method {
@@ -254,7 +258,7 @@ impl AbelPlan {
         }
     }
 
-    /// Of what contact it is.
+    /// The geometry of the contact.
     pub fn geometry(&self) -> Geometry {
         self.geometry
     }
@@ -264,12 +268,12 @@ impl AbelPlan {
         self.method
     }
 
-    /// Eq. (1): the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
+    /// Eq. (1): computes the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
         self.profile.apply_from(0, f, g);
     }
 
-    /// Eq. (1): the 1D image `g` of the worn depth, both nodal, m.
+    /// Eq. (1): computes the 1D image `g` of the worn depth, both nodal, m.
     pub fn image(&self, depth: &[f64], g: &mut [f64]) {
         self.worn
             .as_ref()
@@ -277,18 +281,18 @@ impl AbelPlan {
             .apply_from(0, depth, g);
     }
 
-    /// Eq. (2): the surface displacement `w` of the spring displacement `u`, both nodal. `w` may have the
+    /// Eq. (2): computes the surface displacement `w` of the spring displacement `u`, both nodal. `w` may cover the
     /// first nodes only.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
         self.displacement.apply_from(0, u, w);
     }
 
-    /// Eq. (3): the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
+    /// Eq. (3): computes the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
     pub fn stress(&self, q: &[f64], p: &mut [f64]) {
         self.stress_from(0, q, p);
     }
 
-    /// The same from the node `first` on, or from one before it, which is returned.
+    /// As [`stress`](Self::stress), but from the node `first` on, or from slightly before it; returns where it began.
     pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
         self.stress.apply_from(first, q, p)
     }

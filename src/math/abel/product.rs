@@ -1,9 +1,10 @@
-//! Product integration: the data linear in r² in each cell, the kernels integrated exactly.
+//! Product integration: takes the data as linear in r² in each cell and integrates the kernels exactly.
 //!
 //! # Formula
 //!
-//! Profiles and loads are even in r, so they are smooth in t = r², and there they are interpolated: u(x) = u_k +
-//! σ_k (x² − x_k²) on cell k, σ_k = Δu/Δt. The integrals of Eqs. (1) to (3) over each cell are (Δ: right end minus left end)
+//! Profiles and loads are even in r and therefore smooth in t = r², so they are interpolated in t:
+//! u(x) = u_k + σ_k (x² − x_k²) on cell k, σ_k = Δu/Δt. The integrals of Eqs. (1) to (3) over each cell
+//! are (Δ: right end minus left end)
 //!
 //! ```text
 //! g_j = f_0 + x_j Σ_{k<j} 2σ_k S
@@ -18,21 +19,23 @@
 //! | H | ∫x² dx/√(r²−x²) = Δ[½r² asin(x/r) − ½x√(r²−x²)] |
 //! | C | ∫x dx/√(x²−r²) = Δ√(x²−r²) |
 //!
-//! The product rule for weakly singular kernels is that of A. Young (1954), The application of
-//! approximate product integration to the numerical solution of integral equations, Proc. R. Soc.
-//! Lond. A 224, 561–573, doi 10.1098/rspa.1954.0180; the basis in r² is ours.
+//! The product rule for weakly singular kernels is due to A. Young (1954), The application of approximate product
+//! integration to the numerical solution of integral equations, Proc. R. Soc. Lond. A 224, 561–573, doi
+//! 10.1098/rspa.1954.0180; the basis in r² is ours.
 //!
-//! - **Order**: exact for a paraboloid, on any nodes. On smooth data second in g and w; p of
-//!   order 3/2 where q is curved in t. Order ½ at a kink between nodes, unless it is given to [`kink`](super::kink).
+//! - **Order**: exact for a paraboloid, on any nodes. On smooth data second in g and w; 3/2 in p where q is
+//!   curved in t. At a kink between nodes ½, unless [`kink`](super::kink) corrects it.
 //! - **Cost**: O(N²) kernels to set up, O(N²/2) to apply, as for every method here.
 //! - **At r = 0**: g = f(0), w = u(0).
-//! - **At the contact edge**: q is linear in x² down to zero in the cell that holds the edge, until
-//!   [`kink::polyline`](super::kink::polyline) puts the edge where it is.
-//! - **Known failure**: a cone is curved in r² at the tip, where p of the first two nodes is 3.6 % and 1.8 % low, of the tenth 0.3 % (N = 100).
-//!   Everything is strictly triangular: what happens outside the stick zone cannot reach into it.
+//! - **At the contact edge**: q falls linearly in x² to zero at the end of the edge's cell, until
+//!   [`kink::polyline`](super::kink::polyline) puts the edge in its true place.
+//! - **Known failure**: a cone is curved in r² at the tip, where p is 3.6 % and 1.8 % low at the first two nodes and
+//!   0.3 % at the tenth (N = 100).
 //!
-//! In the fretting run of the paper's Fig. 3 (k E* d₀/a₀ = 1, state at 199.24 cycles, 100 steps a
-//! cycle), root mean square error of f in units of d₀, against N = 800 to 1600:
+//! All operators are strictly triangular: what happens outside the stick zone cannot reach into it.
+//!
+//! In the fretting run of the paper's Fig. 3 (k E* d₀/a₀ = 1, state at 199.24 cycles, 100 steps per cycle), root mean
+//! square error of f in units of d₀, against N = 800 to 1600:
 //!
 //! | method | N = 50 | 100 | 200 | 400 |
 //! |---|---|---|---|---|
@@ -81,8 +84,8 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
     weights
 }
 
-/// Eq. (3): weights of the stress. The line load ends at the last node; where it is not zero there,
-/// it jumps, as at the rim of a punch.
+/// Eq. (3): weights of the stress. The line load ends at the last node; if it is not zero there, it jumps, as at the
+/// rim of a punch.
 pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
     let last = nodes.len() - 1;
     let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
@@ -98,17 +101,17 @@ pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
     weights
 }
 
-/// Where `values`, of the given sign on both sides, pass through zero within `cell`: the square t of
-/// the radius. `cusp` is that of the values, 0 for an interpolant linear in t.
+/// Returns the squared radius t at which `values` pass through zero within `cell`. `cusp` is the cusp of the values
+/// there, 0 for an interpolant linear in t.
 ///
-/// The smallest positive root y = x − x_m of q_m + y (2x_m σ + A h/X) + y² (σ − A/X), in the form in
-/// which nothing cancels. The values must change sign in the cell.
+/// Solves for the smallest positive root y = x − x_m of q_m + y (2x_m σ + A h/X) + y² (σ − A/X), in a form without
+/// cancellation. The values must change sign in the cell.
 pub fn edge_square(nodes: &[f64], values: &[f64], cell: usize, cusp: f64) -> f64 {
     let (a, b) = (nodes[cell], nodes[cell + 1]);
     let (left, right) = (values[cell], values[cell + 1]);
     let bubble = cusp / (a + b);
     let slope = (right - left) / ((b - a) * (b + a));
-    // The sign is chosen so that the values fall.
+    // Choose the sign so that the values fall.
     let sign = if left < right { -1.0 } else { 1.0 };
     let (c0, c1, c2) = (
         sign * left,
@@ -164,8 +167,8 @@ mod tests {
         }
     }
 
-    /// The load of springs pressed by d on `g`, the stress, and the place of the edge, as a caller does it; `cusp` is
-    /// the load's.
+    /// Returns the load of springs pressed by d on `g`, the stress
+    /// and the edge, computed as callers do; `cusp` is the load's.
     fn pressed(
         grid: &RadialGrid,
         depth: f64,
@@ -206,7 +209,7 @@ mod tests {
         }
     }
 
-    /// Linear in r² a cone's tip is blunt for two nodes; its edge is where it is.
+    /// Linear in r², a cone's tip is blunt for two nodes, but its edge is exact.
     #[test]
     fn the_stress_of_a_cone_is_low_next_to_the_tip_alone() {
         let grid = RadialGrid::uniform(100, 1.5).expect("a grid");
@@ -237,7 +240,7 @@ mod tests {
         }
     }
 
-    /// W G is triangular: its eigenvalues stand on the diagonal.
+    /// W G is triangular, so its eigenvalues are its diagonal.
     #[test]
     fn there_and_back_does_not_grow() {
         for grid in grids(1.0) {

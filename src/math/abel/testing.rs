@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// The product of weights and nodal values.
+/// Multiplies weights and nodal values.
 pub(super) fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
     (weights * DVector::from_column_slice(values))
         .iter()
@@ -10,14 +10,14 @@ pub(super) fn apply(weights: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// What an operator makes of nodal values.
+/// Applies an operator to nodal values.
 pub(super) fn image(values: &[f64], of: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
     let mut out = vec![f64::NAN; values.len()];
     of(values, &mut out);
     out
 }
 
-/// What an operator makes of each node's own value.
+/// Builds an operator's matrix column by column, from its images of unit vectors.
 pub(super) fn matrix(size: usize, of: impl Fn(&[f64], &mut [f64])) -> DMatrix<f64> {
     let mut matrix = DMatrix::zeros(size, size);
     for (i, mut column) in matrix.column_iter_mut().enumerate() {

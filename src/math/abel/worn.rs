@@ -2,8 +2,8 @@
 //!
 //! # Formula
 //!
-//! Outside a permanent stick zone of radius c the worn depth rises like a square root (the limiting
-//! profile does so exactly), so there it is interpolated in z = √(r² − c²):
+//! Outside a permanent stick zone of radius c the worn depth rises like a square root (the limiting profile does so
+//! exactly), so it is interpolated in z = √(r² − c²) there:
 //!
 //! ```text
 //! r < c   δ linear in t = r² in each cell
@@ -21,16 +21,16 @@
 //! σ and S as in [`product`]. Without a border (no permanent stick zone) the operator is
 //! [`product::profile`]. The basis is ours; it lowers the error of a fretting run ten to thirty times.
 //!
-//! - **Order**: exact for 1 and z outside c, and for z² but for the cell next to c; second in smooth F.
-//! - **Cost**: that of [`product::profile`].
+//! - **Order**: exact for 1 and z outside c, and for z² except in the cell next to c; second in smooth F.
+//! - **Cost**: as for [`product::profile`].
 //! - **At r = 0**: g = δ(0); a constant maps to itself.
 //! - **At the contact edge**: late in a run δ has a kink at the edge b of the scar, in the cell in which the contact
-//!   ends. It is left out: it lowers the error of f by a third at N = 100, and the time to a given error hardly.
+//!   ends. It is left out: modelling it lowers the error of f by a third at N = 100, but hardly saves time.
 //! - **Known failure**: for c below a third of the contact radius the region next to c dominates the
 //!   error (7e-4 of the depth at c = 0.17 and N = 100).
 //!
-//! Row j looks at nodes 0 … j only, with a border in the grid and at least one cell outside. The
-//! response of the pressure to wear, stress × profile, has real positive eigenvalues.
+//! Row j reads nodes 0 … j only, if the grid has a border and at least one cell outside it. The response of the
+//! pressure to wear, stress × profile, has real positive eigenvalues.
 
 use std::f64::consts::PI;
 
@@ -41,7 +41,7 @@ use super::product;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::{largest, second_differences};
 
-/// Shallower than this part of the largest worn depth, the surface does not count as scar.
+/// Surface shallower than this fraction of the largest worn depth does not count as scar.
 pub const SCAR: f64 = 1e-3;
 
 /// Eq. (1) on the worn depth: weights of its 1D image, δ(0) included.
@@ -63,7 +63,7 @@ pub fn profile(grid: &RadialGrid) -> DMatrix<f64> {
         for k in border..j {
             let (a, b) = (z[k], z[k + 1]);
             let arc = asin_step(a, b, z[j]);
-            // ∫ (2z − a)/(b − a) dz/√(Z² − z²): the share of the right node's F.
+            // ∫ (2z − a)/(b − a) dz/√(Z² − z²): the share of F at the right node.
             let right = (2.0 * root_step(a, b, z[j]) - a * arc) / (b - a);
             for (node, share) in [(k.max(border + 1), arc - right), (k + 1, right)] {
                 let weight = x * share / z[node];
@@ -75,7 +75,7 @@ pub fn profile(grid: &RadialGrid) -> DMatrix<f64> {
     weights
 }
 
-/// The weights of V = 2π∫δ r dr (m³, of nodal δ in m), with the interpolant of [`profile`].
+/// Returns the weights of V = 2π∫δ r dr (m³, of nodal δ in m), with the interpolant of [`profile`].
 pub fn volume_weights(grid: &RadialGrid) -> Vec<f64> {
     let mut weights = vec![0.0; grid.len()];
     for cell in 0..grid.cells() {
@@ -86,7 +86,7 @@ pub fn volume_weights(grid: &RadialGrid) -> Vec<f64> {
     weights
 }
 
-/// The part of V in the cell between nodes `cell` and `cell` + 1: nodes with their weights, m².
+/// Returns the part of V between nodes `cell` and `cell` + 1: nodes with their weights, m².
 fn cell_weights(grid: &RadialGrid, cell: usize) -> [(usize, f64); 3] {
     let (nodes, k) = (grid.nodes(), cell);
     let area = PI * (nodes[k + 1] - nodes[k]) * (nodes[k + 1] + nodes[k]);
@@ -95,7 +95,7 @@ fn cell_weights(grid: &RadialGrid, cell: usize) -> [(usize, f64); 3] {
     };
     let z = |node: usize| leg(nodes[border], nodes[node]);
     let (a, h) = (z(k), z(k + 1) - z(k));
-    // ∫ 2z² dz, weighted with the falling and with the rising half of the cell.
+    // ∫ 2z² dz, weighted by the falling and by the rising hat of the cell.
     let left = 2.0 * PI * h * (0.5 * a * a + a * h / 3.0 + h * h / 12.0);
     let right = 2.0 * PI * h * (0.5 * a * a + 2.0 * a * h / 3.0 + 0.25 * h * h);
     let inner = k.max(border + 1);
@@ -103,7 +103,7 @@ fn cell_weights(grid: &RadialGrid, cell: usize) -> [(usize, f64); 3] {
     [(inner, left), (k + 1, right), (border, area - left - right)]
 }
 
-/// The worn depth at `r`, of nodal `wear`, by the interpolant of [`profile`]; constant beyond the domain.
+/// Interpolates nodal `wear` at `r` as [`profile`] does; constant beyond the domain.
 pub fn interpolate(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
     let nodes = grid.nodes();
     let outside = grid.border().filter(|&c| r > nodes[c] && r < grid.radius());
@@ -111,7 +111,7 @@ pub fn interpolate(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
         return grid.interpolate(wear, r);
     };
     let z = |r: f64| leg(nodes[border], r);
-    // F of a node; of the node on the border, that of the next one.
+    // F of a node; the node on the border takes the next one's.
     let factor = |k: usize| {
         let k = k.max(border + 1);
         (wear[k] - wear[border]) / z(nodes[k])
@@ -122,17 +122,17 @@ pub fn interpolate(grid: &RadialGrid, wear: &[f64], r: f64) -> f64 {
     wear[border] + here * (factor(upper - 1) * (1.0 - weight) + factor(upper) * weight)
 }
 
-/// What the interpolant of [`profile`] leaves out between the nodes of a worn depth: rms over the scar, relative to its
-/// largest depth; `None` where nothing has worn.
+/// Estimates the error of the interpolant of [`profile`] between the nodes of a worn depth: rms over the scar, relative
+/// to its largest depth; `None` if nothing has worn.
 ///
-/// A line over a cell of the width h errs by at most h²/8 |F″|. F″ is the smaller of the second differences at its ends: a
-/// kink at a node costs the lines on both sides nothing.
+/// A line over a cell of width h errs by at most h²/8 |F″|. F″ is the smaller of the second differences at its ends,
+/// since a kink at a node costs the lines on both sides nothing.
 pub fn interpolation_error(grid: &RadialGrid, wear: &[f64]) -> Option<f64> {
     let nodes = grid.nodes();
     let deepest = largest(wear);
     let border = grid.border().unwrap_or(grid.cells());
     let mut errors = cell_errors(&grid.squares()[..=border], &wear[..=border]);
-    // Outside, the error of F counts z times. F at the border is that of the next node: a line is drawn from there on.
+    // Outside, the error of F counts z times. F at the border equals F at the next node, so the lines begin there.
     let z = &distances(nodes, border)[border..];
     let outside = z.iter().zip(&wear[border..]).skip(1);
     let factors: Vec<f64> = outside.map(|(z, worn)| (worn - wear[border]) / z).collect();
@@ -143,7 +143,7 @@ pub fn interpolation_error(grid: &RadialGrid, wear: &[f64]) -> Option<f64> {
     let (mut sum, mut length) = (0.0, 0.0);
     for ((error, ends), width) in errors.iter().zip(wear.windows(2)).zip(grid.widths()) {
         if ends[0].max(ends[1]) > SCAR * deepest {
-            // The mean square of a parabola over its largest value.
+            // The mean square of a parabola is 8/15 of its largest value squared.
             sum += width * 8.0 / 15.0 * error * error;
             length += width;
         }
@@ -151,7 +151,7 @@ pub fn interpolation_error(grid: &RadialGrid, wear: &[f64]) -> Option<f64> {
     (length > 0.0).then(|| (sum / length).sqrt() / deepest)
 }
 
-/// h²/8 |f″| of each cell between the points `x`.
+/// Returns h²/8 |f″| of each cell between the points `x`.
 fn cell_errors(x: &[f64], f: &[f64]) -> Vec<f64> {
     let second = second_differences(x, f);
     let cells = second.windows(2).zip(x.windows(2));
@@ -160,7 +160,7 @@ fn cell_errors(x: &[f64], f: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// z = √(r² − c²) of every node, 0 inside.
+/// Returns z = √(r² − c²) of every node, 0 inside.
 fn distances(nodes: &[f64], border: usize) -> Vec<f64> {
     let c = nodes[border];
     nodes.iter().map(|&r| leg(c, r.max(c))).collect()
@@ -212,7 +212,7 @@ mod tests {
         }
     }
 
-    /// δ = αz outside c: g = x α π/2, since the kernel is dz/√(Z² − z²). The limiting profile is such.
+    /// δ = αz outside c gives g = x α π/2, since the kernel is dz/√(Z² − z²). The limiting profile is such a case.
     #[test]
     fn the_root_at_the_border_is_exact() {
         for (cells, border) in [(100, 0.76), (400, 0.4164), (20, 0.1), (800, 0.4)] {
@@ -227,7 +227,7 @@ mod tests {
         }
     }
 
-    /// δ = z², but in the first cell z z₁: its own image is 2xz less what the first cell lacks.
+    /// δ = z², except z z₁ in the first cell: the image is 2xz minus the first cell's deficit.
     #[test]
     fn squares_are_exact_but_for_the_first_cell() {
         let grid = graded(100, 0.5);
@@ -272,7 +272,7 @@ mod tests {
         }
     }
 
-    /// No sawtooth: each mode of worn depth lowers its own pressure, and nothing oscillates.
+    /// No sawtooth: every mode of worn depth lowers its own pressure, and nothing oscillates.
     #[test]
     fn the_response_of_the_pressure_has_a_real_positive_spectrum() {
         for grid in [
@@ -310,7 +310,7 @@ mod tests {
             let close = |found: f64, exact: f64| (found / exact - 1.0).abs() < 1e-12;
             assert!(close(volume(&|_| 2.0), 2.0 * PI * l * l));
             assert!(close(volume(&|z| z), PI * 2.0 / 3.0 * last.powi(3)));
-            // z² but for the first cell, where F stays what it is at its end: z z₁ instead.
+            // z², except in the first cell, where F keeps its end value: z z₁ instead.
             let first = z[grid.border().expect("a border") + 1];
             let square = 0.5 * last.powi(4) + (2.0 / 3.0 - 0.5) * first.powi(4);
             assert!(close(volume(&|z| z * z), PI * square));

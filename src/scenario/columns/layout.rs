@@ -1,10 +1,10 @@
-//! Finds the table in a text: its separator, where its numbers begin, and the lines above that name columns and units.
+//! Finds the table in a text: its separator, where its numbers begin, and the lines above that give names and units.
 
 use csv::StringRecord;
 
 use super::names::is_unit;
 
-/// What separates the fields of a row.
+/// Separator of the fields of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Separator {
     /// `\t`
@@ -13,15 +13,15 @@ pub enum Separator {
     Semicolon,
     /// `,`
     Comma,
-    /// One blank or more.
+    /// One or more blanks.
     Blanks,
 }
 
 impl Separator {
-    /// In the order in which they are tried: of two that read as many numbers, the first.
+    /// In the order of trial: if two read equally many numbers, the first wins.
     const ALL: [Self; 4] = [Self::Tab, Self::Semicolon, Self::Comma, Self::Blanks];
 
-    /// Its name in the plural.
+    /// Returns its name in the plural.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tab => "tabs",
@@ -31,7 +31,7 @@ impl Separator {
         }
     }
 
-    /// The lines of a text as records with the number of their line, comments and blank lines left out.
+    /// Splits the lines of a text into records with line numbers, skipping comments and blank lines.
     fn records(self, text: &str) -> Result<Vec<Row>, csv::Error> {
         let (mut lines, mut kept) = (Vec::new(), String::with_capacity(text.len()));
         for (line, number) in text.lines().zip(1..) {
@@ -68,21 +68,21 @@ impl Separator {
 /// A line's number, from 1, and its fields.
 pub(super) type Row = (u64, StringRecord);
 
-/// Lines looked at to choose the separator.
+/// Number of lines examined to choose the separator.
 const SAMPLE: usize = 2000;
 
-/// Words for a value that is missing, beside an empty field.
+/// Words for a missing value, besides an empty field.
 const MISSING: [&str; 14] = [
     "nan", "-nan", "na", "n/a", "bad", "null", "none", "missing", "invalid", "inf", "-inf", "-",
     "--", "---",
 ];
 
-/// Whether a field stands for a value that is missing.
+/// Whether a field stands for a missing value.
 pub(super) fn is_missing(field: &str) -> bool {
     field.is_empty() || MISSING.iter().any(|word| field.eq_ignore_ascii_case(word))
 }
 
-/// The finite number of a field, with a decimal point or a decimal comma.
+/// Parses the finite number of a field, with a decimal point or a decimal comma.
 pub(super) fn number(field: &str) -> Option<f64> {
     let plain = field
         .strip_prefix('\u{2212}')
@@ -95,36 +95,36 @@ pub(super) fn number(field: &str) -> Option<f64> {
     value.ok().filter(|value: &f64| value.is_finite())
 }
 
-/// A line with tabs for its blanks, but those before a unit in brackets: `r [um]  wear [nm]` has two fields.
+/// Replaces the blanks of a line by tabs, except before a unit in brackets: `r [um]  wear [nm]` has two fields.
 fn with_tabs(line: &str) -> String {
     let words: Vec<&str> = line.split_whitespace().collect();
     let joined = words.join("\t");
     joined.replace("\t[", " [").replace("\t(", " (")
 }
 
-/// A table that was found in a text.
+/// A table found in a text.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub separator: Separator,
     /// Whether numbers have decimal commas.
     pub has_decimal_commas: bool,
-    /// The names of the columns; none where no line names them.
+    /// Names of the columns; `None` if no line gives them.
     pub names: Option<Vec<String>>,
-    /// The units that stand in a line of their own, or no text.
+    /// Units from a separate line, or empty.
     pub units: Vec<String>,
-    /// The number of columns.
+    /// Number of columns.
     pub fields: usize,
-    /// The rows from the first one with numbers on.
+    /// The rows from the first one with numbers.
     pub rows: Vec<Row>,
-    /// The first row of another length.
+    /// The first row with another number of fields.
     pub uneven: Option<Row>,
 }
 
 impl Layout {
-    /// Finds the table of a text.
+    /// Finds the table in a text.
     ///
     /// # Errors
-    /// What the reader of records refuses.
+    /// If the reader of records refuses it.
     pub fn find(text: &str) -> Result<Self, csv::Error> {
         let end = text
             .match_indices('\n')
@@ -188,7 +188,7 @@ fn is_decimal_comma(field: &str) -> bool {
     field.contains(',') && number(field).is_some()
 }
 
-/// Numbers of rows that are rows by this separator, less fields that would be some but for it.
+/// Counts the numbers in rows of several fields, minus the fields that only begin like a number.
 fn score(rows: &[Row]) -> i64 {
     let worth = |field: &str| match number(field) {
         Some(_) => 1,
@@ -201,7 +201,7 @@ fn score(rows: &[Row]) -> i64 {
     whole.flat_map(|(_, row)| row.iter().map(worth)).sum()
 }
 
-/// The number of fields that most rows with numbers have.
+/// Returns the most frequent number of fields among rows with numbers.
 fn usual_length(rows: &[Row]) -> usize {
     let with_numbers = rows
         .iter()
@@ -220,8 +220,8 @@ fn usual_length(rows: &[Row]) -> usize {
     )
 }
 
-/// Which of the columns hold numbers in half of the rows or more, those of the first half left out: a preamble stands
-/// there.
+/// Returns which columns contain numbers in half of the rows or more, ignoring the first half of the rows, where a
+/// preamble may be.
 fn numeric_columns(rows: &[Row], fields: usize) -> Vec<bool> {
     let alike = || rows.iter().filter(|(_, row)| row.len() == fields);
     let of_length = || alike().skip(alike().count() / 2);
@@ -236,7 +236,7 @@ fn numeric_columns(rows: &[Row], fields: usize) -> Vec<bool> {
         .collect()
 }
 
-/// The lines above the first row that name its columns and their units; a comment names them where no other line does.
+/// Returns the lines above the first row that give names and units; a comment does so if no other line does.
 fn names_and_units(
     text: &str,
     above: &[Row],

@@ -7,7 +7,6 @@
 use std::fmt::Display;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use std::str::FromStr;
 
 use super::bounded_read::{self, Unread};
 use super::error::Refusal;
@@ -17,51 +16,17 @@ use layout::{Layout, Row, is_missing, number};
 
 mod layout;
 mod names;
+mod naming;
 mod text;
 
 pub use layout::Separator;
-pub use names::OWN;
+pub use naming::{Field, Naming};
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
 
 /// The largest header that is read without its rows, in bytes.
 const LARGEST_HEADER: u64 = 64 << 10;
-
-/// What a user says of the columns of a file whose lines do not say it.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Naming {
-    /// Quantities and where they stand.
-    pub fields: Vec<Field>,
-    /// The units of these fields in their order, or else of the columns of the file.
-    pub units: Vec<String>,
-}
-
-/// A quantity and its column, as in `r=2`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Field {
-    /// The quantity, as `r`.
-    quantity: String,
-    /// The column's number, from 1, or its name in the file.
-    column: String,
-}
-
-impl FromStr for Field {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parts = text
-            .split_once('=')
-            .map(|(quantity, column)| (quantity.trim(), column.trim()));
-        let (quantity, column) = parts
-            .filter(|(quantity, column)| !quantity.is_empty() && !column.is_empty())
-            .ok_or("a field is a quantity and the number of its column, e.g. r=2,wear=3")?;
-        Ok(Self {
-            quantity: quantity.to_owned(),
-            column: column.to_owned(),
-        })
-    }
-}
 
 /// A file of columns, read whole.
 #[derive(Debug, Clone)]
@@ -74,7 +39,7 @@ pub struct Columns {
     pub names: Vec<String>,
     /// How the text is written: its encoding, its separators, its decimal mark.
     pub written: String,
-    /// The same names in units of [`OWN`], and what one of the file's units is worth in those.
+    /// The same names in units of [`UNITS`](crate::reading::column::UNITS), and what one of the file's units is worth in those.
     own: Vec<(String, f64)>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<Row>,
@@ -169,57 +134,6 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Names columns as the user does.
-    fn take(&mut self, naming: &Naming) -> Result<(), Refusal> {
-        let known = |unit: &String| match names::is_unit(unit)
-            || matches!(unit.as_str(), "-" | "1" | "cycles")
-        {
-            true => Ok(()),
-            false => Err(Refusal::of_value(
-                "--units",
-                unit,
-                "is not a unit such as um, nm, N, mm^3",
-            )),
-        };
-        naming.units.iter().try_for_each(known)?;
-        if naming.fields.is_empty() {
-            for (at, unit) in naming.units.iter().enumerate().take(self.own.len()) {
-                self.own[at] = names::in_own_unit(&self.names[at], unit);
-            }
-        }
-        for (k, Field { quantity, column }) in naming.fields.iter().enumerate() {
-            let by_number = column
-                .parse()
-                .ok()
-                .filter(|number| (1..=self.own.len()).contains(number));
-            let by_name = || self.names.iter().position(|name| name == column);
-            let Some(at) = by_number.map(|number: usize| number - 1).or_else(by_name) else {
-                let (count, named) = (self.own.len(), self.named());
-                return Err(self.refuse(format!(
-                    "--fields {quantity}={column}: has {count} columns, {named}"
-                )));
-            };
-            // A unit that stands in the file holds unless another is given.
-            let in_file = self.own[at]
-                .0
-                .rsplit_once('_')
-                .map_or("", |(_, unit)| unit)
-                .to_owned();
-            let ratio = self.own[at].1;
-            let named = match naming.units.get(k) {
-                Some(unit) => names::in_own_unit(quantity, unit),
-                None if names::is_unit(&in_file) => (format!("{quantity}_{in_file}"), ratio),
-                None => names::in_own_unit(quantity, ""),
-            };
-            self.own
-                .iter_mut()
-                .filter(|(own, _)| *own == named.0)
-                .for_each(|(own, _)| own.insert(0, '_'));
-            self.own[at] = named;
-        }
-        Ok(())
-    }
-
     /// The lines `# key: value` at the top of the file at `path`, of which no more is read.
     ///
     /// # Errors
@@ -247,29 +161,24 @@ impl Columns {
     }
 
     /// Whether there is a column of this name, as `r_m`, in any unit of its kind.
-    pub fn has(&self, name: &str) -> bool {
-        self.find(name).is_some()
+    pub fn has(&self, name: impl AsRef<str>) -> bool {
+        self.find(name.as_ref()).is_some()
     }
 
     /// The numbers of the column `name`, as `r_m`, in the unit of the name, one per row.
     ///
     /// # Errors
-    /// If the column is missing, or one of its fields is empty or not a finite number.
+    /// If the column is missing, or one of its fields is no finite number.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, Refusal> {
-        let (at, size) = self.place(name)?;
-        let number = |row: &Row| {
-            self.number(row, at)?
-                .map(|value| size * value)
-                .ok_or_else(|| {
-                    let (line, field) = (row.0, row.1.get(at).unwrap_or_default());
-                    let rule = match field.is_empty() {
-                        true => "is empty; fill in or remove the row".to_owned(),
-                        false => format!("= {}: must be a finite number", echo(field)),
-                    };
-                    self.refuse(format!("line {line}: {} {rule}", self.name(at)))
-                })
-        };
-        self.rows.iter().map(number).collect()
+        let ([values], rows) = self.whole_rows([name])?;
+        let missing = (0..self.len()).find(|row| rows.get(*row) != Some(row));
+        missing.map_or(Ok(values), |row| {
+            let rule = format!(
+                "line {}: {name} is missing; fill in or remove the row",
+                self.line(row)
+            );
+            Err(self.refuse(rule))
+        })
     }
 
     /// The columns of these names in the rows that have a value in each, and the numbers of those rows.
@@ -278,11 +187,11 @@ impl Columns {
     /// If a column is missing, or one of its fields is neither a number nor a word for a missing one.
     pub fn whole_rows<const N: usize>(
         &self,
-        names: [&str; N],
+        names: [impl AsRef<str>; N],
     ) -> Result<([Vec<f64>; N], Vec<usize>), Refusal> {
         let mut places = [(0, 1.0); N];
         for (place, name) in places.iter_mut().zip(names) {
-            *place = self.place(name)?;
+            *place = self.place(name.as_ref())?;
         }
         let (mut columns, mut kept) = ([const { Vec::new() }; N], Vec::new());
         for (k, row) in self.rows.iter().enumerate() {
@@ -297,6 +206,13 @@ impl Columns {
             }
         }
         Ok((columns, kept))
+    }
+
+    /// Says how many rows are not among those that were `kept`, if there are any.
+    pub fn left_out(&self, kept: &[usize]) -> Option<String> {
+        let (all, left_out) = (self.len(), self.len() - kept.len());
+        (left_out > 0)
+            .then(|| format!("{left_out} of {all} rows have missing values and are left out"))
     }
 
     /// The number in a field; `None` if it is missing.
@@ -326,7 +242,7 @@ impl Columns {
         self.own.iter().enumerate().map(column).collect()
     }
 
-    /// Each column as it is in the file, its name in units of [`OWN`], and what one of its units is worth in those.
+    /// Each column as it is in the file, its name in units of [`UNITS`](crate::reading::column::UNITS), and what one of its units is worth in those.
     pub fn described(&self) -> impl Iterator<Item = (&str, &str, f64)> {
         let own = self.own.iter().enumerate();
         own.map(|(at, (own, size))| {
@@ -430,11 +346,11 @@ mod tests {
         };
         assert_eq!(
             message("r_m,f_m\n0,0\n1,\n"),
-            "scar.csv: line 3: f_m is empty; fill in or remove the row"
+            "scar.csv: line 3: f_m is missing; fill in or remove the row"
         );
         assert_eq!(
             message("# x\nr_m,f_m\n0,nan\n"),
-            "scar.csv: line 3: f_m = nan: must be a finite number"
+            "scar.csv: line 3: f_m is missing; fill in or remove the row"
         );
         assert_eq!(
             message("r_m,f_m\n0,0\n1\n"),

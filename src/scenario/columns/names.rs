@@ -1,24 +1,13 @@
 //! What a column is called: `r_um`, `r [µm]`, `Position (mm)`; its quantity, and its unit as one of this program's own.
 
 use super::units;
-
-/// The units of this program's own columns, which those of a file are converted to, as they end a column's name, and as
-/// they are written.
-pub const OWN: [(&str, &str); 8] = [
-    ("m3_per_J", "m³/J"),
-    ("m3", "m³"),
-    ("m", "m"),
-    ("N", "N"),
-    ("J", "J"),
-    ("Pa", "Pa"),
-    ("s", "s"),
-    ("kg", "kg"),
-];
+use crate::reading::Column;
+use crate::reading::column::UNITS;
 
 /// Other names for the columns of measured data, tried where a file has no column of the name itself.
-const OTHER_NAMES: [(&str, &[&str]); 12] = [
+const OTHER_NAMES: [(Column, &[&str]); 12] = [
     (
-        "r_m",
+        Column::Radius,
         &[
             "radius",
             "x",
@@ -28,10 +17,10 @@ const OTHER_NAMES: [(&str, &[&str]); 12] = [
             "lateral_position",
         ],
     ),
-    ("wear_m", &["depth", "wear_depth", "worn", "worn_depth"]),
-    ("f_m", &["z", "height", "profile"]),
+    (Column::Wear, &["depth", "wear_depth", "worn", "worn_depth"]),
+    (Column::Profile, &["z", "height", "profile"]),
     (
-        "u_m",
+        Column::LoopShift,
         &[
             "displacement",
             "disp",
@@ -43,7 +32,7 @@ const OTHER_NAMES: [(&str, &[&str]); 12] = [
         ],
     ),
     (
-        "F_N",
+        Column::LoopForce,
         &[
             "force",
             "tangential_force",
@@ -57,21 +46,24 @@ const OTHER_NAMES: [(&str, &[&str]); 12] = [
         ],
     ),
     (
-        "cycle",
+        Column::Cycle,
         &["cycles", "N", "cycle_number", "number_of_cycles"],
     ),
-    ("time_s", &["t"]),
-    ("distance_m", &["sliding_distance", "s"]),
+    (Column::Time, &["t"]),
+    (Column::Distance, &["sliding_distance", "s"]),
     (
-        "energy_J",
+        Column::Energy,
         &["E_d", "dissipated_energy", "accumulated_energy"],
     ),
-    ("wear_volume_m3", &["volume", "V", "wear"]),
-    ("mass_kg", &["mass_loss", "wear_mass", "weight_loss", "m"]),
-    ("approach_m", &["lvdt", "linear_wear"]),
+    (Column::WearVolume, &["volume", "V", "wear"]),
+    (
+        Column::Mass,
+        &["mass_loss", "wear_mass", "weight_loss", "m"],
+    ),
+    (Column::Approach, &["lvdt", "linear_wear"]),
 ];
 
-/// A column's name in one of the units of [`OWN`], as `r_m`, and what one of its own unit is worth in that.
+/// A column's name in one of the units of [`UNITS`], as `r_m`, and what one of its own unit is worth in that.
 pub(super) fn in_own_unit(name: &str, unit: &str) -> (String, f64) {
     let (base, given) = parts(name);
     match own(bare(unit)).or(own(given)) {
@@ -87,7 +79,7 @@ pub(super) fn is_unit(text: &str) -> bool {
 
 /// The names that a column of this name may have in a file, in the order in which they are tried.
 pub(super) fn names_of(name: &str) -> impl Iterator<Item = String> {
-    let known = OTHER_NAMES.iter().find(|(known, _)| *known == name);
+    let known = OTHER_NAMES.iter().find(|(known, _)| known.name() == name);
     let others = known.map_or(&[][..], |(_, others)| *others).iter();
     let unit = name.rsplit_once('_').map(|(_, unit)| unit);
     let others =
@@ -100,14 +92,15 @@ fn bare(unit: &str) -> &str {
     unit.trim().trim_matches(['[', ']', '(', ')'])
 }
 
-/// The unit of [`OWN`] that is of the kind of `unit`, and what one `unit` is worth in it.
+/// The unit of [`UNITS`] that is of the kind of `unit`, and what one `unit` is worth in it.
 fn own(unit: &str) -> Option<(&'static str, f64)> {
     let unit = match unit {
         "micron" | "microns" | "micrometer" => "um",
         "1" => return None,
         unit => unit,
     };
-    OWN.iter()
+    UNITS
+        .iter()
         .find_map(|(own, _)| Some((*own, units::ratio(unit, own)?)))
 }
 

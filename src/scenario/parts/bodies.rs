@@ -1,14 +1,17 @@
-//! Builds the material from the keys of a scenario: of the pair, or of two bodies.
+//! Builds the material from the keys of a scenario, for the pair or for two bodies.
 
-use super::*;
-use crate::contact::material::Body;
+use super::Parts;
+use crate::contact::material::{Body, Material};
+use crate::math::invalid::Invalid;
+use crate::scenario::error::Refusal;
+use crate::scenario::values::join;
 
-/// The sections of two bodies.
+/// Sections of the two bodies.
 const INDENTER: &str = "material.indenter";
 const HALF_SPACE: &str = "material.half_space";
 
 impl Parts<'_> {
-    /// The moduli and the coefficient of friction.
+    /// Returns the moduli and the coefficient of friction.
     pub(super) fn material(&self) -> Result<Material, Refusal> {
         let friction = match self.first("friction.coefficient", "friction") {
             None if self.has("motion.tangential") => {
@@ -31,14 +34,14 @@ impl Parts<'_> {
         Material::of_bodies(indenter, half_space, friction).map_err(refused)
     }
 
-    /// The hardness of the softer body, Pa.
+    /// Returns the hardness of the softer body, Pa.
     pub(super) fn hardness(&self) -> Option<f64> {
         let all = ["material", INDENTER, HALF_SPACE].into_iter();
         let given = all.filter_map(|section| self.get::<f64>(&join(section, "hardness")));
         given.reduce(f64::min)
     }
 
-    /// One of two bodies, from its section of the scenario.
+    /// Builds one of two bodies from its section of the scenario.
     fn body(&self, section: &str) -> Result<Body, Refusal> {
         if !self.has(section) {
             let meaning = "the second body: youngs_modulus and poisson, or rigid = true";

@@ -1,12 +1,20 @@
-//! From the keys of a scenario to a line contact: its length, what it is driven by, and what it does not know.
+//! Builds a line contact from the keys of a scenario: its length,
+//! its motion, and checks of what a line does not support.
 
-use super::*;
+use super::Parts;
+use crate::contact::indenter::Indenter;
+use crate::contact::material::Material;
+use crate::math::abel::AbelMethod;
+use crate::math::geometry::Geometry;
+use crate::scenario::check::length;
+use crate::scenario::error::Refusal;
+use crate::simulation::Unworn;
 use crate::simulation::drive::{Control, Drive};
 
-/// The length of a line contact, m, where none is given: then every force and volume is per metre.
+/// Default length of a line contact, m: every force and volume is then per metre.
 const PER_METRE: f64 = 1.0;
 
-/// The depth of the point that displacements are told against where none is given, in unworn half-widths.
+/// Default depth of the reference point for displacements, in unworn half-widths.
 const USUAL_GAUGE: f64 = 10.0;
 
 impl Parts<'_> {
@@ -15,12 +23,12 @@ impl Parts<'_> {
         self.get::<String>("indenter.geometry").as_deref() == Some("line")
     }
 
-    /// Round, or a line of some length.
+    /// Builds the geometry: round, or a line of some length.
     ///
     /// # Errors
     ///
-    /// A key of the other geometry, a method that has no kernel of a line, or a measured section whose contact would be
-    /// more than one strip.
+    /// If there is a key of the other geometry, a method without a line kernel, or a measured section whose contact
+    /// would be more than one strip.
     pub(super) fn geometry(&self, indenter: &Indenter) -> Result<Geometry, Refusal> {
         if !self.is_line() {
             let of_lines = ["indenter.length", "motion.tangential.gauge_length"];
@@ -42,11 +50,11 @@ impl Parts<'_> {
         Ok(Geometry::Line { length })
     }
 
-    /// The motion and the material, of a line contact in plane strain.
+    /// Adapts motion and material to a line contact in plane strain.
     ///
     /// # Errors
     ///
-    /// A displacement of a line contact that is told against nothing: in the plane it is infinite.
+    /// If a displacement of a line contact has no reference point: in plane strain it is infinite.
     pub(super) fn in_plane(
         &self,
         geometry: Geometry,
@@ -79,7 +87,7 @@ impl Parts<'_> {
         Ok((drive.on(geometry, &material, gauge), material))
     }
 
-    /// Refuses a gauge length inside the contact, whose domain ends at `domain` (m).
+    /// Refuses a gauge length inside the domain, which ends at `domain` (m).
     pub(super) fn check_gauge(&self, drive: &Drive, domain: f64) -> Result<(), Refusal> {
         let is_given = self.has("motion.tangential.gauge_length");
         match drive.gauge_length().filter(|&gauge| gauge <= domain) {

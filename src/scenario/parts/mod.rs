@@ -1,7 +1,7 @@
-//! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors
-//! check the values; these modules add where in the scenario a refused value is.
+//! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors check the values;
+//! these modules add where in the scenario a refused value is.
 //!
-//! One file for each section of a scenario: what they need is imported here, and they begin with `use super::*`.
+//! Each section of a scenario has its own file.
 
 use std::cell::RefCell;
 use std::fmt::Display;
@@ -10,7 +10,7 @@ use std::str::FromStr;
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
-use super::check::{self, length, show};
+use super::check::{self, show};
 use super::complete;
 use super::derive;
 use super::error::{Faults, Origin, Refusal};
@@ -20,7 +20,6 @@ use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::contact::scar::Scar;
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
-use crate::math::geometry::Geometry;
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing, Unworn};
@@ -33,21 +32,21 @@ mod running_in;
 mod scar;
 mod shape;
 
-/// By what factor lengths may seem off before their unit is in doubt.
+/// Ratio beyond which a length is probably in the wrong unit.
 const HARDLY_SAME: f64 = 20.0;
 
-/// Makes the parts of a scenario from the keys that the user gave, and returns them behind the
-/// [completed](super::complete::table) keys. Where an accuracy leaves points and steps open, they have their defaults.
+/// Makes the parts of a scenario from the keys that the user gave, and returns them after the
+/// [completed](super::complete::table) keys. If an accuracy leaves points and steps open, they take their defaults.
 ///
 /// # Errors
 ///
-/// All `faults`, and every key that is missing beside them; without any, what the first part refuses.
+/// All `faults`, plus every missing key; without any of these, the refusal of the first part that fails.
 pub(super) fn setup(
     table: &mut Table,
     origin: &Origin,
     faults: Faults,
 ) -> Result<(Table, Setup), Refusal> {
-    // Whatever is wrong, what is missing beside it can be told.
+    // Replace wrong values, so that missing keys are reported as well.
     for path in faults.paths() {
         let wrong = values::remove(table, path).and_then(|_| schema::find(path));
         if let Some(value) = wrong.and_then(Parameter::any_value) {
@@ -68,20 +67,20 @@ pub(super) fn setup(
     }
 }
 
-/// The tables of a scenario, and where they come from: its parts are made from them here and in the modules beside
-/// this one, one for each section.
+/// The tables of a scenario and their origin. Its parts are made from them here and in the neighbouring modules, one
+/// for each section.
 pub(super) struct Parts<'a> {
-    /// The values, with the defaults written out.
+    /// Values including defaults.
     table: &'a Table,
-    /// The values as the user wrote them, for messages.
+    /// Values as the user wrote them, for messages.
     written: &'a Table,
     origin: &'a Origin,
-    /// What is wrong so far; what is missing is added.
+    /// Errors so far; missing keys are added.
     faults: RefCell<Faults>,
 }
 
 impl Parts<'_> {
-    /// All parts.
+    /// Makes all parts.
     fn setup(&self) -> Result<Setup, Refusal> {
         check::conflicts(self.written, self.origin)?;
         let indenter = self.indenter()?;
@@ -131,22 +130,23 @@ impl Parts<'_> {
         })
     }
 
-    /// The value of a key, where it is given.
+    /// Returns the value of a key, if given.
     fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         schema::read(self.table, key)
     }
 
-    /// A coefficient as a run begins with it: its value, or the first of the table of its `section`.
+    /// Returns the initial value of a coefficient: its value, or the first in the table of its `section`.
     fn first(&self, key: &str, section: &str) -> Option<f64> {
         let values = || self.get::<Vec<f64>>(&join(section, "values"));
         self.get(key).or_else(|| values()?.first().copied())
     }
 
-    /// The value of a key, or its default; where there is neither, any value, so that what else is missing is found.
+    /// Returns the value of a key, or its default. If there is neither, notes the error and returns any allowed value,
+    /// so that other missing keys are found too.
     ///
     /// # Errors
     ///
-    /// That it is missing, if it is a key without such a value.
+    /// If the key is missing and has no such value.
     fn require<T: DeserializeOwned>(&self, key: &str) -> Result<T, Refusal> {
         let known = schema::known(key);
         let default = || known.default.value()?.clone().try_into().ok();
@@ -154,7 +154,7 @@ impl Parts<'_> {
         value.map_or_else(|| self.any(key, known.described()), Ok)
     }
 
-    /// What the word of a key names.
+    /// Parses the word of a key.
     ///
     /// # Errors
     ///
@@ -165,24 +165,24 @@ impl Parts<'_> {
         word.parse().map_err(unknown)
     }
 
-    /// A list that is read from a `file`, which a key names.
+    /// Returns a list that is read from a `file`, which a key names.
     ///
     /// # Errors
     ///
-    /// That the key of the file is missing, if there is no list.
+    /// If there is no list: the key of the file is missing.
     fn list(&self, list: &str, file: &str) -> Result<Vec<f64>, Refusal> {
         let missing = || self.missing(file, schema::known(file).described());
         self.get(list).ok_or_else(missing)
     }
 
-    /// Notes that a key is missing, which means `meaning`, and returns any value of it.
+    /// Notes that a key, which means `meaning`, is missing, and returns any allowed value for it.
     fn any<T: DeserializeOwned>(&self, key: &str, meaning: impl Display) -> Result<T, Refusal> {
         let missing = self.missing(key, meaning);
         let any = schema::known(key).any_value();
         any.and_then(|any| any.try_into().ok()).ok_or(missing)
     }
 
-    /// Notes the error that there is no value at `path`, which means `meaning`, unless it is dealt with already.
+    /// Notes that there is no value at `path`, which means `meaning`, unless an error already covers it.
     fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();
@@ -196,13 +196,13 @@ impl Parts<'_> {
         values::at(self.written, path).is_some()
     }
 
-    /// Refuses the value that stands at `path`, if one was written.
+    /// Refuses the value at `path`, if one was written.
     fn refuse(&self, path: &str, rule: impl Display) -> Refusal {
         let written = values::at(self.written, path).map(show);
         self.origin.refuse(path, &written.unwrap_or_default(), rule)
     }
 
-    /// What becomes of a field that the constructor of a part refused: a key of `section`.
+    /// Turns the refusal of a part's constructor into an error about a key of `section`.
     fn refused(&self, section: &str) -> impl Fn(Invalid) -> Refusal {
         move |invalid| {
             let path = join(section, invalid.field);
@@ -213,8 +213,8 @@ impl Parts<'_> {
         }
     }
 
-    /// The law of wear. Keys of the power law are judged under either law, so that the law can be
-    /// switched during a run.
+    /// Builds the wear law. Keys of the power law are checked under either law, so that the law can be switched during
+    /// a run.
     fn wear(&self, contact: &Unworn) -> Result<Option<WearLaw>, Refusal> {
         if !self.has("wear") {
             return Ok(None);
@@ -245,8 +245,8 @@ impl Parts<'_> {
         law.map(Some).map_err(self.refused("wear"))
     }
 
-    /// k per friction work, 1/Pa: as given, or that per load and distance over the friction that the run
-    /// begins with.
+    /// Returns k per friction work, 1/Pa: as given, or the coefficient
+    /// per load and distance divided by the initial friction.
     fn wear_coefficient(&self, material: &Material) -> Result<f64, Refusal> {
         let Some(per_load) = self.get::<f64>("wear.coefficient_per_load") else {
             let given = self.first("wear.coefficient", "wear");
@@ -306,7 +306,7 @@ impl Parts<'_> {
         grid.map_err(self.refused("numerics"))
     }
 
-    /// Where the nodes lie: as the list says, if there is one.
+    /// Returns the spacing of the nodes; a list of nodes takes precedence.
     fn spacing(&self, default: Spacing) -> Result<Spacing, Refusal> {
         let has_nodes = self.has("numerics.nodes");
         let default = if has_nodes { Spacing::Given } else { default };

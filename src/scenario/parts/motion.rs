@@ -1,20 +1,22 @@
-//! Builds the motion from the keys of a scenario: each direction, and the rig.
+//! Builds the motion from the keys of a scenario: both directions, and the rig.
 
 use std::f64::consts::TAU;
 
-use super::*;
+use super::Parts;
+use crate::scenario::error::Refusal;
+use crate::scenario::values::join;
 use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::waveform::{Tabled, Waveform};
 
-/// The most periods of the normal motion in a cycle.
+/// Maximum number of periods of the normal motion per cycle.
 const HIGHEST_RATIO: f64 = 1000.0;
 
-/// The sections of both directions.
+/// Sections of the two directions.
 const NORMAL: &str = "motion.normal";
 const TANGENTIAL: &str = "motion.tangential";
 
 impl Parts<'_> {
-    /// Both directions of the motion, on their rig.
+    /// Builds both directions of the motion, with the rig.
     pub(super) fn drive(&self) -> Result<Drive, Refusal> {
         let normal = self.control(NORMAL, TANGENTIAL)?;
         if normal.oscillation().highest() <= 0.0 {
@@ -45,7 +47,7 @@ impl Parts<'_> {
         }
     }
 
-    /// The motion of waveform = "table"; the table alone says so as well.
+    /// Builds the motion of waveform = "table"; a table alone implies that waveform.
     fn tabled_motion(&self, motion: &str) -> Result<Option<Tabled>, Refusal> {
         let word: Option<String> = self.get(&join(motion, "waveform"));
         let [times, values, file] = ["times", "values", "file"].map(|key| join(motion, key));
@@ -63,15 +65,14 @@ impl Parts<'_> {
         table.map(Some).map_err(self.refused(motion))
     }
 
-    /// The angular frequency, rad/s, where it or the frequency is given.
+    /// Returns the angular frequency, rad/s, if it or the frequency is given.
     fn frequency(&self, motion: &str) -> Option<f64> {
         let hertz = || Some(TAU * self.get::<f64>(&join(motion, "frequency"))?);
         self.get(&join(motion, "angular_frequency")).or_else(hertz)
     }
 
-    /// One direction of the motion. Where it stands still its frequency is that of the other
-    /// direction, so that both share one period. A table brings its own mean, amplitude and frequency
-    /// where the scenario gives none.
+    /// Builds one direction of the motion. A direction at rest takes the frequency of the other one, so that both share
+    /// one period. A table provides its own mean, amplitude and frequency unless the scenario gives them.
     fn control(&self, motion: &str, other: &str) -> Result<Control, Refusal> {
         let key = |key: &str| join(motion, key);
         let refused = self.refused(motion);

@@ -1,10 +1,13 @@
 //! Builds coefficients that run in from the keys of a scenario.
 
-use super::*;
+use super::Parts;
+use crate::contact::material::Material;
+use crate::scenario::error::Refusal;
+use crate::scenario::values::join;
 use crate::simulation::running_in::{Course, Over, RunningIn};
 
 impl Parts<'_> {
-    /// The coefficients that run in; `None` if they are constant.
+    /// Builds the coefficients that run in; `None` if they are constant.
     pub(super) fn running_in(&self, material: &Material) -> Result<Option<RunningIn>, Refusal> {
         let mut all = RunningIn {
             friction: self.course("friction")?,
@@ -25,7 +28,7 @@ impl Parts<'_> {
                 return Err(self.refuse("wear.coefficient_per_load", rule));
             }
         }
-        // Behind the threshold the coefficient is what it is without one.
+        // Beyond the threshold the coefficient is the one without a threshold.
         if all.threshold > 0.0 && all.wear.is_none() && all.wear_per_load.is_none() {
             let coefficient = self.wear_coefficient(material)?;
             let constant = Course::table(&[0.0], &[coefficient], Over::Cycles);
@@ -34,7 +37,7 @@ impl Parts<'_> {
         Ok((all != RunningIn::default()).then_some(all))
     }
 
-    /// The coefficient of a section as it runs in; `None` if it is constant.
+    /// Builds the course of a section's coefficient; `None` if it is constant.
     fn course(&self, section: &str) -> Result<Option<Course>, Refusal> {
         let key = |key: &str| join(section, key);
         let forms = [

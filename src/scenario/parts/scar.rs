@@ -1,16 +1,20 @@
-//! From the keys of a scenario to the scar that a run begins with.
+//! Builds the initial scar from the keys of a scenario.
 
-use super::*;
+use super::{HARDLY_SAME, Parts};
+use crate::contact::indenter::Indenter;
+use crate::contact::scar::Scar;
+use crate::scenario::check::length;
+use crate::scenario::error::Refusal;
 
-/// The keys of the scar.
+/// Keys of the scar.
 const RADII: &str = "wear.initial_radii";
 const DEPTHS: &str = "wear.initial_depths";
 
-/// How deep a scar may be where its table ends inside the domain, relative to its greatest depth.
+/// Maximum depth at the end of a scar's table inside the domain, relative to its greatest depth.
 const CUT_OFF: f64 = 0.05;
 
 impl Parts<'_> {
-    /// The scar that the run begins with; `None` without `wear.initial`.
+    /// Builds the initial scar; `None` without `wear.initial`.
     pub(super) fn scar(&self) -> Result<Option<Scar>, Refusal> {
         if !self.has(RADII) && !self.has(DEPTHS) {
             return Ok(None);
@@ -20,7 +24,7 @@ impl Parts<'_> {
         scar.map(Some).map_err(self.refused("wear"))
     }
 
-    /// Refuses a scar that no domain which ends at `domain` (m) can hold, most often for its unit.
+    /// Refuses a scar that does not fit a domain ending at `domain` (m), most often because of its unit.
     pub(super) fn check_scar(
         &self,
         scar: &Scar,
@@ -28,7 +32,7 @@ impl Parts<'_> {
         domain: f64,
     ) -> Result<(), Refusal> {
         let (edge, (last, depth_there)) = (scar.edge(), scar.end());
-        // A punch has no flank, and may be worn as deep as its slopes stay small.
+        // A punch has no flank; its wear may be as deep as its slopes stay small.
         let flank = match indenter.rim() {
             Some(rim) => rim / HARDLY_SAME,
             None => indenter.profile(domain),

@@ -1,18 +1,23 @@
-//! Builds the indenter from the keys of a scenario, and holds a measured one against the domain.
+//! Builds the indenter from the keys of a scenario, and checks a measured one against the domain.
 
-use super::*;
+use super::{HARDLY_SAME, Parts};
+use crate::contact::indenter::Indenter;
 use crate::contact::measured::MeasuredProfile;
+use crate::scenario::check::length;
+use crate::scenario::error::Refusal;
+use crate::scenario::schema::{self, Parameter};
+use crate::scenario::values::join;
 
-/// The steepest slope at the contact's edge, a/R, that a table may have, and the shallowest: beyond them
-/// one of its columns is in another unit.
+/// Allowed slopes a/R of a table at the contact's edge: beyond the steepest and the shallowest, one of its columns is
+/// in another unit.
 const STEEPEST: f64 = 1.0;
 const SHALLOWEST: f64 = 1e-5;
 
-/// The fewest points of a table that are to lie within the domain.
+/// Minimum number of points of a table within the domain.
 const FEWEST_IN_CONTACT: usize = 4;
 
 impl Parts<'_> {
-    /// The unworn shape.
+    /// Builds the unworn shape.
     pub(super) fn indenter(&self) -> Result<Indenter, Refusal> {
         let shape: String = self.require("indenter.shape")?;
         self.refuse_keys_of_other_shapes(&shape)?;
@@ -50,8 +55,8 @@ impl Parts<'_> {
         Err(self.refuse(foreign.path, rule))
     }
 
-    /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has
-    /// slopes too steep for a half-space: most often its lengths are in another unit.
+    /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has slopes too steep for a
+    /// half-space: most often because its lengths are in another unit.
     pub(super) fn check_measured(
         &self,
         measured: &MeasuredProfile,

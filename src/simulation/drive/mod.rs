@@ -14,17 +14,17 @@ mod turning;
 
 pub use oscillation::{Oscillation, SpringMotion};
 
-/// The most cycles, and where they are more than `FEW_CYCLES` the most turns of the normal motion, of a common
-/// period of both directions.
+/// Maximum number of cycles, and beyond `FEW_CYCLES` also of turns
+/// of the normal motion, in a common period of both directions.
 pub const LONGEST_REPEAT: u32 = 1000;
 
-/// So few cycles may hold any number of turns.
+/// Up to this many cycles may hold any number of turns.
 const FEW_CYCLES: u32 = 20;
 
-/// Cycles after which a motion without a common period has come close to everything that it does.
+/// Cycles within which a motion without a common period comes close to everything it does.
 const WITHOUT_REPEAT: u32 = 20;
 
-/// Pieces of Simpson's rule for the mean of a power of the rate in a step.
+/// Pieces of Simpson's rule for the mean power of the rate in a step.
 const PIECES_OF_A_STEP: u32 = 16;
 
 /// How one direction is driven.
@@ -37,7 +37,7 @@ pub enum Control<T = Oscillation> {
 }
 
 impl Plane {
-    /// That of a strip of the half-width a (m) that sticks, N/m.
+    /// Returns the stiffness of a sticking strip of half-width a (m), N/m.
     fn stiffness(self, half_width: f64) -> f64 {
         let logarithm = (2.0 * self.gauge / half_width).ln();
         (FRAC_2_PI * self.compliance * logarithm).recip()
@@ -47,24 +47,24 @@ impl Plane {
 /// A prescribed value at one moment.
 pub type Target = Control<f64>;
 
-/// What both directions are asked for at one moment.
+/// The targets of both directions at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Targets {
     /// The normal direction.
     pub normal: Target,
-    /// The tangential one, where it moves.
+    /// The tangential direction, if it moves.
     pub tangential: Option<Target>,
 }
 
 impl Control {
-    /// The oscillation of whatever is prescribed.
+    /// Returns the prescribed oscillation, of a displacement or a force.
     pub fn oscillation(&self) -> &Oscillation {
         match self {
             Self::Displacement(oscillation) | Self::Force(oscillation) => oscillation,
         }
     }
 
-    /// That of a displacement; none of a force.
+    /// Returns the prescribed displacement; `None` for a force.
     pub fn displacement(&self) -> Option<&Oscillation> {
         match self {
             Self::Displacement(oscillation) => Some(oscillation),
@@ -87,23 +87,23 @@ impl Control {
 pub struct Drive {
     normal: Control,
     tangential: Option<Control>,
-    /// Of the rig between actuator and contact, m/N; 0 for a stiff one.
+    /// Compliance of the rig between actuator and contact, m/N; 0 for a stiff one.
     compliance: f64,
-    /// Of a line contact.
+    /// Properties of a line contact.
     plane: Option<Plane>,
 }
 
-/// What forces and displacements are to a line contact.
+/// How forces and displacements act on a line contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plane {
     /// 1/(E*L): how far a force moves the springs, m/N.
     compliance: f64,
-    /// How deep the point lies that displacements are told against, m.
+    /// Depth of the reference point for displacements, m.
     gauge: f64,
 }
 
 impl Drive {
-    /// The normal motion, and the tangential one where there is one, on a stiff rig.
+    /// Combines the normal motion and the tangential one, if any, on a stiff rig.
     pub fn new(normal: Control, tangential: Option<Control>) -> Self {
         Self {
             normal,
@@ -113,8 +113,8 @@ impl Drive {
         }
     }
 
-    /// The same on a contact of this `geometry` and `material`. In the plane the displacement of one body is told against
-    /// a point of the other, `gauge` (m) deep: against infinity there is none.
+    /// Returns the same drive on a contact of this `geometry` and `material`. In plane strain the displacement of one
+    /// body is measured against a point of the other, `gauge` (m) deep: against infinity it does not exist.
     #[must_use]
     pub fn on(self, geometry: Geometry, material: &Material, gauge: f64) -> Self {
         let plane = geometry.length().map(|length| Plane {
@@ -124,17 +124,17 @@ impl Drive {
         Self { plane, ..self }
     }
 
-    /// How deep the point lies that the displacements of a line contact are told against, m.
+    /// Returns the depth of the reference point for displacements of a line contact, m.
     pub fn gauge_length(&self) -> Option<f64> {
         self.plane.map(|plane| plane.gauge)
     }
 
-    /// The motion of the springs in the normal direction, where it is prescribed.
+    /// Returns the motion of the springs in the normal direction, if it is prescribed.
     pub fn depth_of_springs(&self) -> Option<SpringMotion<'_>> {
         self.of_springs(&self.normal)
     }
 
-    /// The motion of the springs in the tangential direction, where it is prescribed.
+    /// Returns the motion of the springs in the tangential direction, if it is prescribed.
     pub fn shift_of_springs(&self) -> Option<SpringMotion<'_>> {
         self.of_springs(self.tangential.as_ref()?)
     }
@@ -148,13 +148,13 @@ impl Drive {
         Some(SpringMotion { of, yields })
     }
 
-    /// Whether a rig lies between what is prescribed and the contact.
+    /// Whether a rig lies between the prescribed motion and the contact.
     pub fn has_rig(&self) -> bool {
         self.compliance > 0.0 && !matches!(self.tangential, Some(Control::Force(_)))
     }
 
-    /// The same with a rig of the tangential `stiffness` (N/m) in series with the contact: a prescribed
-    /// displacement is that of the actuator, U, and the contact gets u = U − F_x/stiffness.
+    /// Returns the same drive with a rig of tangential `stiffness` (N/m) in series with the contact: a prescribed
+    /// displacement is the actuator's, U, and the contact gets u = U − F_x/stiffness.
     pub fn with_rig(self, stiffness: f64) -> Result<Self, Invalid> {
         let compliance = positive("rig_stiffness", stiffness)?.recip();
         Ok(Self { compliance, ..self })
@@ -170,12 +170,12 @@ impl Drive {
         &self.normal
     }
 
-    /// The tangential motion; without it there are no tangential springs, no slip and no wear.
+    /// Returns the tangential motion; without it there are no tangential springs, no slip and no wear.
     pub fn tangential(&self) -> Option<&Control> {
         self.tangential.as_ref()
     }
 
-    /// The length of one cycle, s.
+    /// Returns the length of one cycle, s.
     pub fn period(&self) -> f64 {
         TAU / self.leading().angular_frequency()
     }
@@ -187,13 +187,13 @@ impl Drive {
             .oscillation()
     }
 
-    /// ω₁/ω₂: turns of the normal motion in one cycle.
+    /// Returns ω₁/ω₂: turns of the normal motion in one cycle.
     pub fn frequency_ratio(&self) -> f64 {
         self.normal.oscillation().angular_frequency() / self.leading().angular_frequency()
     }
 
-    /// After how many cycles the motion of both directions repeats, where it does within
-    /// [`LONGEST_REPEAT`]; none for incommensurate frequencies. A direction that stands still always repeats.
+    /// Returns the number of cycles after which the motion of both directions repeats, if at most [`LONGEST_REPEAT`];
+    /// `None` for incommensurate frequencies. A direction at rest always repeats.
     pub fn repeats_after(&self) -> Option<u32> {
         if self.normal.oscillation().amplitude() == 0.0 {
             return Some(1);
@@ -206,24 +206,25 @@ impl Drive {
         })
     }
 
-    /// Cycles after which the permanent stick radius is read anew: the common period of the motion.
+    /// Returns the cycles after which the permanent stick radius is read again: the common period of the motion.
     pub fn cycles_to_settle(&self) -> u32 {
         self.repeats_after().unwrap_or(WITHOUT_REPEAT)
     }
 
-    /// How many times faster than the cycle the faster of the two motions is, rounded up; 1 where that is the
-    /// tangential one, or where the normal direction stands still.
+    /// Returns how many times faster than the cycle the faster of the two motions is, rounded up; 1 if that is the
+    /// tangential one, or if the normal direction is at rest.
     pub fn turns_of_the_faster(&self) -> u32 {
         if self.normal.oscillation().amplitude() == 0.0 {
             return 1;
         }
-        // A ratio that is whole but for rounding is whole.
+        // A ratio that is whole except for rounding is whole.
         (self.frequency_ratio() * (1.0 - 1e-9)).ceil().max(1.0) as u32
     }
 
-    /// What an amplitude of each direction is in displacement, m per m or m per N: a force moves a contact of the
-    /// radius a by 1/(2E*a) and 1/(2G*a), the springs of a line by 1/(E*L) both, and a rig of the compliance C leaves it 1/(1 + 2G*aC) of its actuator's
-    /// motion, as long as nothing slips; where the motion turns, nothing does.
+    /// Returns the displacement per amplitude of each direction, m per m or m per N. A force
+    /// moves a contact of radius a by 1/(2E*a) and 1/(2G*a), the springs of a line contact
+    /// by 1/(E*L) in both directions. A rig of compliance C leaves the contact 1/(1 + 2G*aC)
+    /// of its actuator's motion while nothing slips, which holds where the motion turns.
     pub fn yields(&self, material: &Material, contact_radius: f64) -> [f64; 2] {
         let stiffness = |modulus: f64| 2.0 * modulus * contact_radius;
         let yields = |control: Option<&Control>, modulus: f64, compliance: f64| match control {
@@ -248,12 +249,12 @@ impl Drive {
         if yields.iter().all(|yields| yields.is_finite()) {
             return yields;
         }
-        // Out of contact nothing turns that matters.
+        // Without contact, turning points do not matter.
         [1.0; 2]
     }
 
-    /// The tangential stiffness, N/m, of a contact of the radius or half-width a (m) that sticks: 2G*a, or in the plane,
-    /// against the gauge, that of a punch, (π/2)E*L/ln(2ℓ/a).
+    /// Returns the tangential stiffness, N/m, of a sticking contact of radius or half-width a (m): 2G*a, or in plane
+    /// strain, against the gauge, the stiffness of a punch, (π/2)E*L/ln(2ℓ/a).
     pub fn stiffness(&self, material: &Material, contact_radius: f64) -> f64 {
         match self.plane {
             None => 2.0 * material.tangential_modulus() * contact_radius,
@@ -261,9 +262,9 @@ impl Drive {
         }
     }
 
-    /// The mean of |u̇_x|ⁿ between two cycles over the n-th power of the mean rate: by how much a law with the n-th
-    /// power of the slip rate wears more in a step whose rate changes. 1 where the tangential motion is not
-    /// prescribed as a displacement, or turns in between.
+    /// Returns the mean of |u̇_x|ⁿ between two cycles divided by the n-th power of the mean rate: the factor on the
+    /// wear by the n-th power of the slip rate in a step whose rate changes. 1 unless the tangential motion is a
+    /// prescribed displacement that does not turn in between.
     pub fn unevenness(&self, exponent: f64, from: f64, until: f64) -> f64 {
         let Some(shift) = self.shift_of_springs() else {
             return 1.0;
@@ -281,7 +282,7 @@ impl Drive {
                 _ => 2.0,
             };
             let rate = rate(i);
-            // An end of the step that is a turning point but for rounding has no sign.
+            // An end of the step that is a turning point except for rounding has no sign.
             signs[usize::from(rate < 0.0)] |= rate.abs() > 1e-6;
             power += weight * rate.abs().powf(exponent);
             mean += weight * rate.abs();
@@ -294,7 +295,7 @@ impl Drive {
         unevenness
     }
 
-    /// What both directions are asked for after `cycles`.
+    /// Returns the targets of both directions after `cycles`.
     pub fn targets(&self, cycles: f64) -> Targets {
         let tangential = self.tangential.as_ref();
         Targets {
@@ -344,8 +345,7 @@ mod tests {
         );
     }
 
-    /// F_z = 1 + 2 sin and d = 1 + 2 sin lose contact where the sine is −1/2.
-    /// The mean of cosⁿ over a quarter of a turn, over (2/π)ⁿ.
+    /// The mean of cosⁿ over a quarter of a turn, divided by (2/π)ⁿ.
     #[test]
     fn a_rate_that_changes_wears_by_the_mean_of_its_power() {
         let motion = |phase| Oscillation::new(0.0, 1.0, 1.0, phase).expect("a motion");
@@ -358,7 +358,7 @@ mod tests {
             "{quarter} {expected}"
         );
         assert!((of(0.3).unevenness(1.0, 0.1, 0.13) - 1.0).abs() < 1e-14);
-        // From the turning point on the rate grows like t: the mean of tⁿ is 1/(n+1), over 2⁻ⁿ.
+        // From the turning point on the rate grows like t: the mean of tⁿ is 1/(n+1), divided by 2⁻ⁿ.
         let short = of(0.0).unevenness(0.7, 0.25, 0.251);
         assert!(
             (short / (2f64.powf(0.7) / 1.7) - 1.0).abs() < 2e-3,
@@ -367,7 +367,7 @@ mod tests {
         assert_eq!(of(0.0).unevenness(0.7, 0.2, 0.3), 1.0);
     }
 
-    /// A rig as stiff as the sticking contact leaves it half of the motion; a force knows of no rig.
+    /// A rig as stiff as the sticking contact leaves it half of the motion; a prescribed force ignores the rig.
     #[test]
     fn a_rig_leaves_a_part_of_the_motion_to_what_sticks() {
         let material = Material::new(2.0, 0.0, 0.1).expect("a material");

@@ -1,12 +1,12 @@
-//! One direction's swing about its mean, Eq. (14) of the paper, counted in turns of its own.
+//! One direction's oscillation about its mean, Eq. (14) of the paper, counted in its turns.
 
 use std::f64::consts::TAU;
 
 use super::super::waveform::Waveform;
 use crate::math::invalid::{Invalid, finite, non_negative, positive};
 
-/// mean + amplitude · sin(ωt + φ), of a displacement in m or of a force in N; another [`Waveform`] may
-/// stand in the sine's place.
+/// mean + amplitude · sin(ωt + φ), of a displacement in m or
+/// of a force in N; another [`Waveform`] may replace the sine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Oscillation {
     mean: f64,
@@ -17,7 +17,7 @@ pub struct Oscillation {
 }
 
 impl Oscillation {
-    /// With an amplitude of 0 or more, ω greater than 0 in rad/s and φ in rad.
+    /// Makes an oscillation with an amplitude of 0 or more, ω greater than 0 in rad/s and φ in rad.
     pub fn new(
         mean: f64,
         amplitude: f64,
@@ -33,23 +33,23 @@ impl Oscillation {
         })
     }
 
-    /// The same with another waveform.
+    /// Returns the same oscillation with another waveform.
     #[must_use]
     pub fn with_waveform(self, waveform: Waveform) -> Self {
         Self { waveform, ..self }
     }
 
-    /// How it swings.
+    /// Returns the waveform.
     pub fn waveform(&self) -> &Waveform {
         &self.waveform
     }
 
-    /// The value around which the motion swings.
+    /// Returns the value around which the motion oscillates.
     pub fn mean(&self) -> f64 {
         self.mean
     }
 
-    /// Half the way from the lowest to the highest value.
+    /// Returns half the distance from the lowest to the highest value.
     pub fn amplitude(&self) -> f64 {
         self.amplitude
     }
@@ -74,8 +74,8 @@ impl Oscillation {
         self.mean - self.amplitude
     }
 
-    /// The value after `turns` of this oscillation. Only the fraction of a turn is given to the
-    /// waveform, so that the millionth turn is like the first.
+    /// Returns the value after `turns` of this oscillation. The waveform only gets the fraction of a turn, so that the
+    /// millionth turn is like the first.
     pub fn after_turns(&self, turns: f64) -> f64 {
         let swing = match &self.waveform {
             Waveform::Sine => (TAU * turns.fract() + self.phase).sin(),
@@ -84,7 +84,7 @@ impl Oscillation {
         self.mean + self.amplitude * swing
     }
 
-    /// The rate of the waveform after `turns`, of which a sine has 1 at most.
+    /// Returns the rate of the waveform after `turns`; the maximum for a sine is 1.
     pub(super) fn rate(&self, turns: f64) -> f64 {
         match &self.waveform {
             Waveform::Sine => (TAU * turns.fract() + self.phase).cos(),
@@ -92,7 +92,7 @@ impl Oscillation {
         }
     }
 
-    /// Whether it moves upwards at the beginning, or did so before it came to rest there.
+    /// Whether it moves upwards at the beginning, or did so before coming to rest there.
     pub fn rises_at_start(&self) -> bool {
         match &self.waveform {
             Waveform::Sine => self.phase.cos() >= 0.0,
@@ -105,7 +105,7 @@ impl Oscillation {
         self.amplitude * self.angular_frequency * self.waveform.fastest()
     }
 
-    /// Turns of the first corner after `turns`, if the waveform has corners.
+    /// Returns the position of the first corner after `turns`, if the waveform has corners.
     pub(super) fn next_corner(&self, turns: f64) -> Option<f64> {
         match &self.waveform {
             Waveform::Sine => None,
@@ -113,17 +113,17 @@ impl Oscillation {
         }
     }
 
-    /// The phase of a polyline, from 0 to below 1.
+    /// Returns the phase of a polyline, from 0 to below 1.
     fn line_phase(&self, turns: f64) -> f64 {
         let phase = (turns.fract() + self.phase / TAU).rem_euclid(1.0);
         if phase < 1.0 { phase } else { 0.0 }
     }
 }
 
-/// What the springs are moved by: an oscillation, in m per its unit.
+/// The motion of the springs: an oscillation, and its effect in m per its unit.
 ///
-/// A displacement moves the springs of a round contact as it is. Under a line contact it is a force that does, by the
-/// same distance whatever has worn: F/(E*L).
+/// A displacement moves the springs of a round contact directly. In a line contact it is a force that moves them, by
+/// the same distance whatever has worn: F/(E*L).
 #[derive(Debug, Clone, Copy)]
 pub struct SpringMotion<'a> {
     pub(super) of: &'a Oscillation,
@@ -131,17 +131,17 @@ pub struct SpringMotion<'a> {
 }
 
 impl SpringMotion<'_> {
-    /// How it swings.
+    /// Returns the waveform.
     pub fn waveform(&self) -> &Waveform {
         &self.of.waveform
     }
 
-    /// Half the way of the springs, m.
+    /// Returns the amplitude of the springs, m.
     pub fn amplitude(&self) -> f64 {
         self.yields * self.of.amplitude
     }
 
-    /// The value around which they swing, m.
+    /// Returns the value around which they oscillate, m.
     pub fn mean(&self) -> f64 {
         self.yields * self.of.mean
     }
@@ -166,12 +166,12 @@ impl SpringMotion<'_> {
         self.yields * self.of.greatest_speed()
     }
 
-    /// The rate of the waveform after `turns`, of which a sine has 1 at most.
+    /// Returns the rate of the waveform after `turns`; the maximum for a sine is 1.
     pub(super) fn rate(&self, turns: f64) -> f64 {
         self.of.rate(turns)
     }
 
-    /// Whether it moves upwards at the beginning, or did so before it came to rest there.
+    /// Whether it moves upwards at the beginning, or did so before coming to rest there.
     pub fn rises_at_start(&self) -> bool {
         self.of.rises_at_start()
     }

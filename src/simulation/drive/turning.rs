@@ -1,23 +1,23 @@
-//! Where the motion turns, and where it makes or loses contact: there slip begins or ends, and so does a step.
+//! Finds where the motion turns, and where it makes or loses contact: slip begins or ends there, and so does a step.
 
 use std::f64::consts::TAU;
 
 use super::{Control, Drive};
 use crate::math::root;
 
-/// Into how many pieces a cycle is cut where turning points are looked for.
+/// Number of pieces of a cycle in the search for turning points.
 const PIECES_OF_A_CYCLE: f64 = 64.0;
 
-/// How far behind a corner its second side is looked at, in cycles.
+/// Distance from a corner at which its second side is evaluated, in cycles.
 const BEHIND_CORNER: f64 = 1e-9;
 
 impl Drive {
-    /// The first cycle after `from` and up to `until` at which d + κu_x or d − κu_x turns: there slip ends or
-    /// begins. κ is the [stick ratio](crate::contact::material::Material::stick_ratio), and `yields` are those of
+    /// Returns the first cycle after `from` and up to `until` at which d + κu_x or d − κu_x turns, where slip ends or
+    /// begins. κ is the [stick ratio](crate::contact::material::Material::stick_ratio), and `yields` come from
     /// [`yields`](Self::yields).
     ///
-    /// Corners of a waveform at which the rate of either changes its sign, or to zero or from it, are
-    /// turning points as well.
+    /// Corners of a waveform at which the rate of either changes sign, becomes zero or stops being zero count as
+    /// turning points.
     pub fn turning_point(
         &self,
         stick_ratio: f64,
@@ -32,7 +32,7 @@ impl Drive {
             yields[1] * tangential.amplitude(),
         );
         let ratio = self.frequency_ratio();
-        // Without friction nothing sticks; with very much, the shift alone turns things.
+        // Without friction nothing sticks; with very high friction, only the shift determines turning points.
         let (normal_weight, tangential_weight) = if stick_ratio > 1.0 {
             (down * ratio / stick_ratio, along)
         } else {
@@ -72,7 +72,7 @@ impl Drive {
         }
     }
 
-    /// The first turning point after `from` and up to `until`, between which no waveform has a corner.
+    /// Returns the first turning point after `from` and up to `until`, if no waveform has a corner in between.
     fn smooth_turn(
         rates: impl Fn(f64) -> (f64, f64),
         (normal_weight, tangential_weight): (f64, f64),
@@ -93,8 +93,8 @@ impl Drive {
             .reduce(f64::min)
     }
 
-    /// The first cycle after `from` and up to `until` at which contact is made or lost: the normal force crosses
-    /// zero, or the depth that of the lowest point of the profile, `tip` (m).
+    /// Returns the first cycle after `from` and up to `until` at which contact is made or lost: the normal force
+    /// crosses zero, or the depth passes the lowest point of the profile, `tip` (m).
     pub fn touching_point(&self, tip: f64, from: f64, until: f64) -> Option<f64> {
         let threshold = match self.normal {
             Control::Displacement(_) => tip,
@@ -111,16 +111,16 @@ impl Drive {
             .then(|| first_crossing(above, ratio, from, until))?
     }
 
-    /// g at the border of the permanent stick zone, m, where the motion of the springs is prescribed: a
-    /// spring that shakes down never slips again. ½{min(d + κu_x) + min(d − κu_x)}; 0 or less means
-    /// that everything slips in every cycle.
+    /// Returns g at the border of the permanent stick zone, m, if the motion of the springs is prescribed: a spring
+    /// that shakes down never slips again. ½{min(d + κu_x) + min(d − κu_x)}; 0 or less means that everything slips in
+    /// every cycle.
     ///
     /// E. Melan's theorem for springs with friction: J. R. Barber, A. Klarbring, M. Ciavarella (2008),
     /// Int. J. Solids Struct. 45, 4577–4596.
     pub fn shakedown_depth(&self, stick_ratio: f64) -> Option<f64> {
         let normal = self.depth_of_springs()?;
         let tangential = self.shift_of_springs()?;
-        // What a rig leaves to the contact depends on its force, which wear changes.
+        // The rig's share depends on its force, which wear changes.
         if self.has_rig() {
             return None;
         }
@@ -148,14 +148,14 @@ impl Drive {
     }
 }
 
-/// Whether a function with the value `middle` in the middle of a step may cross zero in it: most steps lie so far from
-/// every crossing that its steepest rate, per cycle, does not reach zero between the middle and an end.
+/// Whether a function with the value `middle` in the middle of a step may cross zero in it. In most steps it cannot, as
+/// its steepest rate, per cycle, is too small to reach zero between the middle and an end.
 fn may_cross(middle: f64, steepest: f64, from: f64, until: f64) -> bool {
     middle.abs() <= 1.001 * steepest * 0.5 * (until - from)
 }
 
-/// Where `function` first crosses zero after `from` and up to `until`, in cycles, of which one has `ratio` turns of
-/// the normal motion.
+/// Returns where `function` first crosses zero after `from` and up to `until`, in cycles with `ratio` turns of the
+/// normal motion each.
 fn first_crossing(function: impl Fn(f64) -> f64, ratio: f64, from: f64, until: f64) -> Option<f64> {
     let pieces = (PIECES_OF_A_CYCLE * ratio.max(1.0) * (until - from)).ceil();
     let pieces = pieces.max(4.0);
@@ -206,6 +206,7 @@ mod tests {
         assert_eq!(turns, 4);
     }
 
+    /// F_z = 1 + 2 sin and d = 1 + 2 sin lose contact where the sine is −1/2.
     #[test]
     fn contact_is_made_and_lost_where_nothing_presses() {
         let motion = Oscillation::new(1.0, 2.0, 5.0, 0.0).expect("a motion");

@@ -1,16 +1,16 @@
-//! Tries a step: the contact at its end, and what it wears by friction and wear that [run in](super::super::running_in)
-//! within it.
+//! Tries a step: solves the contact at its end, and computes the wear with friction and wear that [run
+//! in](super::super::running_in) during it.
 
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
-use super::super::contact;
+use super::super::contact::{Contact, Problem};
 use super::super::model::Model;
 use super::super::running_in::{RunningIn, Stretch};
 use super::super::state::State;
 use super::{Scratch, wear};
 
-/// Solves the contact at `cycle` on the profile in `scratch`, into `next`, and what the step there from `state` wears;
-/// returns how stiff it is. Leaves the `model` with the means of friction and wear over the step.
+/// Solves the contact at `cycle` on the profile in `scratch`, into `next`, and computes the wear of the step from
+/// `state`; returns its stiffness. Leaves the `model` with the mean friction and wear over the step.
 pub(super) fn attempt(
     model: &mut Model,
     state: &State,
@@ -21,26 +21,27 @@ pub(super) fn attempt(
     if let Some(running_in) = model.setup.running_in.clone() {
         run_in(&running_in, model, state, next, scratch, cycle)?;
     } else {
-        solve(model, state, next, scratch, cycle)?;
+        solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         wear(model, state, next, scratch, cycle);
     }
     let seconds = model.seconds(cycle - state.cycle);
     Ok(scratch.increment.stiffness(model, seconds))
 }
 
-fn solve(
+/// Solves the contact at `cycle` on the profile in `scratch`, from the one `before`.
+pub(super) fn solve(
     model: &Model,
-    state: &State,
-    next: &mut State,
+    before: &Contact,
+    next: &mut Contact,
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
+    let problem = Problem::on(model, &scratch.profile, before);
     let targets = model.setup.drive.targets(cycle);
-    problem.solve(targets, &mut next.contact, &mut scratch.increment.slip)
+    problem.solve(targets, next, &mut scratch.increment.slip)
 }
 
-/// The same step by the friction at its end, and by the means of friction and of k over it.
+/// Tries the step with the friction at its end, and with the means of friction and k over it.
 fn run_in(
     running_in: &RunningIn,
     model: &mut Model,
@@ -55,15 +56,15 @@ fn run_in(
         energy: [start; 2],
     };
     if running_in.friction_follows_work(start) && model.setup.scheme == Scheme::Trapezoid {
-        solve(model, state, next, scratch, cycle)?;
+        solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         let contacts = [&state.contact, &next.contact];
         scratch.increment.rub(model, contacts);
         stretch.energy[1] = start + scratch.increment.friction_work;
     }
     running_in.set_friction(stretch.end(), &mut model.setup.material);
-    solve(model, state, next, scratch, cycle)?;
+    solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
     running_in.set_friction(stretch, &mut model.setup.material);
-    // Wear is linear in k, and the work that tells the mean of k comes with it.
+    // Wear is linear in k, and computing it also gives the work that determines the mean of k.
     let given = model.setup.wear;
     model.setup.wear = given.map(|law| law.with_coefficient(1.0));
     wear(model, state, next, scratch, cycle);

@@ -1,4 +1,4 @@
-//! Explicit Euler, the paper's own.
+//! Explicit Euler, as in the paper.
 //!
 //! # Formula
 //!
@@ -6,7 +6,7 @@
 //! Eq. (2) → f by the wear law, Eq. (15).
 //!
 //! - **Order**: first in the step.
-//! - **Limit**: stable while μkE*s < 4h/π, s the slip of a step and h the cell's width.
+//! - **Limit**: stable while μkE*s < 4h/π, with s the slip of a step and h the cell width.
 
 use super::super::model::Model;
 use super::super::state::State;
@@ -14,13 +14,13 @@ use super::super::traction;
 use super::{Bounds, Scratch};
 use crate::math::scan::leading;
 
-/// At its limit of 2 an explicit step rings; up to half of it no error changes its sign.
+/// At its limit of 2 an explicit step oscillates; up to half of that no error changes sign.
 pub(super) const BOUNDS: Bounds = Bounds {
     stiff: 1.0,
     aim: 0.8,
 };
 
-/// What a step wears whose contact has been solved, into `scratch.increment`.
+/// Computes the wear of a step whose contact has been solved, into `scratch.increment`.
 pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scratch, cycle: f64) {
     let increment = &mut scratch.increment;
     if model.springs() == 0 {

@@ -17,7 +17,6 @@
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
-use super::contact;
 use super::drive::Control;
 use super::model::Model;
 use super::moments::Period;
@@ -33,6 +32,8 @@ use crate::math::vector::{vectorized, write_each};
 mod attempt;
 mod cycle_jump;
 mod euler;
+mod jump_step;
+mod response;
 mod steady_cycle;
 mod substep;
 mod trapezoid;
@@ -40,17 +41,17 @@ mod trapezoid;
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
 pub(super) use substep::step;
 
-/// What the phases of a step write into and nobody reads afterwards.
+/// Buffers of a step's phases, not read afterwards.
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
-    /// What the contact is solved on.
+    /// The profile under the contact.
     pub(super) profile: Profile,
     pub(super) increment: Increment,
-    /// Of the contact that a step begins with, where the state has too little of it.
+    /// Pressure of the contact at the start of a step, if the state has too little of it.
     pub(super) pressure: Pressure,
-    /// What the steps of steady-state cycles are.
+    /// The steps of steady-state cycles.
     period: Period,
-    /// Transforms computed since they were last counted.
+    /// Transforms computed since the last count.
     pub(super) transforms: u64,
 }
 
@@ -68,13 +69,13 @@ impl Scratch {
 
 /// How stiff the steps of a scheme may be.
 struct Bounds {
-    /// The stiffness beyond which a step is not taken as it is.
+    /// A stiffer step is not taken whole.
     stiff: f64,
-    /// That of its sub-steps.
+    /// Target stiffness of its sub-steps.
     aim: f64,
 }
 
-/// A worn depth of this many times the largest depth of indentation cannot come from contact.
+/// A worn depth this many times the largest depth of indentation cannot result from contact.
 const RUNAWAY: f64 = 10.0;
 
 /// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
@@ -83,9 +84,7 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     let even = even_end(model, &state.contact.load);
     (scratch.profile).find(model, [&state.wear, &state.image], even);
     let mut solved = state.contact.clone();
-    let problem = contact::Problem::on(model, &scratch.profile, &state.contact);
-    let targets = model.setup.drive.targets(state.cycle);
-    problem.solve(targets, &mut solved, &mut scratch.increment.slip)?;
+    attempt::solve(model, &state.contact, &mut solved, scratch, state.cycle)?;
     state.contact = solved;
     state.last.duration = 0.0;
     state.last.stiffness = 0.0;
@@ -97,7 +96,7 @@ pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) ->
     Ok(())
 }
 
-/// What a step wears whose contact has been solved, into `scratch.increment`.
+/// Computes the wear of a step whose contact has been solved, into `scratch.increment`.
 fn wear(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch, cycle: f64) {
     match model.setup.scheme {
         Scheme::Euler => euler::wear(model, state, next, scratch, cycle),
@@ -105,7 +104,7 @@ fn wear(model: &Model, state: &State, next: &mut State, scratch: &mut Scratch, c
     }
 }
 
-/// Makes `next`, whose contact and pressure are solved, the state after `state`: adds what the step has worn.
+/// Completes `next`, whose contact and pressure are solved, as the state after `state`: adds the wear of the step.
 fn accept(
     model: &Model,
     state: &State,
@@ -130,7 +129,7 @@ fn accept(
             next.ledger.unexplained_volume +=
                 scar_volume(model, &next.wear, even) - scar_volume(model, &state.wear, even);
         }
-        // Eq. (1) is linear: only the growth is transformed.
+        // Eq. (1) is linear, so only the growth is transformed.
         model.plan.image(&increment.depth, &mut next.last.growth);
         write_each(
             &mut next.image,
@@ -155,7 +154,7 @@ fn accept(
     Ok(())
 }
 
-/// The largest of the worn depths; `None` if one is not finite.
+/// Returns the largest worn depth; `None` if one is not finite.
 fn deepest(wear: &[f64]) -> Option<f64> {
     vectorized(
         #[inline(always)]
@@ -172,8 +171,8 @@ fn refuse(model: &Model, depth: f64, wear: &[f64], radii: &[f64]) -> Result<(), 
     let setup = &model.setup;
     let depth = match setup.geometry {
         Geometry::Round => setup.depth_scale(depth.max(least_depth(setup))),
-        // A strip that slides as a whole wears on whatever its springs carry, until the flanks of the indenter
-        // touch; where there are none, as far as it is a half-plane.
+        // A strip in gross slip wears on whatever its springs carry, until the flanks of the indenter touch; without
+        // flanks, as far as it acts as a half-plane.
         Geometry::Line { .. } => match setup.indenter.rim() {
             None => model.unworn[model.nodes() - 1].max(depth),
             Some(rim) => rim,
@@ -198,8 +197,8 @@ fn refuse(model: &Model, depth: f64, wear: &[f64], radii: &[f64]) -> Result<(), 
     Ok(())
 }
 
-/// What the largest force of the motion presses any contact on the domain by at least, m, where the force is
-/// prescribed: where contact is lost, the present depth says nothing of what can touch.
+/// Returns a lower bound, m, on the depth at the largest prescribed force of the motion, for any contact on the domain:
+/// when contact is lost, the present depth says nothing about what can touch.
 fn least_depth(setup: &Setup) -> f64 {
     match setup.drive.normal() {
         Control::Displacement(_) => 0.0,
@@ -215,7 +214,7 @@ fn follow_stick(model: &Model, state: &mut State, cycle: f64) {
         return;
     };
     state.ledger.smallest_stick_radius = state.ledger.smallest_stick_radius.min(stick);
-    // A period is a whole number of cycles.
+    // Periods are whole numbers of cycles.
     if cycle.floor() == state.cycle.floor() {
         return;
     }

@@ -18,7 +18,7 @@
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
 use super::super::contact::{self, Contact};
-use super::super::drive::{SpringMotion, Targets};
+use super::super::drive::{Control, SpringMotion, Targets};
 use super::super::model::Model;
 use super::super::moments::Touch;
 use super::super::profile::even_end;
@@ -28,11 +28,14 @@ use super::{Scratch, wear};
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
 use crate::math::abel::kink;
-use crate::math::scan::{largest, leading};
+use crate::math::scan::leading;
 use crate::math::vector::add_to;
 
-/// A motion has turned where it has come no further since than this part of its amplitude.
+/// A motion has just turned if it has moved by less than this fraction of its amplitude since.
 const AT_TURN: f64 = 1e-9;
+
+/// A spring nearly touches whose gap is less than this, in depths of the motion.
+const NEARLY: f64 = 0.03;
 
 /// What a cycle does once the springs have shaken down on the depth `worn` (m) with its 1D image (m), on average
 /// over the period of the motion. `memory` lends the springs and keeps them; its profile, its sums and its cycle are left as
@@ -56,7 +59,7 @@ pub(super) fn cycle(
     outcome
 }
 
-/// What looking at a steady-state period costs, in periods stepped directly.
+/// Returns the cost of evaluating a steady-state period, in periods stepped directly.
 pub(super) fn cost(setup: &Setup) -> f64 {
     if plain_swing(setup).is_some() {
         2.0 / setup.steps_in_a_cycle()
@@ -65,7 +68,14 @@ pub(super) fn cost(setup: &Setup) -> f64 {
     }
 }
 
-/// Solves the contact that is asked for on the profile in `scratch`, into `spare`.
+/// Whether cycles wear at a constant rate for ever: all of the contact slips under a held force, without a normal motion.
+/// Implicit jumps would wear less at its edge than friction works.
+pub(super) fn is_even(setup: &Setup, steady: &SteadyCycle) -> bool {
+    let is_held = matches!(setup.drive.normal(), Control::Force(_));
+    is_held && steady.stick_radius == 0.0 && plain_swing(setup).is_some()
+}
+
+/// Solves the contact of the targets on the profile in `scratch`, into `spare`.
 fn solve(
     model: &Model,
     memory: &State,
@@ -77,7 +87,7 @@ fn solve(
     problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
 }
 
-/// Makes the contact in `spare` that of `memory`, at `cycle`.
+/// Moves the contact from `spare` to `memory`, at `cycle`.
 fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
     std::mem::swap(&mut memory.contact, &mut spare.contact);
     memory.cycle = cycle;
@@ -102,11 +112,12 @@ fn period(
     memory.cycle = 0.0;
     let mut steady = SteadyCycle {
         wear: vec![0.0; model.nodes()],
+        stiffness: vec![0.0; model.nodes()],
         stick_radius: f64::INFINITY,
         ..SteadyCycle::default()
     };
-    let mut stiffness = vec![0.0; model.nodes()];
     let modulus = model.setup.material.normal_modulus();
+    let mut deepest = f64::NEG_INFINITY;
     for &(moment, targets) in moments.iter() {
         solve(model, memory, spare, scratch, targets)?;
         wear(model, memory, spare, scratch, moment);
@@ -115,11 +126,12 @@ fn period(
         increment.stiffness(model, model.seconds(moment - memory.cycle));
         let nodes = increment.nodes.clone();
         let summands = &increment.stiffness[nodes.clone()];
-        add_to(&mut stiffness[nodes.clone()], summands);
+        add_to(&mut steady.stiffness[nodes.clone()], summands);
         add_to(&mut steady.wear[nodes.clone()], &increment.depth[nodes]);
         if let Some(stick) = spare.contact.stick_radius {
             steady.stick_radius = steady.stick_radius.min(stick);
         }
+        deepest = deepest.max(spare.contact.depth);
         let compression = spare.contact.normal.strongest / modulus;
         steady.elastic_depth = steady.elastic_depth.max(compression);
         take_over(memory, spare, moment);
@@ -127,15 +139,15 @@ fn period(
         memory.stats.transforms += std::mem::take(&mut scratch.transforms);
     }
     memory.stats.evaluated_cycles += cycles as u64;
-    for worn in &mut steady.wear {
-        *worn /= cycles;
+    for sum in steady.wear.iter_mut().chain(&mut steady.stiffness) {
+        *sum /= cycles;
     }
     steady.friction_work /= cycles;
-    steady.stiffness = largest(&stiffness) / cycles;
+    steady.touching = nearly_touching(model, &scratch.profile.g, deepest);
     Ok(steady)
 }
 
-/// The tangential motion, where a cycle needs no steps.
+/// Returns the tangential motion, if a cycle needs no steps.
 fn plain_swing(setup: &Setup) -> Option<SpringMotion<'_>> {
     let swing = setup.drive.shift_of_springs()?;
     let is_plain = setup.drive.normal().oscillation().amplitude() == 0.0
@@ -146,7 +158,7 @@ fn plain_swing(setup: &Setup) -> Option<SpringMotion<'_>> {
     is_plain.then_some(swing)
 }
 
-/// A steady-state cycle of ±U at a depth that is held.
+/// Computes a steady-state cycle of ±U at a held depth.
 fn plain_cycle(
     model: &Model,
     memory: &mut State,
@@ -193,13 +205,29 @@ fn plain_cycle(
     memory.stats.transforms += 2;
     increment.slip.copy_from_slice(&slip.nodal);
     increment.wear_by_load(model, contact, &memory.pressure.nodal, stuck);
+    increment.stiffness(model, 1.0);
+    let mut stiffness = vec![0.0; model.nodes()];
+    let nodes = increment.nodes.clone();
+    for (z, once) in stiffness[nodes.clone()]
+        .iter_mut()
+        .zip(&increment.stiffness[nodes])
+    {
+        *z = 2.0 * once;
+    }
     Ok(SteadyCycle {
         wear: increment.depth.iter().map(|worn| 2.0 * worn).collect(),
         friction_work: 2.0 * increment.friction_work,
         elastic_depth: memory.contact.normal.strongest / material.normal_modulus(),
-        stiffness: 2.0 * increment.stiffness(model, 1.0),
+        stiffness,
+        touching: nearly_touching(model, &scratch.profile.g, memory.contact.depth),
         stick_radius,
     })
+}
+
+/// How many springs on the profile `g` (m) touch, or nearly do, at the largest `depth` (m).
+fn nearly_touching(model: &Model, g: &[f64], depth: f64) -> usize {
+    let reach = depth + NEARLY * model.setup.depth_scale(depth);
+    g.iter().rposition(|&g| g < reach).map_or(0, |j| j + 1)
 }
 
 /// Brings indenter and springs back to where a steady-state cycle turned last before its end: the springs that slip in
@@ -213,7 +241,7 @@ fn turn_back(model: &Model, contact: &mut Contact, swing: SpringMotion<'_>) {
     let (reach, amplitude) = (setup.material.reach(), swing.amplitude());
     let rises = if swing.rises_at_start() { 1.0 } else { -1.0 };
     let since = amplitude + rises * (swing.after_turns(0.0) - swing.mean());
-    // A cycle that ends at a turn ends a whole stroke.
+    // A cycle that ends at a turn ends a complete stroke.
     let (sign, since) = match since <= AT_TURN * amplitude {
         true => (-rises, 2.0 * amplitude),
         false => (rises, since),

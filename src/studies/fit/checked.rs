@@ -1,4 +1,4 @@
-//! What is compared with the scenario before a fit: strokes, depths, and which way up a profile is.
+//! Compares data with the scenario before a fit: strokes, depths, and which way up a profile is.
 
 use anyhow::{Result, bail};
 
@@ -9,19 +9,19 @@ use crate::simulation::drive::Control;
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
-/// The key of the stroke.
+/// Key of the stroke.
 const STROKE: &str = "motion.tangential.amplitude";
 
-/// Strokes may differ by this part.
+/// Allowed relative difference of strokes.
 const OTHER_STROKE: f64 = 0.05;
 
-/// Depths may differ from those of the scenario by this factor before their unit is in doubt.
+/// Ratio of depths in data and scenario beyond which their unit is in doubt.
 const OTHER_UNIT: f64 = 100.0;
 
-/// The scenario with the stroke of the loops, if it `takes` that; else loops of another stroke are refused.
+/// Returns the scenario with the stroke of the loops, if it `takes` that; otherwise refuses loops of another stroke.
 ///
 /// # Errors
-/// Loops whose strokes differ from that of the scenario, or from each other.
+/// If the strokes of loops differ from the scenario's, or from each other.
 pub(super) fn with_stroke(
     scenario: Scenario,
     data: &[Measured],
@@ -73,10 +73,10 @@ pub(super) fn with_stroke(
             format!("its amplitude is {other:.3e} m, that of the loop before it {first:.3e} m")
         ));
     }
-    Ok(scenario.with(STROKE, &format!("{first:e}"))?)
+    Ok(scenario.with_numbers([(STROKE, first)])?)
 }
 
-/// Refuses depths that can be in no unit but another one.
+/// Refuses depths that can only be in another unit.
 ///
 /// # Errors
 /// A line that names both.
@@ -84,7 +84,7 @@ pub(super) fn check_depths(set: &Measured, scenario: &Scenario) -> Result<()> {
     let span = range(set.values.iter().copied()).map_or(0.0, |[least, most]| most - least);
     let reach = largest(&set.at.iter().map(|r| r.abs()).collect::<Vec<_>>());
     let unworn = scenario.setup().indenter.profile(reach);
-    // A scar is not deeper than the shape is high where it ends, but for a punch.
+    // A scar is not deeper than the height of the shape at its end, except for a punch.
     if unworn > 0.0 && span > OTHER_UNIT * unworn {
         bail!(Refusal::new(
             &set.name,
@@ -97,7 +97,7 @@ pub(super) fn check_depths(set: &Measured, scenario: &Scenario) -> Result<()> {
     Ok(())
 }
 
-/// Decides whether heights are those of the worn shape, of that upside down, or of the wear of a flat body.
+/// Decides whether heights describe the worn shape, the worn shape upside down, or the wear of a flat body.
 pub(super) fn decide_profile(set: &mut Measured, unworn: &Indenter) {
     if set.axes != Axes::PROFILE {
         return;
@@ -112,7 +112,7 @@ pub(super) fn decide_profile(set: &mut Measured, unworn: &Indenter) {
         .iter()
         .map(|x| unworn.profile((x - centre).abs()))
         .collect();
-    // The variance that is left when the shape is taken off with a sign.
+    // The variance that remains when the shape is subtracted with a sign.
     let scatter = |sign: f64| {
         let left: Vec<f64> = set
             .values

@@ -1,5 +1,5 @@
-//! What the data say of the keys at the minimum: standard errors, correlations, and how many points each
-//! data set spends on the keys.
+//! Errors of the keys at the minimum: standard errors, correlations,
+//! and how many points each data set spends on the keys.
 //!
 //! # Formula
 //!
@@ -26,25 +26,23 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use crate::math::scan::largest;
+/// A key that moves the deviations by less than this per e-fold moves them by rounding alone.
+const NO_INFLUENCE: f64 = 1e-6;
 
-/// Influence below this, relative to that of the most influential key, is rounding.
-const NO_INFLUENCE: f64 = 1e-9;
-
-/// What a minimum tells.
+/// Error analysis at a minimum.
 #[derive(Debug)]
 pub(super) struct Errors {
-    /// The covariance of the keys; 0 where the data do not determine one.
+    /// Covariance of the keys; 0 for a key that the data do not determine.
     pub covariance: DMatrix<f64>,
-    /// h of every point: the share of it that the keys follow.
+    /// h of every point: how far the keys follow it.
     pub leverages: Vec<f64>,
-    /// Φ Jᵀ: how far a key moves for a change of z; 0 where the data do not determine one.
+    /// Φ Jᵀ: the motion of a key for a change of z; 0 for a key that the data do not determine.
     gain: DMatrix<f64>,
 }
 
 impl Errors {
-    /// From z at the minimum, its derivatives by each key, none for a key that is held, and the points of each
-    /// data set whose σ is estimated.
+    /// Computes the errors from z at the minimum, its derivatives by each key, `None` for a held key, and the points of
+    /// each data set whose σ is estimated.
     pub fn new(
         z: &[f64],
         derivatives: &[Option<Vec<f64>>],
@@ -56,8 +54,7 @@ impl Errors {
         let norms = derivatives.iter();
         let norms = norms.map(|column| column.as_ref().map_or(0.0, norm));
         let norms: Vec<f64> = norms.collect();
-        let least = NO_INFLUENCE * largest(&norms);
-        let seen: Vec<usize> = (0..keys).filter(|&i| norms[i] > least).collect();
+        let seen: Vec<usize> = (0..keys).filter(|&i| norms[i] > NO_INFLUENCE).collect();
         // Columns of length 1: keys may differ by many powers of ten.
         let jacobian = DMatrix::from_fn(z.len(), seen.len(), |row, i| {
             let column = derivatives[seen[i]].as_deref().unwrap_or_default();
@@ -98,6 +95,11 @@ impl Errors {
         errors
     }
 
+    /// The standard error of a key; 0 where the data do not determine it.
+    pub fn of(&self, key: usize) -> f64 {
+        self.covariance[(key, key)].sqrt()
+    }
+
     /// How far the minimum moves where z changes by `dz`.
     pub fn newton_step(&self, dz: &[f64]) -> Vec<f64> {
         let dot = |row: usize| {
@@ -112,13 +114,13 @@ impl Errors {
     }
 }
 
-/// ν of a data set of `points` that has `spent` Σh on the keys; at least 1, since a set that the keys fit at every
-/// point says nothing about its error.
+/// Returns ν of a data set of `points` that has `spent` Σh on the keys; at least 1, since a set that the keys fit at
+/// every point says nothing about its error.
 pub(super) fn freedom(points: usize, spent: f64) -> f64 {
     (points as f64 - spent).max(1.0)
 }
 
-/// s², the variance of z that its size at the minimum of `keys` tells.
+/// Returns s², the variance of z estimated from its size at the minimum of `keys`.
 fn variance(z: &[f64], keys: usize, robust: bool) -> f64 {
     let freedom = (z.len() - keys.min(z.len() - 1)) as f64;
     if !robust {
@@ -139,7 +141,7 @@ mod tests {
     fn a_straight_line_has_the_errors_of_the_textbook() {
         let z = [0.1, -0.2, 0.2, -0.2, 0.1];
         let x: Vec<f64> = (1..=5).map(f64::from).collect();
-        // One set has nothing to be weighed against.
+        // A single set has no weight relative to others.
         let set = 0..5;
         let estimated = std::slice::from_ref(&set);
         let errors = Errors::new(&z, &[Some(vec![1.0; 5]), Some(x.clone())], estimated, false);
@@ -152,7 +154,7 @@ mod tests {
             close(*h, 0.2 + (x - 3.0).powi(2) / 10.0);
         }
         close(errors.leverages.iter().sum(), 2.0);
-        // z + 3 + 2x has its minimum 3 and 2 lower.
+        // z + 3 + 2x has a minimum that is lower by 3 and 2.
         let dz: Vec<f64> = (1..=5).map(|x| 3.0 + 2.0 * f64::from(x)).collect();
         let step = errors.newton_step(&dz);
         close(step[0], -3.0);

@@ -17,8 +17,7 @@
 //!
 //! # Search
 //!
-//! On a coarse level from the start values, and from a grid of starts a factor of 100 around them unless what that
-//! leaves is noise; then on the points and steps that the minimum needs, which the start values may not tell.
+//! On a coarse level from the best of a grid of starts, a factor of 100 around the given ones; then on finer [`levels`].
 //!
 //! The minimum is sought by `rmpfit`, MINPACK's Levenberg–Marquardt with bounds and derivatives by
 //! differences; it depends on nothing else. (`levenberg-marquardt` brings a second nalgebra and wants
@@ -28,43 +27,30 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow, ensure};
 
-use crate::scenario::session::{Session, SessionError};
+use crate::reading::Column;
+use crate::scenario::session::SessionError;
 use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
 use crate::studies::measured::{Measured, check_radii};
-use crate::studies::refinement::{self, Budget, Level};
 use crate::traces::Axes;
-use nuisance::Nuisances;
 use search::{Found, Search};
 use solver::Free;
 
 mod checked;
 mod errors;
+mod hypotheses;
+mod levels;
 mod model;
 mod nuisance;
 mod profile;
 mod report;
 mod search;
 mod solver;
+mod starts;
 mod structure;
 
 pub use nuisance::NAMES;
 pub use report::{Fitted, Nuisance, SetResult, Value};
 pub use structure::Structure;
-
-/// Cells and steps of the search, where the scenario asks for an accuracy and not for them.
-const COARSE: (usize, u32) = (40, 16);
-
-/// The tolerance of jumps on that level, in units of the depth.
-const COARSE_JUMPS: f64 = 3e-3;
-
-/// The numerics are resolved again where a key has moved by more than this in a logarithm, or of its value.
-const MOVED: f64 = 0.2;
-
-/// How much finer the run is that tells the numerical error; neither a multiple nor a divisor of the steps.
-const FINER: f64 = 1.5;
-
-/// A run that is [`FINER`] shows this part of the error, if it falls with the first to second power of the steps.
-const SHOWN: f64 = 0.45;
 
 /// Whether a nuisance is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -81,15 +67,15 @@ pub enum Switch {
 /// How to fit.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// The cycles of each run; default: `run.cycles`, or the last cycle of the histories.
+    /// Number of cycles of each run; default: `run.cycles`, or the last cycle of the histories.
     pub cycles: Option<f64>,
     /// Whether outliers count less.
     pub robust: bool,
     /// Whether level, shift and tilt are fitted.
     pub nuisances: [Switch; 3],
-    /// Whether the stroke of the scenario is that of the loops.
+    /// Whether the scenario takes its stroke from the loops.
     pub takes_stroke: bool,
-    /// After how many seconds the search ends with the best that it has.
+    /// Seconds after which the search ends with the best result so far.
     pub budget: Option<f64>,
 }
 
@@ -171,79 +157,37 @@ impl Fit {
             .map(|budget| Instant::now() + Duration::from_secs_f64(budget));
         let in_time = || deadline.is_none_or(|deadline| Instant::now() < deadline);
         let start: Vec<f64> = self.free.iter().map(|free| free.start).collect();
-        let coarse = match self.scenario.accuracy() {
-            None => self.scenario.clone(),
-            Some(_) => self.coarse()?,
-        };
-        let search = |scenario, nuisances| Search::new(self, scenario, nuisances, on_run, &in_time);
-        let mut best: Option<(Search, Found)> = None;
-        let mut failure = anyhow!("no minimum was found");
+        let scenario = levels::of_search(&self.scenario)?;
+        let first = Search::new(self, scenario, on_run, &in_time);
+        let mut search = first.clone();
+        let mut best: Result<(Search, Found)> = Err(anyhow!("no minimum was found"));
         for nuisances in self.hypotheses() {
             // Another reading of a trace is tried where the plain one leaves more than noise.
             if best
                 .as_ref()
-                .is_some_and(|(search, found): &(Search, Found)| search.is_noise(found))
+                .is_ok_and(|(search, found)| search.is_noise(found))
             {
                 break;
             }
-            let mut coarse = search(coarse.clone(), nuisances);
-            coarse.is_coarse = self.scenario.accuracy().is_some();
-            match coarse.locate(&start) {
-                Ok(found)
-                    if best
-                        .as_ref()
-                        .is_none_or(|(_, best)| found.objective < best.objective) =>
-                {
-                    best = Some((coarse, found));
-                }
-                Ok(_) => {}
-                Err(why) => failure = why,
+            search.nuisances = nuisances;
+            search.errors.clone_from(&first.errors);
+            let found = search.locate(&start);
+            let is_better = |found: &Found| {
+                let best = best.as_ref();
+                !best.is_ok_and(|(_, best)| best.objective <= found.objective)
+            };
+            if best.is_err() || found.as_ref().is_ok_and(is_better) {
+                best = found.map(|found| (search.clone(), found));
             }
         }
-        let Some((mut located, mut found)) = best else {
-            return Err(failure);
-        };
-        if located.drop_vague(&found) {
-            found = located.descend(&found.theta, 2)?;
+        let (mut search, mut found) = best?;
+        if search.drop_vague(&found) {
+            found = search.descend(&found.theta)?;
         }
-        let (mut at, mut warning) = (found.theta.clone(), None);
-        let mut fine = located.clone();
-        fine.is_coarse = false;
-        if self.scenario.accuracy().is_some() {
-            for _ in 0..2 {
-                let resolved = refinement::resolve(
-                    &self.at(&self.scenario, &at)?,
-                    Some(self.cycles),
-                    Budget::UNLIMITED,
-                    &in_time,
-                );
-                let resolved = match resolved {
-                    Err(SessionError::Interrupted) => break,
-                    resolved => resolved?,
-                };
-                warning = resolved.warning;
-                fine.scenario = resolved.scenario;
-                fine.forget();
-                found = fine.descend(&at, 2)?;
-                let moved = found.theta.iter().zip(&at).zip(&self.free);
-                let is_near = |((new, old), free): ((&f64, &f64), &Free)| {
-                    (new - old).abs() < MOVED * free.vague_at(*old)
-                };
-                let mut moved = moved;
-                let is_settled = moved.all(is_near);
-                at.clone_from(&found.theta);
-                if is_settled {
-                    break;
-                }
-            }
-        }
-        let scenario = self.at(&fine.scenario, &found.theta)?;
-        let mut fitted = Fitted::new(&fine, &found, fine.uncertainty(&found), scenario);
-        fitted.remarks.extend(warning);
-        self.add_numerical_errors(&fine, &found, &mut fitted);
-        located.nuisances.clone_from(&fine.nuisances);
-        located.errors.clone_from(&fine.errors);
-        profile::add_intervals(&located, &found, &mut fitted);
+        let errors = levels::refine(&mut search, &mut found)?;
+        let scenario = self.at(&self.scenario, &found.theta)?;
+        let mut fitted = Fitted::new(&search, &found, &errors, scenario);
+        profile::add_intervals(&search, &found, &mut fitted);
         if !in_time() {
             let budget = self.options.budget.unwrap_or_default();
             fitted.remarks.push(format!(
@@ -253,105 +197,11 @@ impl Fit {
         Ok(fitted)
     }
 
-    /// The scenario on the level of the search.
-    fn coarse(&self) -> Result<Scenario> {
-        let (points, steps) = COARSE;
-        let tolerance = Level::of(&self.scenario).tolerance.map(|_| COARSE_JUMPS);
-        Ok(Level::new(points, steps, tolerance).of_scenario(&self.scenario)?)
-    }
-
     /// `scenario` with these values of the keys.
     fn at(&self, scenario: &Scenario, theta: &[f64]) -> Result<Scenario, SessionError> {
         let keys = self.free.iter().zip(theta);
-        let values = keys.map(|(free, theta)| (&free.key, format!("{:e}", free.value(*theta))));
-        Ok(scenario.with_all(&values.collect::<Vec<_>>())?)
-    }
-
-    /// What may be fitted beside the keys. A trace on one side of its zero may begin at the axis or run through it.
-    fn hypotheses(&self) -> Vec<Vec<Nuisances>> {
-        let wanted = |k: usize, by_default: bool| match self.options.nuisances[k] {
-            Switch::Auto => by_default,
-            switch => switch == Switch::On,
-        };
-        let mut all = vec![Vec::new()];
-        for set in &self.data {
-            let (is_scar, is_loop) = (set.axes.over_r(), set.axes == Axes::LOOP);
-            let is_whole = set.is_two_sided();
-            let one = |is_whole: bool| Nuisances {
-                active: [
-                    wanted(0, is_scar || is_loop),
-                    wanted(1, is_whole || is_loop) && !(is_scar && set.is_averaged),
-                    wanted(2, is_whole) && is_scar,
-                ],
-                start: [0.0, if is_whole { set.centre() } else { 0.0 }, 0.0],
-            };
-            let mut ways = vec![one(is_whole)];
-            if is_scar && is_whole {
-                // Noise may hide where the middle is.
-                let [level, _, tilt] = ways[0].start;
-                ways.push(Nuisances {
-                    start: [level, 0.0, tilt],
-                    ..ways[0]
-                });
-            }
-            if is_scar && !is_whole && !set.is_averaged && self.options.nuisances[1] == Switch::Auto
-            {
-                ways.push(one(true));
-            }
-            let extended = |before: &Vec<Nuisances>| {
-                let ways = ways
-                    .iter()
-                    .map(|way| before.iter().copied().chain([*way]).collect());
-                ways.collect::<Vec<Vec<Nuisances>>>()
-            };
-            // Repeats are traces of one kind: beyond a few files, all are as they seem.
-            all = match all.len() {
-                0..=2 => all.iter().flat_map(extended).collect(),
-                _ => all
-                    .iter()
-                    .map(|before| before.iter().copied().chain([ways[0]]).collect())
-                    .collect(),
-            };
-        }
-        all
-    }
-
-    /// How much the keys would move on a finer level.
-    fn add_numerical_errors(&self, fine: &Search, found: &Found, fitted: &mut Fitted) {
-        let finer = Level::of(&fine.scenario).scaled(FINER, FINER);
-        let Ok(scenario) = finer.of_scenario(&fine.scenario) else {
-            return;
-        };
-        let mut finer = fine.clone();
-        finer.scenario = scenario;
-        finer.forget();
-        let Some(moved) = finer.deviations_at(&found.theta, &found.nuisances) else {
-            return;
-        };
-        let dz: Vec<f64> = moved
-            .iter()
-            .zip(&found.z)
-            .map(|(new, old)| new - old)
-            .collect();
-        for ((value, free), (theta, step)) in fitted
-            .values
-            .iter_mut()
-            .zip(&self.free)
-            .zip(found.theta.iter().zip(fitted.errors.newton_step(&dz)))
-        {
-            value.numerical_error = value.stderr.map(|_| free.error(*theta, step.abs() / SHOWN));
-            // Whoever has chosen cells and steps has chosen their error.
-            let is_chosen = self.scenario.accuracy().is_none();
-            if let (Some(numerical), Some(stderr)) = (value.numerical_error, value.stderr)
-                && numerical > stderr
-                && !is_chosen
-            {
-                fitted.remarks.push(format!(
-                    "{}: the numerical error exceeds the statistical one; a smaller numerics.accuracy lowers it",
-                    value.key
-                ));
-            }
-        }
+        let values = keys.map(|(free, theta)| (free.key.as_str(), free.value(*theta)));
+        Ok(scenario.with_numbers(values)?)
     }
 }
 
@@ -359,16 +209,14 @@ impl Fit {
 fn cycles(scenario: &Scenario, data: &[Measured], given: Option<f64>) -> Result<f64> {
     let planned = given.or(scenario.run().cycles).unwrap_or(0.0);
     let mut last = 0.0f64;
-    let over =
-        |set: &&Measured| set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != "energy_J";
-    if data.iter().any(|set| over(&set)) {
-        let session = Session::start(scenario.clone())?;
-        for set in data.iter().filter(over) {
-            let per_cycle = model::per_cycle(session.simulation(), set.axes.x);
-            let rule = "a sliding distance needs a prescribed displacement; give cycles instead";
-            ensure!(per_cycle.is_finite(), Refusal::new(&set.name, rule));
-            last = set.at.iter().map(|at| at / per_cycle).fold(last, f64::max);
-        }
+    let over = |set: &&Measured| {
+        set.axes != Axes::LOOP && !set.axes.over_r() && set.axes.x != Column::Energy
+    };
+    for set in data.iter().filter(over) {
+        let per_cycle = model::per_cycle(&scenario.setup().drive, set.axes.x);
+        let rule = "a sliding distance needs a prescribed displacement; give cycles instead";
+        ensure!(per_cycle.is_finite(), Refusal::new(&set.name, rule));
+        last = set.at.iter().map(|at| at / per_cycle).fold(last, f64::max);
     }
     let cycles = planned.max(last);
     let most = format!("a run has at most {MOST_CYCLES:e} cycles");

@@ -3,15 +3,24 @@
 use crate::contact::indenter::Indenter;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::{largest, value_at};
+use crate::reading::Column;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
+use crate::simulation::drive::Drive;
 use crate::studies::measured::{Measured, Strokes};
 use crate::traces::Axes;
 
-/// What a run says of one data set, wherever its points lie.
+/// Prediction of a run for one data set, at arbitrary points.
 #[derive(Debug, Clone)]
-pub(super) enum Response {
+pub(super) struct Response {
+    course: Course,
+    /// What a finer run adds at each point.
+    pub correction: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+enum Course {
     /// What has worn at the nodes, m, and the unworn shape where the profile was measured.
     Scar(RadialGrid, Vec<f64>, Option<Indenter>),
     /// One finely stepped cycle.
@@ -21,13 +30,13 @@ pub(super) enum Response {
 }
 
 impl Response {
-    /// The simulated values of a data set whose abscissae are off by `shift` and whose values by `level` and by `tilt`
-    /// per unit of its abscissa.
+    /// Returns the simulated values of a data set whose abscissae are off by `shift`, and whose values by `level` and
+    /// by `tilt` per unit of the abscissa.
     pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
-        let plain = |i: usize, x: f64| match self {
-            Self::Scar(grid, worn, unworn) => {
+        let plain = |i: usize, x: f64| match &self.course {
+            Course::Scar(grid, worn, unworn) => {
                 let r = (x - shift).abs();
-                // Nothing wears outside of the grid.
+                // Nothing wears outside the grid.
                 let depth = if r <= grid.radius() {
                     grid.interpolate(worn, r)
                 } else {
@@ -35,18 +44,18 @@ impl Response {
                 };
                 unworn.as_ref().map_or(0.0, |unworn| unworn.profile(r)) + depth
             }
-            Self::Loop(strokes) => strokes.force(x - shift, set.rising[i]),
-            Self::History(values) => values[i],
+            Course::Loop(strokes) => strokes.force(x - shift, set.rising[i]),
+            Course::History(values) => values[i],
         };
         let points = set.at.iter().enumerate();
         points
-            .map(|(i, &x)| plain(i, x) + level + tilt * x)
+            .map(|(i, &x)| plain(i, x) + self.correction[i] + level + tilt * x)
             .collect()
     }
 
-    /// The share of the points of a scar that lie where nothing has worn.
+    /// Returns the share of a scar's points where nothing has worn.
     pub fn unworn_share(&self, set: &Measured, shift: f64) -> f64 {
-        let Self::Scar(grid, worn, _) = self else {
+        let Course::Scar(grid, worn, _) = &self.course else {
             return 0.0;
         };
         let least = 0.01 * largest(worn);
@@ -70,23 +79,23 @@ pub(super) fn simulate(
 ) -> Result<(Vec<Response>, u64), SessionError> {
     let mut session = Session::start(scenario.clone())?;
     let start = session.simulation().moment().depth;
-    let mut responses: Vec<Response> = Vec::new();
+    let mut responses: Vec<Course> = Vec::new();
     // Where the run must stop, and for which points.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
         let stops = match set.axes {
             Axes::LOOP => vec![set.cycle.unwrap_or(cycles)],
-            axes if axes.over_r() || axes.x == "energy_J" => vec![cycles],
+            axes if axes.over_r() || axes.x == Column::Energy => vec![cycles],
             axes => {
-                let per_cycle = per_cycle(session.simulation(), axes.x);
+                let per_cycle = per_cycle(&session.simulation().setup().drive, axes.x);
                 set.at.iter().map(|at| at / per_cycle).collect()
             }
         };
         moments.extend(stops.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
-        responses.push(Response::History(vec![0.0; set.at.len()]));
+        responses.push(Course::History(vec![0.0; set.at.len()]));
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let is_over_energy = data.iter().any(|set| set.axes.x == "energy_J");
+    let is_over_energy = data.iter().any(|set| set.axes.x == Column::Energy);
     // E_d and what has worn by then: V, depth, approach.
     let mut course: Vec<[f64; 4]> = Vec::new();
     for (cycle, i, j) in moments {
@@ -102,15 +111,15 @@ pub(super) fn simulate(
         match (&mut responses[i], set.axes) {
             (response, Axes::LOOP) => {
                 let strokes = Strokes::new(&last_period(simulation));
-                *response = strokes.map_or_else(|| response.clone(), Response::Loop);
+                *response = strokes.map_or_else(|| response.clone(), Course::Loop);
             }
             (response, axes) if axes.over_r() => {
                 let setup = simulation.setup();
                 let unworn = (axes == Axes::PROFILE).then(|| setup.indenter.clone());
                 *response =
-                    Response::Scar(setup.grid.clone(), simulation.worn_depth().to_vec(), unworn);
+                    Course::Scar(setup.grid.clone(), simulation.worn_depth().to_vec(), unworn);
             }
-            (Response::History(values), axes) if axes.x == "energy_J" => {
+            (Course::History(values), axes) if axes.x == Column::Energy => {
                 let column = |k: usize| course.iter().map(|row| row[k]).collect::<Vec<f64>>();
                 let (energies, worn) = (column(0), column(1 + quantity(axes)));
                 let found = set
@@ -119,29 +128,31 @@ pub(super) fn simulate(
                     .map(|&energy| value_at(&energies, &worn, energy));
                 *values = found.map(|value| value.unwrap_or(f64::NAN)).collect();
             }
-            (Response::History(values), axes) => {
-                values[j] = worn(simulation, start)[quantity(axes)]
-            }
+            (Course::History(values), axes) => values[j] = worn(simulation, start)[quantity(axes)],
             _ => {}
         }
     }
-    Ok((responses, session.simulation().steps()))
+    let responses = responses.into_iter().zip(data);
+    let responses = responses.map(|(course, set)| Response {
+        course,
+        correction: vec![0.0; set.at.len()],
+    });
+    Ok((responses.collect(), session.simulation().steps()))
 }
 
 /// What one cycle adds to an abscissa of histories.
-pub(super) fn per_cycle(simulation: &Simulation, over: &str) -> f64 {
-    let drive = &simulation.setup().drive;
+pub(super) fn per_cycle(drive: &Drive, over: Column) -> f64 {
     match over {
-        "time_s" => drive.period(),
+        Column::Time => drive.period(),
         // The path of the actuator: four amplitudes.
-        "distance_m" => drive
+        Column::Distance => drive
             .tangential()
             .map_or(f64::NAN, |control| 4.0 * control.oscillation().amplitude()),
         _ => 1.0,
     }
 }
 
-/// V, the largest depth and the approach since the start.
+/// Returns V, the largest depth and the approach since the start.
 fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
     let moment = simulation.moment();
     [
@@ -151,11 +162,11 @@ fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
     ]
 }
 
-/// Which of these a history tells.
+/// Returns which of these a history contains.
 fn quantity(axes: Axes) -> usize {
     match axes.y {
-        y if y == Axes::DEPTH.y => 1,
-        "approach_m" => 2,
+        Column::ScarDepth => 1,
+        Column::Approach => 2,
         _ => 0,
     }
 }

@@ -1,7 +1,7 @@
-//! Zeros, centre and tilt of a data set: what an instrument adds to what it measures.
+//! Zeros, centre and tilt of a data set: what an instrument adds to its measurements.
 //!
-//! They cost no run, so for each set of keys they are fitted by themselves (variable projection: G. H. Golub, V. Pereyra,
-//! 1973, SIAM J. Numer. Anal. 10, 413–432), here by Gauss and Newton with halved steps.
+//! They cost no run, so they are fitted separately for each set of keys (variable projection: G. H. Golub, V. Pereyra,
+//! 1973, SIAM J. Numer. Anal. 10, 413–432), here by Gauss–Newton with halved steps.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,26 +9,26 @@ use super::model::Response;
 use crate::math::scan::range;
 use crate::studies::measured::Measured;
 
-/// Names of the three, as a report calls those of a scar and those of others.
+/// Names of the three in reports, for a scar and for other data.
 pub const NAMES: [[&str; 2]; 3] = [["baseline", "level"], ["centre", "shift"], ["tilt", "tilt"]];
 
-/// The most steps of a search.
+/// Maximum number of steps of a search.
 const MOST_STEPS: usize = 40;
 
-/// A search ends where a step changes the sum of squares by less than this part of it.
+/// A search ends when a step changes the sum of squares by less than this fraction.
 const ENOUGH: f64 = 1e-10;
 
-/// Which of level, shift and tilt a data set has, and where the search for them begins.
+/// Which of level, shift and tilt are fitted to a data set, and where their search begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Nuisances {
     pub active: [bool; 3],
     pub start: [f64; 3],
 }
 
-/// The size of a step of the shift for its derivative, relative to the range of the abscissae.
+/// Step of the shift for its derivative, relative to the range of the abscissae.
 const STEP: f64 = 2e-4;
 
-/// ∂(simulated)/∂(nuisance) of each active one, by central differences.
+/// Returns ∂(simulated)/∂(nuisance) of each active one, by central differences.
 pub(super) fn derivatives(
     set: &Measured,
     response: &Response,
@@ -53,7 +53,8 @@ pub(super) fn derivatives(
 }
 
 impl Nuisances {
-    /// The values that fit best, with the simulated values; `weigh` returns the weighted deviations of simulated values.
+    /// Finds the values that fit best, with the simulated values;
+    /// `weigh` returns the weighted deviations of simulated values.
     pub fn solve(
         &self,
         set: &Measured,
@@ -70,7 +71,7 @@ impl Nuisances {
         let places: Vec<usize> = (0..3).filter(|&k| self.active[k]).collect();
         for _ in 0..MOST_STEPS {
             let z = weigh(&values);
-            // dz = −weight · d(simulated): the weights are seen in what a small change does.
+            // dz = −weight · d(simulated): a small change reveals the weights.
             let columns = derivatives(set, response, at, self.active);
             let scale: Vec<f64> = columns
                 .iter()

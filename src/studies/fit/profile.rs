@@ -7,14 +7,17 @@
 use super::report::Fitted;
 use super::search::{Found, Search};
 
-/// Keys whose logarithm has a larger standard error than this have an interval.
+/// Keys whose logarithm has a larger standard error get an interval.
 const VAGUE: f64 = 0.15;
 
-/// Σz² rises by so much, in units of the variance of z, at two standard errors.
-const RISE: f64 = 4.0;
+/// Σz² rises by the square of this, in units of the variance of z, at two standard errors.
+const RISE: f64 = 2.0;
 
-/// Steps away from the minimum, in e-folds; beyond the last one a key has no limit.
-const STEPS: [f64; 6] = [0.2, 0.5, 1.1, 2.2, 3.4, 4.6];
+/// The first step away from the minimum, in e-folds: further ones double it, to the end of the range.
+const FIRST: f64 = 0.2;
+
+/// An end is known to so much, in e-folds, and better where the root of the rise is straight.
+const KNOWN: f64 = 0.2;
 
 /// Adds the intervals of keys that need them.
 pub(super) fn add_intervals(search: &Search, found: &Found, fitted: &mut Fitted) {
@@ -27,7 +30,7 @@ pub(super) fn add_intervals(search: &Search, found: &Found, fitted: &mut Fitted)
     if vague.is_empty() {
         return;
     }
-    let Some((theta, least)) = search.least_squares(&found.theta, None) else {
+    let Ok((theta, least)) = search.least_squares(&found.theta, None) else {
         return;
     };
     let freedom = (found.z.len() - found.theta.len()).max(1) as f64;
@@ -73,38 +76,27 @@ fn end(
     (least, variance): (f64, f64),
 ) -> Option<f64> {
     let mut from = theta.to_vec();
+    let place = |step: f64| search.fit.free[i].moved(theta[i], sense * step);
+    // Where no run ends, it is not the data that set the limit.
     let mut rise_at = |step: f64| {
-        from[i] = search.fit.free[i].moved(theta[i], sense * step);
-        let (best, sum) = search.least_squares(&from, Some(i))?;
+        from[i] = place(step);
+        let (best, sum) = search.least_squares(&from, Some(i)).ok()?;
         from = best;
-        Some((sum - least) / variance)
+        Some(((sum - least).max(0.0) / variance).sqrt())
     };
-    let mut before = (0.0, 0.0);
-    for step in STEPS {
-        // Where the contact cannot be computed, nothing was measured.
-        let Some(rise) = rise_at(step) else {
-            return Some(search.fit.free[i].moved(theta[i], sense * step));
-        };
-        if rise > RISE {
-            // √rise is nearly straight.
-            let mut ends = [before, (step, rise.sqrt())];
-            for _ in 0..2 {
-                let [low, high] = ends;
-                let middle = low.0 + (RISE.sqrt() - low.1) / (high.1 - low.1) * (high.0 - low.0);
-                let Some(found) = rise_at(middle).map(|rise| rise.max(0.0).sqrt()) else {
-                    break;
-                };
-                ends = if found > RISE.sqrt() {
-                    [low, (middle, found)]
-                } else {
-                    [(middle, found), high]
-                };
-            }
-            let [low, high] = ends;
-            let middle = low.0 + (RISE.sqrt() - low.1) / (high.1 - low.1) * (high.0 - low.0);
-            return Some(search.fit.free[i].moved(theta[i], sense * middle));
+    let (mut near, mut far) = ((0.0, 0.0), (FIRST, rise_at(FIRST)?));
+    while far.1 < RISE {
+        if place(2.0 * far.0) == place(far.0) {
+            return None;
         }
-        before = (step, rise.max(0.0).sqrt());
+        (near, far) = (far, (2.0 * far.0, rise_at(2.0 * far.0)?));
     }
-    None
+    while far.0 - near.0 > KNOWN {
+        let middle = 0.5 * (near.0 + far.0);
+        let rise = rise_at(middle)?;
+        let end = if rise < RISE { &mut near } else { &mut far };
+        *end = (middle, rise);
+    }
+    let share = (RISE - near.1) / (far.1 - near.1);
+    Some(place(near.0 + share * (far.0 - near.0)))
 }

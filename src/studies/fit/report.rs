@@ -1,4 +1,4 @@
-//! What a fit tells: keys with their errors, nuisances, and how well each data set is matched.
+//! Results of a fit: keys with their errors, nuisances, and how well each data set is matched.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,9 +12,8 @@ use super::structure::Structure;
 use crate::math::scan::rms;
 use crate::scenario::Scenario;
 use crate::studies::measured::Measured;
-use crate::traces::unit_of;
 
-/// Beyond this standard error of a logarithm, or correlation, the data determine a key hardly.
+/// Beyond this standard error of a logarithm, or correlation, the data hardly determine a key.
 const VAGUE: f64 = 0.5;
 const ALIKE: f64 = 0.95;
 
@@ -31,13 +30,20 @@ pub struct Value {
     pub value: f64,
     /// Its standard error; `None` if the data do not determine it.
     pub stderr: Option<f64>,
-    /// How much a finer computation may move it; `None` if it is not determined.
+    /// Possible change by a finer computation; `None` if not determined.
     pub numerical_error: Option<f64>,
     /// The ends of two standard errors by the profile of the likelihood, where its error is no symmetric one; an end is
     /// `None` if the data set none.
     pub interval: Option<[Option<f64>; 2]>,
-    /// Its correlations with the other keys; 0 with a key that is not determined.
+    /// Its correlations with the other keys; 0 with an undetermined key.
     pub correlations: BTreeMap<String, f64>,
+}
+
+impl Value {
+    /// Whether the data set it a limit on one side at most.
+    pub fn is_open(&self) -> bool {
+        self.interval.is_some_and(|ends| ends.contains(&None))
+    }
 }
 
 /// A zero, a centre or a tilt that was fitted beside the keys.
@@ -45,7 +51,7 @@ pub struct Value {
 pub struct Nuisance {
     /// `baseline`, `level`, `centre`, `shift` or `tilt`.
     pub name: &'static str,
-    /// Its unit: that of the values, of the abscissae, or their ratio.
+    /// Its unit: the values', the abscissae's, or their ratio.
     pub unit: String,
     /// The value at the minimum.
     pub value: f64,
@@ -53,42 +59,46 @@ pub struct Nuisance {
     pub stderr: f64,
 }
 
-/// How a data set is matched.
+/// The match of a data set.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SetResult {
-    /// The file.
+    /// Name of the file.
     pub file: String,
-    /// The points that were compared.
+    /// Number of compared points.
     pub points: usize,
-    /// What was left out or put right before.
+    /// What was left out or corrected beforehand.
     pub notes: Vec<String>,
-    /// What was fitted beside the keys.
+    /// Nuisances fitted besides the keys.
     pub nuisances: Vec<Nuisance>,
     /// Whether its residuals are noise.
     #[serde(flatten)]
     pub structure: Structure,
     /// Where the points lie, in the unit of the file's abscissa in SI.
     pub at: Vec<f64>,
-    /// Measured less simulated values, zeros and tilt taken off.
+    /// Measured minus simulated values, without zeros and tilt.
     pub residuals: Vec<f64>,
 }
 
-/// What came of a fit.
+/// The result of a fit.
 #[derive(Debug)]
 pub struct Fitted {
-    /// The keys in the order in which they were asked for.
+    /// The keys in the requested order.
     pub values: Vec<Value>,
-    /// How each data set is matched.
+    /// The match of each data set.
     pub sets: Vec<SetResult>,
-    /// Where data do not determine a key, or the model not the data, in a line each.
+    /// One line for each key that the data do not determine, and each data set that the model does not match.
     pub remarks: Vec<String>,
     /// The scenario with the fitted values.
     pub scenario: Scenario,
-    pub(super) errors: Errors,
 }
 
 impl Fitted {
-    pub(super) fn new(search: &Search, found: &Found, errors: Errors, scenario: Scenario) -> Self {
+    pub(super) fn new(
+        search: &Search,
+        found: &Found,
+        (errors, numerical): &(Errors, Option<Vec<f64>>),
+        scenario: Scenario,
+    ) -> Self {
         let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
         let covariance = &errors.covariance;
         let correlation = |i: usize, j: usize| {
@@ -100,9 +110,18 @@ impl Fitted {
         };
         let keys = &search.fit.free;
         for (i, (free, &theta)) in keys.iter().zip(&found.theta).enumerate() {
-            let error = covariance[(i, i)].sqrt();
+            let error = errors.of(i);
             let at_bound = free.is_at_bound(theta);
             let is_known = error.is_finite() && error > 0.0 && !at_bound;
+            let numerical = numerical.as_ref().map(|numerical| numerical[i]);
+            // Whoever has chosen cells and steps has chosen their error.
+            if is_known && search.fit.scenario.accuracy().is_some() && numerical > Some(error) {
+                remarks.push(format!(
+                    "{}: the numerical error exceeds the statistical one; a smaller numerics.accuracy lowers it",
+                    free.key
+                ));
+            }
+            let numerical_error = numerical.map(|numerical| free.error(theta, numerical));
             let key = free.key.clone();
             if at_bound {
                 remarks.push(format!(
@@ -110,7 +129,7 @@ impl Fitted {
                 ));
             } else if !is_known {
                 remarks.push(format!("the data do not determine {key}"));
-            } else if error > VAGUE * free.vague_at(theta) {
+            } else if error > VAGUE * free.size(theta) {
                 remarks.push(format!(
                     "the data hardly determine {key}: its standard error is as large as itself"
                 ));
@@ -128,14 +147,14 @@ impl Fitted {
                 unit: free.unit,
                 value: free.value(theta),
                 stderr: is_known.then(|| free.error(theta, error)),
-                numerical_error: None,
+                numerical_error: numerical_error.filter(|_| is_known),
                 interval: None,
                 correlations: others.collect(),
                 key,
             });
         }
         remarks.extend(alike);
-        let sets = sets(search, found, &errors);
+        let sets = sets(search, found, errors);
         remarks.extend(
             sets.iter()
                 .filter_map(|set| set.structure.remark(&set.file)),
@@ -145,7 +164,6 @@ impl Fitted {
             sets,
             remarks,
             scenario,
-            errors,
         }
     }
 }
@@ -156,7 +174,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
         let left = residuals(set, simulated);
         let spent: f64 = errors.leverages[place].iter().sum();
         let freedom = freedom(left.len(), spent);
-        let (values, abscissae) = (set.axes.unit(), unit_of(set.axes.x));
+        let (values, abscissae) = (set.axes.y.unit(), set.axes.x.unit());
         let column = usize::from(!set.axes.over_r());
         let mut nuisances = Vec::new();
         for k in (0..3).filter(|&k| search.nuisances[i].active[k]) {
@@ -169,7 +187,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
                     _ => format!("{values}/{abscissae}"),
                 },
                 value: found.nuisances[i][k],
-                stderr: errors.covariance[(next, next)].sqrt(),
+                stderr: errors.of(next),
             });
             next += 1;
         }
@@ -189,7 +207,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
 }
 
 impl SetResult {
-    /// The root of the mean square of its residuals.
+    /// Returns the root mean square of its residuals.
     pub fn rms(&self) -> f64 {
         rms(&self.residuals)
     }

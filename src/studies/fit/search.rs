@@ -1,7 +1,6 @@
 //! One search: a level of numerics, what is fitted beside the keys, and the errors of the data so far.
 
 use std::cell::{Cell, RefCell};
-use std::f64::consts::LN_10;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -11,40 +10,37 @@ use super::errors::{Errors, freedom};
 use super::model::{self, Response};
 use super::nuisance::{self, Nuisances};
 use super::solver::{self, Free};
-use super::structure::Structure;
 use super::{Fit, Switch};
 use crate::math::scan::rms;
 use crate::scenario::Scenario;
 use crate::scenario::session::SessionError;
 use crate::studies::measured::Measured;
 
-/// The least error of a data set, relative to its own size: exact data must not weigh without end.
+/// Minimum error of a data set, relative to its own size: exact data must not get infinite weight.
 const LEAST_ERROR: f64 = 1e-4;
 
 /// The standard deviation of normal noise in medians of its size.
 const OF_MEDIAN: f64 = 1.4826;
 
-/// Starts that are tried around the given ones, in e-folds of each key: factors of 10 and 100.
-const STARTS: [f64; 5] = [0.0, -LN_10, LN_10, -2.0 * LN_10, 2.0 * LN_10];
-
-/// So many keys are varied together in search of a start, more of them one by one.
-const TOGETHER: usize = 2;
-
-/// Starts from which the minimum is sought.
-const BEST_STARTS: usize = 2;
-
 /// A scar without so much of its points beyond its edge shows no baseline.
 const BASELINE: f64 = 0.08;
 
-/// A run of the coarse search ends at so many times the steps of the shortest one, but not before [`ENOUGH_STEPS`].
+/// A run ends at so many times the steps of the shortest one, but not before [`ENOUGH_STEPS`]: a coefficient of wear that is
+/// far too large costs a hundred times as much, and is no minimum.
 const MOST_STEPS: u64 = 20;
 const ENOUGH_STEPS: u64 = 10_000;
 
-/// A step of the search changes Σz² by less than this part of it at the minimum: in the coarse search, and after it.
-const TOLERANCES: [f64; 2] = [1e-4, 1e-6];
+/// A key that the data do not determine stays near its start: a prior of this standard deviation, in e-folds or sizes, moves
+/// others by less than a percent of their errors.
+const PRIOR: f64 = 20.0;
+
+/// The most rounds of a descent, each of which weighs by the errors that the one before has left, and by how much errors
+/// may change that have settled.
+const MOST_ROUNDS: usize = 3;
+const SETTLED: f64 = 0.05;
 
 /// Runs that are remembered.
-const REMEMBERED: usize = 8;
+const REMEMBERED: usize = 64;
 
 type Responses = Rc<Vec<Response>>;
 
@@ -56,19 +52,19 @@ pub(super) struct Search<'a> {
     pub nuisances: Vec<Nuisances>,
     /// σ of each point.
     pub errors: Vec<f64>,
-    /// Whether it only seeks where the minimum lies.
-    pub is_coarse: bool,
     on_run: &'a dyn Fn(),
     in_time: &'a dyn Fn() -> bool,
-    /// The fewest steps that a run has needed.
+    /// Smallest number of steps of a run.
     fewest_steps: Cell<u64>,
     remembered: RefCell<Vec<(Vec<u64>, Responses)>>,
+    /// What a finer run adds to the values of each data set.
+    corrections: Vec<Vec<f64>>,
 }
 
 /// A minimum.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
-    /// The keys, positive ones by their logarithms.
+    /// The keys, positive ones as logarithms.
     pub theta: Vec<f64>,
     /// Level, shift and tilt of each data set.
     pub nuisances: Vec<[f64; 3]>,
@@ -76,6 +72,8 @@ pub(super) struct Found {
     pub simulated: Vec<Vec<f64>>,
     /// The deviations in units of the errors.
     pub z: Vec<f64>,
+    /// The same, smaller for outliers if these count less, and the keys' distances from their starts.
+    weighed: Vec<f64>,
     /// −2 ln of the likelihood, but for a constant.
     pub objective: f64,
 }
@@ -84,7 +82,6 @@ impl<'a> Search<'a> {
     pub fn new(
         fit: &'a Fit,
         scenario: Scenario,
-        nuisances: Vec<Nuisances>,
         on_run: &'a dyn Fn(),
         in_time: &'a dyn Fn() -> bool,
     ) -> Self {
@@ -92,22 +89,60 @@ impl<'a> Search<'a> {
             errors: fit.data.iter().flat_map(first_errors).collect(),
             fit,
             scenario,
-            nuisances,
-            is_coarse: false,
+            nuisances: Vec::new(),
             on_run,
             in_time,
             fewest_steps: Cell::new(u64::MAX),
             remembered: RefCell::default(),
+            corrections: fit.data.iter().map(|set| vec![0.0; set.at.len()]).collect(),
         }
     }
 
-    fn tolerance(&self) -> f64 {
-        TOLERANCES[usize::from(!self.is_coarse)]
+    /// What a run on the level of `scenario` adds to the values at a minimum, and its steps.
+    ///
+    /// # Errors
+    /// A contact that cannot be computed there, and the end of the time.
+    pub fn changes_on(
+        &self,
+        scenario: &Scenario,
+        found: &Found,
+    ) -> Result<(Vec<Vec<f64>>, u64), SessionError> {
+        let (responses, steps) = self.run(scenario, &found.theta, u64::MAX)?;
+        let sets = self.fit.data.iter().zip(&responses).zip(&found.nuisances);
+        let values = sets.map(|((set, response), at)| response.at(set, *at));
+        let change = |(new, old): (Vec<f64>, &Vec<f64>)| {
+            new.iter().zip(old).map(|(new, old)| new - old).collect()
+        };
+        Ok((values.zip(&found.simulated).map(change).collect(), steps))
     }
 
-    /// Forgets what runs have told: the scenario is another one.
-    pub fn forget(&mut self) {
+    /// Adds `changes` to the values of all runs, those of a finer level at a minimum.
+    pub fn correct(&mut self, changes: &[Vec<f64>]) {
+        for (correction, changes) in self.corrections.iter_mut().zip(changes) {
+            correction
+                .iter_mut()
+                .zip(changes)
+                .for_each(|(one, change)| *one += change);
+        }
         self.remembered.take();
+    }
+
+    /// Whether its time is not over.
+    pub fn is_in_time(&self) -> bool {
+        (self.in_time)()
+    }
+
+    /// Goes on with the level of `scenario`.
+    pub fn move_to(&mut self, scenario: Scenario) {
+        self.scenario = scenario;
+        self.remembered.take();
+        self.fewest_steps.set(u64::MAX);
+    }
+
+    /// How `changes` of the values change the deviations.
+    pub fn in_errors(&self, changes: &[Vec<f64>]) -> Vec<f64> {
+        let changes = changes.iter().flatten().zip(&self.errors);
+        changes.map(|(change, error)| -change / error).collect()
     }
 
     /// What a run with these keys says of all data.
@@ -122,23 +157,13 @@ impl<'a> Search<'a> {
         if let Some(found) = known {
             return Ok(found);
         }
-        if !(self.in_time)() {
-            return Err(SessionError::Interrupted);
+        let fewest = self.fewest_steps.get();
+        let most = fewest.saturating_mul(MOST_STEPS).max(ENOUGH_STEPS);
+        let (mut found, steps) = self.run(&self.scenario, theta, most)?;
+        self.fewest_steps.set(fewest.min(steps));
+        for (response, correction) in found.iter_mut().zip(&self.corrections) {
+            response.correction.clone_from(correction);
         }
-        (self.on_run)();
-        let scenario = self.fit.at(&self.scenario, theta)?;
-        // A coefficient of wear that is far too large costs a hundred times as much, and is no minimum.
-        let most = match self.is_coarse {
-            true => self
-                .fewest_steps
-                .get()
-                .saturating_mul(MOST_STEPS)
-                .max(ENOUGH_STEPS),
-            false => u64::MAX,
-        };
-        let go_on = |steps: u64| steps < most && (self.in_time)();
-        let (found, steps) = model::simulate(&scenario, &self.fit.data, self.fit.cycles, &go_on)?;
-        self.fewest_steps.set(self.fewest_steps.get().min(steps));
         let found = Rc::new(found);
         let mut remembered = self.remembered.borrow_mut();
         remembered.truncate(REMEMBERED - 1);
@@ -146,10 +171,27 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
+    /// Runs `scenario` with these keys, for `most` steps or fewer.
+    pub fn run(
+        &self,
+        scenario: &Scenario,
+        theta: &[f64],
+        most: u64,
+    ) -> Result<(Vec<Response>, u64), SessionError> {
+        if !(self.in_time)() {
+            return Err(SessionError::Interrupted);
+        }
+        (self.on_run)();
+        let scenario = self.fit.at(scenario, theta)?;
+        let go_on = |steps: u64| steps < most && (self.in_time)();
+        model::simulate(&scenario, &self.fit.data, self.fit.cycles, &go_on)
+    }
+
     /// The data with these keys and the nuisances that fit best.
-    fn evaluate(&self, theta: &[f64]) -> Result<Found, SessionError> {
+    pub fn evaluate(&self, theta: &[f64]) -> Result<Found, SessionError> {
         let responses = self.responses(theta)?;
-        let (mut nuisances, mut simulated, mut z) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut nuisances, mut simulated) = (Vec::new(), Vec::new());
+        let (mut z, mut all_weighed) = (Vec::new(), Vec::new());
         let mut objective = 0.0;
         for ((set, place), (response, nuisance)) in
             self.places().zip(responses.iter().zip(&self.nuisances))
@@ -160,19 +202,25 @@ impl<'a> Search<'a> {
                 .iter()
                 .map(|left| left * left)
                 .sum::<f64>();
+            let weighed = weigh(&values);
             objective += match &set.errors {
-                Some(_) => weigh(&values).iter().map(|z| z * z).sum::<f64>(),
+                Some(_) => weighed.iter().map(|z| z * z).sum::<f64>(),
                 None => set.values.len() as f64 * size.max(f64::MIN_POSITIVE).ln(),
             };
             z.extend(deviations(set, &self.errors[place.clone()], &values));
+            all_weighed.extend(weighed);
             nuisances.push(at);
             simulated.push(values);
         }
+        let keys = self.fit.free.iter().zip(theta);
+        all_weighed
+            .extend(keys.map(|(free, at)| (at - free.start) / (PRIOR * free.size(free.start))));
         Ok(Found {
             theta: theta.to_vec(),
             nuisances,
             simulated,
             z,
+            weighed: all_weighed,
             objective,
         })
     }
@@ -198,8 +246,11 @@ impl<'a> Search<'a> {
         all
     }
 
-    /// The sum of squares at the best nuisances, with the keys that are not `held` at their best; `None` if there is none.
-    pub fn least_squares(&self, theta: &[f64], held: Option<usize>) -> Option<(Vec<f64>, f64)> {
+    /// The keys that fit best from `theta` on, but the one that is `held`, and the sum of squares there.
+    ///
+    /// # Errors
+    /// If the search fails.
+    pub fn least_squares(&self, theta: &[f64], held: Option<usize>) -> Result<(Vec<f64>, f64)> {
         let free: Vec<usize> = (0..theta.len()).filter(|i| Some(*i) != held).collect();
         let whole = |some: &[f64]| {
             let mut all = theta.to_vec();
@@ -208,146 +259,44 @@ impl<'a> Search<'a> {
                 .for_each(|(&i, value)| all[i] = *value);
             all
         };
-        let mut residuals = |some: &[f64]| {
-            let found = self.evaluate(&whole(some)).ok()?;
-            let sets = self.places().zip(&found.simulated);
-            let all = sets
-                .flat_map(|((set, place), values)| self.weighed(set, &self.errors[place], values));
-            Some(all.collect())
-        };
+        let mut residuals = |some: &[f64]| Some(self.evaluate(&whole(some)).ok()?.weighed);
+        let points = self.errors.len() + theta.len();
         let keys: Vec<Free> = free.iter().map(|&i| self.fit.free[i].clone()).collect();
         let some: Vec<f64> = free.iter().map(|&i| theta[i]).collect();
-        let found = match keys.is_empty() {
+        let some = match keys.is_empty() {
             true => some,
-            false => solver::solve(
-                &keys,
-                &some,
-                (self.errors.len(), self.tolerance()),
-                &mut residuals,
-            )
-            .ok()?,
+            false => solver::solve(&keys, &some, points, &mut residuals)
+                .map_err(|why| anyhow!("no minimum was found: {why}"))?,
         };
-        let sum = residuals(&found)?.iter().map(|z| z * z).sum();
-        Some((whole(&found), sum))
+        let theta = whole(&some);
+        let sum = self.at(&theta)?.weighed.iter().map(|z| z * z).sum();
+        Ok((theta, sum))
     }
 
-    /// The minimum near `theta`, in `rounds` that each weigh by the errors that the one before has left.
-    ///
-    /// # Errors
-    /// If the search fails.
-    pub fn descend(&mut self, theta: &[f64], rounds: usize) -> Result<Found> {
-        let mut theta = theta.to_vec();
-        let is_given = self.fit.data.iter().all(|set| set.errors.is_some());
-        let rounds = if is_given && !self.fit.options.robust {
-            1
-        } else {
-            rounds
-        };
-        for round in 1..=rounds {
-            let mut residuals = |theta: &[f64]| {
-                let found = self.evaluate(theta).ok()?;
-                let sets = self.places().zip(&found.simulated);
-                let all = sets.flat_map(|((set, place), values)| {
-                    self.weighed(set, &self.errors[place], values)
-                });
-                Some(all.collect())
-            };
-            theta = solver::solve(
-                &self.fit.free,
-                &theta,
-                (self.errors.len(), self.tolerance()),
-                &mut residuals,
-            )
-            .map_err(|why| anyhow!("no minimum was found: {why}"))?;
-            if round < rounds {
-                let found = self
-                    .evaluate(&theta)
-                    .map_err(|error| anyhow!("no minimum was found: {error}"))?;
-                let uncertainty = self.uncertainty(&found);
-                self.update_errors(&found.simulated, &uncertainty.leverages);
-            }
-        }
-        self.evaluate(&theta)
+    /// The data at a minimum.
+    fn at(&self, theta: &[f64]) -> Result<Found> {
+        self.evaluate(theta)
             .map_err(|error| anyhow!("no minimum was found: {error}"))
     }
 
-    /// The minimum from `start`, or from the best of a grid of starts where that leaves more than noise.
+    /// The minimum near `theta`, weighed by the errors that it leaves.
     ///
     /// # Errors
-    /// A scenario that cannot run with its start values, and a search that fails.
-    pub fn locate(&mut self, start: &[f64]) -> Result<Found> {
-        let at_start = self.evaluate(start);
-        let first = self.errors.clone();
-        let found = match &at_start {
-            Ok(_) => self.descend(start, 3),
-            Err(error) => Err(anyhow!("at the start values: {error}")),
-        };
-        if let Ok(found) = &found
-            && self.is_noise(found)
-            && self
-                .fit
-                .free
-                .iter()
-                .zip(&found.theta)
-                .all(|(free, theta)| !free.is_at_bound(*theta))
-        {
-            return Ok(found.clone());
-        }
-        let mut starts: Vec<(f64, Vec<f64>)> = self
-            .starts(start)
-            .into_iter()
-            .filter_map(|theta| Some((self.evaluate(&theta).ok()?.objective, theta)))
-            .collect();
-        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut best = found.map(|found| (found, self.errors.clone()));
-        for (_, theta) in starts.into_iter().take(BEST_STARTS) {
-            self.errors.clone_from(&first);
-            let Ok(found) = self.descend(&theta, 3) else {
-                continue;
-            };
-            if best
-                .as_ref()
-                .map_or(true, |(best, _)| found.objective < best.objective)
-            {
-                best = Ok((found, self.errors.clone()));
+    /// If the search fails.
+    pub fn descend(&mut self, theta: &[f64]) -> Result<Found> {
+        let mut theta = theta.to_vec();
+        for _ in 0..MOST_ROUNDS {
+            theta = self.least_squares(&theta, None)?.0;
+            let found = self.at(&theta)?;
+            let leverages = self.uncertainty(&found).leverages;
+            let before = self.errors.clone();
+            self.update_errors(&found.simulated, &leverages);
+            let mut pairs = before.iter().zip(&self.errors);
+            if pairs.all(|(before, error)| (error / before - 1.0).abs() < SETTLED) {
+                break;
             }
         }
-        best.map(|(found, errors)| {
-            self.errors = errors;
-            found
-        })
-    }
-
-    /// Values of the keys from which a search may begin.
-    fn starts(&self, start: &[f64]) -> Vec<Vec<f64>> {
-        let mut all = vec![start.to_vec()];
-        for (i, free) in self.fit.free.iter().enumerate() {
-            let around = |theta: &Vec<f64>| {
-                let moved = STARTS.iter().map(|&step| free.moved(theta[i], step));
-                let moved = moved.map(|value| {
-                    let mut theta = theta.clone();
-                    theta[i] = value;
-                    theta
-                });
-                moved.collect::<Vec<_>>()
-            };
-            match i < TOGETHER {
-                true => all = all.iter().flat_map(around).collect(),
-                false => all.extend(around(&start.to_vec())),
-            }
-        }
-        all
-    }
-
-    /// Whether the residuals of all data sets may be noise.
-    pub fn is_noise(&self, found: &Found) -> bool {
-        let sets = self.fit.data.iter().zip(&found.simulated);
-        let mut remarks = sets.map(|(set, simulated)| {
-            let left = residuals(set, simulated);
-            let freedom = left.len().saturating_sub(found.theta.len()).max(1) as f64;
-            Structure::new(&left, set.errors.as_deref(), freedom).remark("")
-        });
-        remarks.all(|remark| remark.is_none())
+        self.at(&theta)
     }
 
     /// Leaves out baselines and tilts that the data cannot show, unless the user wants them.
@@ -460,7 +409,7 @@ fn first_errors(set: &Measured) -> Vec<f64> {
     given.unwrap_or_else(|| vec![size; set.values.len()])
 }
 
-/// Measured less simulated.
+/// Returns measured minus simulated values.
 pub(super) fn residuals(measured: &Measured, simulated: &[f64]) -> Vec<f64> {
     let pairs = measured.values.iter().zip(simulated);
     pairs.map(|(value, simulated)| value - simulated).collect()

@@ -6,17 +6,20 @@ use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
 use crate::scenario::schema::{self, Kind, Range};
 use crate::scenario::{Refusal, Scenario, units};
 
-/// By how many e-folds a positive key may move.
+/// Maximum range of a positive key, in e-folds.
 const FARTHEST: f64 = 9.3;
 
-/// The step of differences, of a logarithm or relative to a value: the scenario is planned anew for
-/// each run, and its grid follows the keys, which leaves roughness below 1e-5.
-const STEP: f64 = 3e-3;
+/// The step of differences, of a logarithm or relative to a value: the scenario is planned anew for each run, its grid
+/// follows the keys, and jumps over cycles end elsewhere, which leaves roughness of some 1e-5 of the depth.
+const STEP: f64 = 0.02;
+
+/// A step of the search changes the sum of squares by less than this part of it at the minimum.
+const TOLERANCE: f64 = 1e-5;
 
 /// The residual of every point where the contact cannot be computed: no minimum lies there.
 const HOPELESS: f64 = 1e6;
 
-/// A key that is fitted.
+/// A fitted key.
 #[derive(Debug, Clone)]
 pub(super) struct Free {
     /// The dotted path.
@@ -84,7 +87,7 @@ impl Free {
         })
     }
 
-    /// The value of the key.
+    /// Returns the value of the key.
     pub fn value(&self, theta: f64) -> f64 {
         if self.positive { theta.exp() } else { theta }
     }
@@ -94,13 +97,9 @@ impl Free {
         self.positive
     }
 
-    /// `theta` moved by so many e-folds, or as many times the size of the value, within its range.
+    /// Returns `theta` moved by so many e-folds, or by that multiple of the value, within its range.
     pub fn moved(&self, theta: f64, step: f64) -> f64 {
-        let step = if self.positive {
-            step
-        } else {
-            step * theta.abs().max(1e-12)
-        };
+        let step = step * self.size(theta);
         let [low, up] = self.bounds;
         // Just inside: an end of the range stands for what is not determined.
         let inside = |bound: f64, into: f64| {
@@ -113,25 +112,22 @@ impl Free {
         (theta + step).clamp(inside(low, STEP), inside(up, -STEP).max(inside(low, STEP)))
     }
 
-    /// The standard error of the value.
+    /// Returns the standard error of the value.
     pub fn error(&self, theta: f64, error: f64) -> f64 {
         error * if self.positive { theta.exp() } else { 1.0 }
     }
 
-    /// The size against which an error is vague.
-    pub fn vague_at(&self, theta: f64) -> f64 {
+    /// The size of its value, in which steps and errors are small: 1 for a logarithm.
+    pub fn size(&self, theta: f64) -> f64 {
         match self.positive {
             true => 1.0,
-            false => 2.0 * theta.abs(),
+            false => theta.abs().max(1e-12),
         }
     }
 
-    /// The step of differences around `theta`.
+    /// Returns the step of differences around `theta`.
     pub fn step(&self, theta: f64) -> f64 {
-        match self.positive {
-            true => STEP,
-            false => STEP * theta.abs().max(1e-12),
-        }
+        STEP * self.size(theta)
     }
 
     /// The ends of its range for the search.
@@ -181,19 +177,18 @@ impl MPFitter for Problem<'_> {
     }
 }
 
-/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`, until a step changes
-/// it by less than a `tolerance`, relative to itself. Returns the keys there, positive ones by their logarithms.
+/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`. Returns the keys there, positive ones by their logarithms.
 ///
 /// # Errors
 /// In words, where the search cannot begin or does not end.
 pub(super) fn solve(
     free: &[Free],
     theta: &[f64],
-    (points, tolerance): (usize, f64),
+    points: usize,
     residuals: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
 ) -> Result<Vec<f64>, &'static str> {
     let mut config = MPConfig::new();
-    (config.ftol, config.xtol, config.gtol) = (tolerance, tolerance, 1e-10);
+    (config.ftol, config.xtol, config.gtol) = (TOLERANCE, TOLERANCE, 1e-10);
     config.max_iter = 60;
     let parameters = free.iter().zip(theta);
     let parameters = parameters.map(|(free, theta)| free.limits(*theta));
@@ -230,7 +225,7 @@ mod tests {
         }];
         let mut residuals =
             |theta: &[f64]| Some((1..9).map(|i| f64::from(i) * (theta[0] - 2.0)).collect());
-        let theta = solve(&free, &[0.3], (8, 1e-7), &mut residuals).expect("a minimum");
+        let theta = solve(&free, &[0.3], 8, &mut residuals).expect("a minimum");
         assert_eq!(theta, [0.5]);
         assert!(free[0].is_at_bound(theta[0]));
     }

@@ -1,35 +1,36 @@
-//! Whether residuals are noise: their size against that of neighbouring differences, and the runs of their signs.
+//! Tests whether residuals are noise: compares their size with
+//! neighbouring differences, and counts runs of their signs.
 
 use serde::Serialize;
 
-/// What the residuals of a data set tell.
+/// Statistics of the residuals of a data set.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Structure {
-    /// χ² per degree of freedom: by the errors of the file, or by the noise that neighbouring residuals show.
+    /// χ² per degree of freedom: by the errors of the file, or by the noise between neighbouring residuals.
     pub chi_squared: f64,
-    /// The probability of so large a χ² by the chance that lies in that noise; 0 by the errors of the file.
+    /// Probability of so large a χ² by chance, given that noise; 0 with the errors of the file.
     pub chi_squared_probability: f64,
     /// Runs of one sign.
     pub runs: usize,
-    /// How many runs chance would have.
+    /// Expected number of runs by chance.
     pub expected_runs: f64,
-    /// The probability of so few runs by chance.
+    /// Probability of so few runs by chance.
     pub probability: f64,
 }
 
-/// χ² per degree of freedom above this is said.
+/// χ² per degree of freedom above which a remark is made.
 const MOST_CHI_SQUARED: f64 = 2.0;
 
-/// Runs of signs less probable than this are said.
+/// Probability of the runs below which a remark is made.
 const LEAST_PROBABILITY: f64 = 1e-3;
 
-/// The probability of a normal value below `z`.
+/// Returns the probability of a normal value below `z`.
 fn below(z: f64) -> f64 {
     0.5 * libm::erfc(-z / std::f64::consts::SQRT_2)
 }
 
 impl Structure {
-    /// Of residuals in the order of the points and their given errors, with so many degrees of `freedom`.
+    /// Tests residuals in the order of the points, with their given errors and so many degrees of `freedom`.
     pub fn new(residuals: &[f64], errors: Option<&[f64]>, freedom: f64) -> Self {
         let squares =
             |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
@@ -86,29 +87,31 @@ impl Structure {
         }
     }
 
-    /// Why the residuals are no noise; `None` if they may be.
+    /// Whether the residuals may be noise.
+    pub fn is_noise(&self) -> bool {
+        let is_usual = self.chi_squared <= MOST_CHI_SQUARED
+            || self.chi_squared_probability >= LEAST_PROBABILITY;
+        is_usual && self.probability >= LEAST_PROBABILITY
+    }
+
+    /// Says what speaks against noise; `None` if nothing does.
     pub fn remark(&self, name: &str) -> Option<String> {
-        let Self {
-            chi_squared,
-            chi_squared_probability,
-            runs,
-            expected_runs,
-            probability,
-        } = self;
+        let (probability, by_chance) = (self.probability, self.chi_squared_probability);
         let mut why = Vec::new();
-        if *probability < LEAST_PROBABILITY {
-            why.push(format!("{runs} runs of one sign where chance has {expected_runs:.0} (p = {probability:.0e})"));
+        if probability < LEAST_PROBABILITY {
+            let (runs, expected) = (self.runs, self.expected_runs);
+            why.push(format!(
+                "{runs} runs of one sign where chance has {expected:.0} (p = {probability:.0e})"
+            ));
         }
-        if *chi_squared > MOST_CHI_SQUARED && *chi_squared_probability < LEAST_PROBABILITY {
-            why.push(format!("χ² per degree of freedom {chi_squared:.1}"));
+        if self.chi_squared > MOST_CHI_SQUARED {
+            why.push(format!("χ² per degree of freedom {:.1}", self.chi_squared));
         }
-        let rule = "the model misses something, and the errors above do not count it; see --plot";
-        (!why.is_empty()).then(|| {
-            format!(
-                "{name}: the residuals are no noise: {}: {rule}",
-                why.join(", ")
-            )
-        })
+        let what = match self.is_noise() {
+            true => format!("may be no noise (p = {by_chance:.0e})"),
+            false => "are no noise: the model misses something, and the errors above do not count it; see --plot".to_owned(),
+        };
+        (!why.is_empty()).then(|| format!("{name}: {}: the residuals {what}", why.join(", ")))
     }
 }
 

@@ -1,9 +1,10 @@
 //! Measured results to compare with simulated ones: scars, fretting loops, histories.
 //!
-//! Instruments choose their zeros, signs and directions at will. What can be told without a model is put right here and
-//! noted; what needs one (zeros, centre, tilt) a fit finds beside its keys.
+//! Instruments choose their zeros, signs and directions at will. What can be corrected without a model is corrected
+//! here and noted; what needs one (zeros, centre, tilt) is fitted besides the keys.
 
 use crate::math::scan::range;
+use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::scenario::columns::Columns;
 use crate::traces::Axes;
@@ -17,13 +18,13 @@ mod trace;
 pub use record::Pick;
 pub use strokes::{Strokes, rises};
 
-/// The fewest rows of a data set.
+/// Minimum rows of a data set.
 const FEWEST: usize = 3;
 
-/// The fewest rows of a loop.
+/// Minimum rows of a loop.
 const FEWEST_OF_LOOP: usize = 8;
 
-/// A loop that leans this much to the left has its force or its displacement with the other sign: the correlation of both.
+/// A loop that leans this far to the left, by its correlation, has its force or its displacement with the other sign.
 const LEANS_LEFT: f64 = -0.3;
 
 /// What the rows of a file are, by its columns.
@@ -40,29 +41,35 @@ pub enum Kind {
 }
 
 /// Abscissae of histories, in the order in which they are looked for.
-pub const OVER: [&str; 4] = ["cycle", "energy_J", "distance_m", "time_s"];
+pub const OVER: [Column; 4] = [
+    Column::Cycle,
+    Column::Energy,
+    Column::Distance,
+    Column::Time,
+];
 
-/// Ordinates of histories, with what they are called in [`Axes`] and its symbol.
-const WORN: [(&str, &str, &str); 4] = [
-    ("depth_m", Axes::DEPTH.y, Axes::DEPTH.symbol),
-    ("wear_volume_m3", Axes::VOLUME.y, Axes::VOLUME.symbol),
-    ("approach_m", "approach_m", "approach"),
-    ("mass_kg", Axes::VOLUME.y, Axes::VOLUME.symbol),
+/// Ordinates of histories, with what they are called in [`Axes`].
+const WORN: [(Column, Column); 4] = [
+    (Column::Depth, Column::ScarDepth),
+    (Column::WearVolume, Column::WearVolume),
+    (Column::Approach, Column::Approach),
+    (Column::Mass, Column::WearVolume),
 ];
 
 impl Kind {
-    /// By the columns of a file; `None` if they are of nothing that was measured.
+    /// Determines the kind from the columns of a file; `None` if they are not measured data.
     pub fn of(columns: &Columns) -> Option<Self> {
-        let has = |name: &str| columns.has(name);
-        let is_own_loop = has("u_x_m") && has("F_x_N") && !has(Axes::VOLUME.y);
-        if has("x_m") && has("y_m") && (has("f_m") || has("wear_m")) {
+        let has = |column: Column| columns.has(column);
+        let is_own_loop =
+            has(Column::Shift) && has(Column::TangentialForce) && !has(Axes::VOLUME.y);
+        if has(Column::X) && has(Column::Y) && (has(Column::Profile) || has(Column::Wear)) {
             Some(Self::Map)
         } else if is_own_loop || has(Axes::LOOP.x) && has(Axes::LOOP.y) {
             Some(Self::Loop)
-        } else if OVER.iter().any(|name| has(name)) && WORN.iter().any(|(name, ..)| has(name)) {
+        } else if OVER.into_iter().any(has) && WORN.iter().any(|(name, _)| has(*name)) {
             Some(Self::History)
         } else {
-            has("r_m").then_some(Self::Scar)
+            has(Column::Radius).then_some(Self::Scar)
         }
     }
 }
@@ -70,29 +77,29 @@ impl Kind {
 /// A data set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// The file.
+    /// Name of the file.
     pub name: String,
-    /// What it holds: a profile, what has worn of it, a loop, or what has worn over the course of a test.
+    /// What it contains: a profile, its worn part, a loop, or wear over the course of a test.
     pub axes: Axes,
     /// The radius in m, of either sign where a trace runs through the axis; u_x in m; cycles, s, m or J.
     pub at: Vec<f64>,
-    /// What was measured there, in the unit of the axes.
+    /// Measured values, in the unit of the axes.
     pub values: Vec<f64>,
-    /// Standard errors of the values, where the file gives them.
+    /// Standard errors of the values, if the file gives them.
     pub errors: Option<Vec<f64>>,
-    /// The end of the cycle that a loop was measured in, where it is known.
+    /// End of the cycle in which a loop was measured, if known.
     pub cycle: Option<f64>,
-    /// Of a loop, which points belong to rising strokes; else empty.
+    /// For a loop, which points belong to rising strokes; otherwise empty.
     pub rising: Vec<bool>,
     /// Whether its values are means around the axis, so that it has no other side and no other centre.
     pub is_averaged: bool,
-    /// What was left out or put right, a line each.
+    /// What was left out or corrected, one line each.
     pub notes: Vec<String>,
 }
 
 impl Measured {
     /// A scar: columns `r_m` and `wear_m`, or `f_m` for the worn profile; standard errors in `error_m`. A map has columns
-    /// `x_m` and `y_m`, and is averaged around its axis.
+    /// `x_m` and `y_m`, and is averaged around its axis or along its line.
     ///
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
@@ -184,11 +191,11 @@ impl Measured {
             .unwrap_or(OVER[0]);
         let found = WORN
             .into_iter()
-            .find(|(name, ..)| columns.has(name))
+            .find(|(name, _)| columns.has(name))
             .unwrap_or(WORN[1]);
-        let (name, y, symbol) = found;
-        let mut measured = read(columns, Axes::new(x, y, symbol), [x, name])?;
-        if name == "mass_kg" {
+        let (name, y) = found;
+        let mut measured = read(columns, Axes::new(x, y), [x, name])?;
+        if name == Column::Mass {
             let rule = "a mass needs the density of what has worn: --density 7800 (kg/m^3)";
             let density = density.ok_or_else(|| columns.refuse(rule))?;
             let errors = measured.errors.iter_mut().flatten();
@@ -200,7 +207,7 @@ impl Measured {
         }
         if let Some(row) = measured.at.iter().position(|at| *at < 0.0) {
             let line = columns.line(row);
-            return Err(columns.refuse(format!("line {line}: {x} must be 0 or greater")));
+            return Err(columns.refuse(format!("line {line}: {} must be 0 or greater", x.name())));
         }
         Ok(measured)
     }
@@ -211,18 +218,18 @@ impl Measured {
         self.axes.over_r() && ends[0] < -0.2 * ends[1] && ends[1] > -0.2 * ends[0]
     }
 
-    /// The centre of a trace, m, as far as it shows without a model.
+    /// Returns the centre of a trace, m, as far as it shows without a model.
     pub fn centre(&self) -> f64 {
         trace::centre(&self.at, &self.values, self.axes == Axes::WEAR)
     }
 
-    /// Turns the sign of all values, and says why.
+    /// Negates all values, and notes why.
     pub fn negate(&mut self, why: &str) {
         self.values.iter_mut().for_each(|value| *value = -*value);
         self.notes.push(why.to_owned());
     }
 
-    /// Puts the points in the order of their abscissae.
+    /// Sorts the points by their abscissae.
     fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.at.len()).collect();
         order.sort_by(|&i, &j| self.at[i].total_cmp(&self.at[j]));
@@ -234,24 +241,27 @@ impl Measured {
 }
 
 /// The columns of displacement and force in a file of loops.
-pub fn loop_columns(columns: &Columns) -> [&'static str; 2] {
-    let is_own = columns.has("u_x_m") && columns.has("F_x_N");
-    let is_sensed = columns.column("rig_displacement_m").is_ok();
+pub fn loop_columns(columns: &Columns) -> [Column; 2] {
+    let is_own = columns.has(Column::Shift) && columns.has(Column::TangentialForce);
+    let is_sensed = columns.column(Column::RigDisplacement.name()).is_ok();
     match (is_own, is_sensed) {
-        (true, true) => ["rig_displacement_m", "F_x_N"],
-        (true, false) => ["u_x_m", "F_x_N"],
+        (true, true) => [Column::RigDisplacement, Column::TangentialForce],
+        (true, false) => [Column::Shift, Column::TangentialForce],
         (false, _) => [Axes::LOOP.x, Axes::LOOP.y],
     }
 }
 
-fn read(columns: &Columns, axes: Axes, [at, values]: [&str; 2]) -> Result<Measured, Refusal> {
-    let (_, unit) = values.rsplit_once('_').unwrap_or_default();
-    let error = format!("error_{unit}");
-    let cycle = columns.header.iter().find(|(key, _)| key == "cycle");
+fn read(columns: &Columns, axes: Axes, [at, values]: [Column; 2]) -> Result<Measured, Refusal> {
+    let (_, unit) = values.name().rsplit_once('_').unwrap_or_default();
+    let error = format!("{}_{unit}", Column::StandardError.name());
+    let cycle = columns
+        .header
+        .iter()
+        .find(|(key, _)| key == Column::Cycle.name());
     let has_errors = columns.has(&error);
     // Without errors, the values take their place.
-    let error = if has_errors { error.as_str() } else { values };
-    let ([at, values, errors], rows) = columns.whole_rows([at, values, error])?;
+    let error = if has_errors { &error } else { values.name() };
+    let ([at, values, errors], rows) = columns.whole_rows([at.name(), values.name(), error])?;
     if at.len() < FEWEST {
         return Err(columns.refuse(format!("has fewer than {FEWEST} rows of data")));
     }
@@ -260,11 +270,6 @@ fn read(columns: &Columns, axes: Axes, [at, values]: [&str; 2]) -> Result<Measur
         let line = columns.line(rows[row]);
         return Err(columns.refuse(format!("line {line}: an error must be greater than 0")));
     }
-    let skipped = columns.len() - rows.len();
-    let note = format!(
-        "{skipped} of {} rows have missing values and are left out",
-        columns.len()
-    );
     Ok(Measured {
         name: columns.path.clone(),
         axes,
@@ -274,11 +279,11 @@ fn read(columns: &Columns, axes: Axes, [at, values]: [&str; 2]) -> Result<Measur
         cycle: cycle.and_then(|(_, cycle)| cycle.parse().ok()),
         rising: Vec::new(),
         is_averaged: false,
-        notes: if skipped > 0 { vec![note] } else { Vec::new() },
+        notes: columns.left_out(&rows).into_iter().collect(),
     })
 }
 
-/// By how many times two lengths may differ before one of them is thought to be in another unit.
+/// Ratio of two lengths beyond which one is probably in another unit.
 const OTHER_UNIT: f64 = 100.0;
 
 /// Says so where the largest of `radii` and the `reach` of the contact, m, differ by so much that one of

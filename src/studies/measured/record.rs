@@ -1,4 +1,4 @@
-//! A record of displacements and forces: its cycles, their sense, and the figures of each.
+//! A record of displacements and forces: its cycles, their direction, and the figures of each.
 
 use std::ops::Range;
 use std::str::FromStr;
@@ -6,18 +6,18 @@ use std::str::FromStr;
 use super::{rises, span};
 use crate::math::scan::range;
 
-/// By how many times the distance between its rows a loop may miss its beginning.
+/// Allowed gap between the ends of a loop, in distances between its rows.
 const OPEN: f64 = 3.0;
 
-/// The share of the stroke, from either end, within which a motion counts as turned.
+/// Share of the stroke, from either end, within which a motion counts as turned.
 const NEAR_END: f64 = 0.25;
 
 /// Cycles of a record, counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pick {
-    /// The first one.
+    /// The first cycle.
     pub first: usize,
-    /// The last one.
+    /// The last cycle.
     pub last: usize,
 }
 
@@ -40,17 +40,17 @@ impl FromStr for Pick {
 /// One cycle of a record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cycle {
-    /// Its number in the record, from 1.
+    /// Number in the record, from 1.
     pub number: usize,
     /// Its points.
     pub points: Range<usize>,
     /// Which of them belong to the rising stroke.
     pub rising: Vec<bool>,
-    /// What it tells.
+    /// Its figures.
     pub figures: Figures,
 }
 
-/// What rigs report of a cycle.
+/// Figures that rigs report per cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figures {
     /// E_d, the area of the loop, J.
@@ -109,10 +109,10 @@ impl Figures {
     }
 }
 
-/// The whole cycles of a record.
+/// The complete cycles of a record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
-    /// Each cycle.
+    /// The cycles.
     pub cycles: Vec<Cycle>,
 }
 
@@ -121,11 +121,11 @@ impl Record {
     /// anywhere.
     ///
     /// # Errors
-    /// A record without a whole cycle, in words.
+    /// If the record has no complete cycle, in words.
     pub fn new(u: &[f64], force: &[f64]) -> Result<Self, String> {
         let minima = minima(u);
         let mut whole: Vec<Range<usize>> = minima.windows(2).map(|ends| ends[0]..ends[1]).collect();
-        // The last cycle has the point at which it closes.
+        // The last cycle includes the point at which it closes.
         if let Some(last) = whole.last_mut() {
             last.end = (last.end + 1).min(u.len());
         }
@@ -148,15 +148,15 @@ impl Record {
         })
     }
 
-    /// How many points belong to whole cycles.
+    /// Returns the number of points in complete cycles.
     pub fn points(&self) -> usize {
         self.cycles.iter().map(|cycle| cycle.points.len()).sum()
     }
 
-    /// Keeps the cycles that are picked.
+    /// Keeps the picked cycles.
     ///
     /// # Errors
-    /// Where they are not there, in words.
+    /// If they do not exist, in words.
     pub fn pick(&mut self, pick: Pick) -> Result<(), String> {
         let count = self.cycles.len();
         if pick.last > count {
@@ -169,12 +169,12 @@ impl Record {
         Ok(())
     }
 
-    /// The sum of all areas, J: negative where the loop is traversed backwards.
+    /// Returns the sum of all areas, J: negative if the loop is traversed backwards.
     pub fn area(&self) -> f64 {
         self.cycles.iter().map(|cycle| cycle.figures.energy).sum()
     }
 
-    /// Turns the sense of all cycles.
+    /// Reverses the direction of all cycles.
     pub fn turn(&mut self) {
         for cycle in &mut self.cycles {
             cycle.figures.energy = -cycle.figures.energy;
@@ -186,7 +186,8 @@ impl Record {
     }
 }
 
-/// The points of least displacement between two times at which it is large, those at the ends of the record included.
+/// Returns the points of least displacement between two times at
+/// which it is large, including those at the ends of the record.
 fn minima(u: &[f64]) -> Vec<usize> {
     let [least, most] = range(u.iter().copied()).unwrap_or_default();
     let (low, high) = (
@@ -206,7 +207,7 @@ fn minima(u: &[f64]) -> Vec<usize> {
     found
 }
 
-/// Says so where the end of a record is far from its beginning.
+/// Refuses a record whose end is far from its beginning.
 fn check_closed(u: &[f64], force: &[f64]) -> Result<(), String> {
     let spans = [u, force].map(span);
     let distance =

@@ -2,15 +2,14 @@
 
 use crate::math::scan::value_at;
 
-/// The points of a closed loop at which its motion turns: those of the least and of the largest displacement.
+/// Returns the points of a closed loop at which its motion turns: at the least and the largest displacement.
 fn turns(displacements: &[f64]) -> Option<[usize; 2]> {
     let by_value = |a: &usize, b: &usize| displacements[*a].total_cmp(&displacements[*b]);
     let points = 0..displacements.len();
     Some([points.clone().min_by(by_value)?, points.max_by(by_value)?])
 }
 
-/// Which points of a closed loop belong to the rising stroke: those from its least displacement on to
-/// its largest.
+/// Returns which points of a closed loop belong to the rising stroke, from its least displacement to its largest.
 pub fn rises(displacements: &[f64]) -> Vec<bool> {
     let [least, most] = turns(displacements).unwrap_or_default();
     let rises = |i: usize| match least <= most {
@@ -20,19 +19,19 @@ pub fn rises(displacements: &[f64]) -> Vec<bool> {
     (0..displacements.len()).map(rises).collect()
 }
 
-/// A loop as two functions of the displacement: the stroke there, and the one back.
+/// A loop as two functions of the displacement: the stroke there and the stroke back.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strokes {
-    /// u and F of the rising displacement, in the order of time.
+    /// u and F of the rising stroke, in order of time.
     rising: (Vec<f64>, Vec<f64>),
-    /// u and F of the falling one.
+    /// u and F of the falling stroke.
     falling: (Vec<f64>, Vec<f64>),
     /// The least and the largest displacement.
     pub ends: [f64; 2],
 }
 
 impl Strokes {
-    /// The strokes of a closed loop of displacements and forces; `None` without a point.
+    /// Splits a closed loop of displacements and forces into strokes; `None` without a point.
     pub fn new(points: &[(f64, f64)]) -> Option<Self> {
         let displacements: Vec<f64> = points.iter().map(|point| point.0).collect();
         let [least, most] = turns(&displacements)?;
@@ -49,7 +48,7 @@ impl Strokes {
         })
     }
 
-    /// The force at a displacement on one of the strokes; beyond their ends the one there.
+    /// Returns the force at a displacement on one of the strokes; constant beyond their ends.
     pub fn force(&self, displacement: f64, rising: bool) -> f64 {
         let (shifts, forces) = if rising { &self.rising } else { &self.falling };
         let [least, most] = self.ends;

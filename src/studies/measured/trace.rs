@@ -1,16 +1,16 @@
-//! What a trace over a scar tells of itself: where its middle is, and which sign its wear has.
+//! Properties of a trace over a scar: where its middle is, and the sign of its wear.
 
-/// Places that are tried for the middle of a trace.
+/// Number of candidates for the middle of a trace.
 const PLACES: usize = 200;
 
-/// The share of a trace, at either end, that is taken for unworn where its sign is looked for.
+/// Fraction of a trace, at either end, taken as unworn in finding its sign.
 const OUTER: usize = 10;
 
-/// The part of a trace at either end that its centre cannot lie in: one side of a ring is nearly symmetric, too.
+/// The centre cannot lie within this fraction of either end: one side of a ring is nearly symmetric, too.
 const NO_CENTRE: f64 = 0.35;
 
-/// The centre of a trace that is symmetric but for noise: where both sides differ least. The abscissae rise. Of worn
-/// depths the line through both ends is taken off before.
+/// Finds the centre of a trace that is symmetric except for noise: where both sides differ least. The abscissae rise.
+/// From worn depths, the line through both ends is subtracted first.
 pub fn centre(x: &[f64], values: &[f64], is_worn: bool) -> f64 {
     let (first, last) = (x[0], x[x.len() - 1]);
     let length = last - first;
@@ -39,7 +39,7 @@ pub fn centre(x: &[f64], values: &[f64], is_worn: bool) -> f64 {
         };
         values[above - 1] + share * (values[above] - values[above - 1])
     };
-    // The squares of both sides' difference, over those of their distance from the mean.
+    // Squared differences of both sides, relative to their squared distances from the mean.
     let asymmetry = |centre: f64| {
         let reach = (centre - first).min(last - centre);
         let pairs = (0..=PLACES).map(|i| reach * i as f64 / PLACES as f64);
@@ -70,7 +70,7 @@ pub(super) fn is_downwards(x: &[f64], values: &[f64]) -> bool {
     let mut ends: Vec<f64> = ends.copied().collect();
     ends.sort_by(f64::total_cmp);
     let base = ends[ends.len() / 2];
-    // Means of neighbours, against noise.
+    // Averages neighbours, to reduce noise.
     let smooth = values
         .windows(outer.min(5))
         .map(|part| part.iter().sum::<f64>() / part.len() as f64 - base);

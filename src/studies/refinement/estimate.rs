@@ -1,7 +1,7 @@
 //! Estimates the error of a run from coarser twins.
 //!
-//! Two twins, one [coarser](TWIN) in cells and steps and one coarser still, give two differences, which tell the error as
-//! rungs of the [ladder](super::climb) do. A run too coarse for that is compared with a finer twin instead.
+//! Two twins, one [coarser](TWIN) in cells and steps and one coarser still, give two differences, from which the error
+//! follows as on the [ladder](super::climb). A run too coarse for that is compared with a finer twin instead.
 
 use super::ladder::TWIN;
 use super::level::{Level, at_steps};
@@ -11,13 +11,13 @@ use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Change, Scenario};
 use crate::simulation::Spacing;
 
-/// The fewest cells and steps that a twin is any good with.
+/// Minimum cells and steps for a useful twin.
 const COARSEST: (usize, u32) = (8, 4);
 
 /// Estimates the error of a run at its present moment.
 ///
 /// # Errors
-/// If the twin cannot be run, or if `go_on` said no on the way.
+/// If the twin cannot be run, or if `go_on` returns false before the end.
 pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Difference, SessionError> {
     let level = Level::of(session.loaded());
     let cycle = session.simulation().cycle();
@@ -28,7 +28,7 @@ pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Differenc
     };
     let coarser = TWIN.recip();
     if !level.can_be(coarser * coarser) {
-        // The error of the coarser one is that of the finer one and the difference.
+        // The error of the coarser run is the finer run's error plus the difference.
         let twin = ended(TWIN)?;
         let difference = here.against(&twin);
         let finer = difference.error_of_finer(ratio(&here, &twin));
@@ -44,7 +44,7 @@ pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Differenc
             Ok(error.as_estimate())
         }
         Err(SessionError::Interrupted) => Err(SessionError::Interrupted),
-        // If the coarsest breaks down, it only stays unseen that two numbers may agree by chance.
+        // If the coarsest one breaks down, only a chance agreement of two numbers may go unnoticed.
         Err(_) => Ok(by_twin(&twin, &here)),
     }
 }
@@ -54,12 +54,12 @@ pub fn by_twin(twin: &Outcome, run: &Outcome) -> Difference {
     twin.against(run).error_of_finer(ratio(twin, run))
 }
 
-/// How many times finer one of two runs is; rounding to whole cells makes this differ from [`TWIN`].
+/// Returns how many times finer one of two runs is; rounding to whole cells makes this differ from [`TWIN`].
 fn ratio(coarse: &Outcome, fine: &Outcome) -> f64 {
     fine.grid.cells() as f64 / coarse.grid.cells() as f64
 }
 
-/// The run with fewer cells and steps by [`TWIN`], at its start; `None` if it is too coarse for one.
+/// Returns the run with fewer cells and steps by [`TWIN`], at its start; `None` if that would be too coarse.
 pub fn twin(session: &Session) -> Option<Result<Session, SessionError>> {
     let coarser = TWIN.recip();
     let can_be = Level::of(session.loaded()).can_be(coarser);
@@ -67,7 +67,7 @@ pub fn twin(session: &Session) -> Option<Result<Session, SessionError>> {
 }
 
 impl Level {
-    /// Whether a twin of `factor` times its cells and steps is any good.
+    /// Whether a twin with `factor` times its cells and steps is useful.
     fn can_be(&self, factor: f64) -> bool {
         let (cells, steps) = COARSEST;
         self.points as f64 * factor >= cells as f64
@@ -75,13 +75,13 @@ impl Level {
     }
 }
 
-/// The run as a scenario with `factor` times its cells and steps, including the changes made to it.
+/// Returns the scenario of the run with `factor` times its cells and steps, including the changes made to it.
 fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
     let loaded = session.loaded();
     let mut level = Level::of(loaded);
     let setup = session.simulation().setup();
-    // Cells that a pilot has placed keep their spacing: another pilot would place those of the twin elsewhere, and the
-    // difference would be that of the places. A node on a stick border is found anew, and so are nodes after a change.
+    // Cells placed by a pilot keep their spacing: another pilot would place the twin's cells elsewhere, and the
+    // difference would measure the placement. A node on a stick border is placed again, as are nodes after a change.
     let is_placed = setup.spacing == Spacing::Graded && setup.grid.border().is_none();
     if is_placed && session.changes().is_empty() {
         level.nodes = Some(setup.grid.clone());

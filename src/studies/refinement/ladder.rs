@@ -1,8 +1,8 @@
 //! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
-//! The first rung comes with two twins, one on fewer cells and one of fewer steps, so that the errors of cells and of time
-//! are known apart. Each further rung refines what dominates. A search whose time is limited begins with the coarsest
-//! rung whatever the accuracy, so that more time never gives a worse result.
+//! The first rung comes with twins, one with fewer cells and one with fewer steps, so that the errors of cells and time
+//! are known separately. Each further rung refines the dominant source. A search with limited time begins with the
+//! coarsest rung whatever the accuracy, so that more time never gives a worse result.
 
 use std::time::Instant;
 
@@ -16,60 +16,61 @@ use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::{Integrator, placing};
+use crate::scenario::spec::Passage;
+use crate::simulation::placing;
 
-/// The order by which the next rung is chosen.
+/// The order of convergence expected in choosing the next rung.
 const EXPECTED_ORDER: f64 = 1.7;
 
-/// The estimate must be below this part of the accuracy: it is itself a measurement with an error.
+/// The estimate must be below this fraction of the accuracy, since it has an error itself.
 const MARGIN: f64 = 0.8;
 
-/// The accuracy that the coarsest first rung is chosen for.
+/// The accuracy for which the coarsest first rung is chosen.
 const COARSE: f64 = 1e-2;
 
-/// A last rung that may cost less than this many times the one before it is not worth its time.
+/// A last rung is not worth its time if it may cost less than this many times the previous one.
 const LEAST_GAIN: f64 = 1.5;
 
-/// The run that places the first nodes: this many times the cells and steps of the first rung's twin. Cells are
-/// what it must see the scar with.
+/// Cells and steps of the run that places the first nodes, relative to the first rung: it needs enough cells to resolve
+/// the scar.
 const PILOT: Ratio = [1.0, 0.5, 1.0];
 
-/// What a rung that is run again takes of a budget, in units of its time: no two runs take the same.
+/// Time budgeted for a rung that is run again, in units of its time: above 2, since no two runs take the same.
 const TWICE: f64 = 2.2;
 
-/// Runs of this many periods of the motion jump over cycles.
+/// Runs of at least this many periods of the motion jump over cycles.
 const WORTH_JUMPING: f64 = 100.0;
 
-/// How much finer the next rung is, at least and at most.
+/// Minimum and maximum refinement of the next rung.
 const STRIDE: (f64, f64) = (1.6, 3.0);
 
-/// The twins of a rung are this much coarser. By a whole number, both would see the same moments and radii, and their
+/// How much coarser the twins of a rung are. With a whole number, both would use the same moments and radii, and their
 /// difference would not show what both miss.
 pub(super) const TWIN: f64 = 1.7;
 
-/// The finest level that is tried.
+/// The finest level tried.
 const MOST_POINTS: usize = 20_000;
 const MOST_STEPS: u32 = 100_000;
 
-/// The ladder ends after this many rungs in a row without progress.
+/// The ladder ends after this many consecutive rungs without progress.
 const MOST_STALLS: u32 = 3;
 
 /// Why a ladder ends.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// The accuracy is met.
+    /// The accuracy has been met.
     Met,
     /// The time is up.
     OutOfTime,
-    /// The user ended the search; only one that [a run follows](Budget::for_run) ends so.
+    /// The user interrupted a search that [a run follows](Budget::for_run).
     Interrupted,
-    /// The finest level is reached.
+    /// The finest level has been reached.
     Finest,
-    /// Finer levels come no nearer.
+    /// Finer levels no longer come nearer.
     Stalled,
-    /// Nothing has worn: there is no scar to be right about.
+    /// Nothing has worn, so there is no scar to resolve.
     Unworn,
-    /// No level could be run to the end, for this reason.
+    /// No level could be run to the end; the reason.
     Failed(String),
 }
 
@@ -80,7 +81,7 @@ pub struct Reached {
     pub rung: Rung,
     /// Its estimated error.
     pub error: Difference,
-    /// Whether the accuracy is met, or why the ladder ended before.
+    /// Whether the accuracy was met, or why the ladder ended first.
     pub verdict: Verdict,
     /// The time of the search, s.
     pub seconds: f64,
@@ -89,10 +90,10 @@ pub struct Reached {
 /// Why a search has no result.
 #[derive(Debug, Error)]
 pub enum SearchError {
-    /// Its time was up before the coarsest level came to its end.
+    /// Time ran out before the coarsest level finished.
     #[error("no level of refinement ended in time")]
     Unended(Level),
-    /// A level that is refused, or none that runs to its end, or an interrupt.
+    /// A level was refused, no level finished, or an interrupt.
     #[error(transparent)]
     Session(#[from] SessionError),
 }
@@ -106,10 +107,10 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// As long as it takes.
+    /// No limit.
     pub const UNLIMITED: Self = Self::of_search(f64::INFINITY);
 
-    /// At most so many seconds for the search alone.
+    /// Limits the search alone to this many seconds.
     pub const fn of_search(seconds: f64) -> Self {
         Self {
             seconds,
@@ -117,7 +118,7 @@ impl Budget {
         }
     }
 
-    /// At most so many seconds for the search and the run that follows on the level it finds. An interrupt ends such a
+    /// Limits the search plus the run that follows on the level found to this many seconds. An interrupt ends such a
     /// search with the best level so far.
     pub const fn for_run(seconds: f64) -> Self {
         Self {
@@ -126,7 +127,7 @@ impl Budget {
         }
     }
 
-    /// The seconds, which may be infinite.
+    /// Returns the seconds, which may be infinite.
     pub fn seconds(self) -> f64 {
         self.seconds
     }
@@ -135,19 +136,19 @@ impl Budget {
         self.seconds.is_finite()
     }
 
-    /// What a level may take if `spent` seconds are over.
+    /// Returns the time that a level may take after `spent` seconds.
     fn left(self, spent: f64) -> f64 {
         (self.seconds - spent) / if self.runs_again { TWICE } else { 1.0 }
     }
 }
 
-/// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an
-/// estimated error of at most `accuracy`, or the `budget` is spent: then the last level that came
-/// to its end is the result. `go_on` is asked at every step; if it says no, there is no result, unless a run follows.
+/// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an estimated error
+/// of at most `accuracy`, or the `budget` is spent: the result is then the last level that finished. `go_on` is called
+/// at every step; if it returns false, there is no result, unless a run follows.
 ///
 /// # Errors
-/// [`SearchError::Unended`] if the budget ends before the coarsest level does; if a level is refused, if no level runs to
-/// its end, or on an interrupt.
+/// [`SearchError::Unended`] if the budget ends before the coarsest level does; an error if a level is refused, if no
+/// level finishes, or on an interrupt.
 pub fn run_to_accuracy(
     scenario: &Scenario,
     cycles: f64,
@@ -160,10 +161,10 @@ pub fn run_to_accuracy(
     climb(scenario, cycles, accuracy, budget, go_on, &clock)
 }
 
-/// [`run_to_accuracy`] with the seconds of another clock.
+/// As [`run_to_accuracy`], with the seconds of another clock.
 ///
 /// # Errors
-/// As there.
+/// As for [`run_to_accuracy`].
 pub fn climb(
     scenario: &Scenario,
     cycles: f64,
@@ -189,15 +190,15 @@ pub fn climb(
 /// Why a level has no result.
 #[derive(Debug)]
 enum Failure {
-    /// The time was up in the middle of it.
+    /// Time ran out during the level.
     Late,
-    /// It could not be run to its end, for this reason.
+    /// It could not be run to the end; the reason.
     Broken(String),
     /// The whole search ends.
     Over(SessionError),
 }
 
-/// Runs a scenario to a cycle, as long as it is told to go on.
+/// Runs a scenario to a cycle while its callback returns true.
 type Run<'a> = dyn Fn(&Scenario, f64, &dyn Fn() -> bool) -> Result<Session, SessionError> + 'a;
 
 /// Chooses levels, runs and judges them.
@@ -208,9 +209,9 @@ struct Ladder<'a> {
     budget: Budget,
     run: &'a Run<'a>,
     go_on: &'a dyn Fn() -> bool,
-    /// The time since the search began, s.
+    /// Time since the search began, s.
     spent: &'a dyn Fn() -> f64,
-    /// How many levels in a row could not be run to their end.
+    /// Number of consecutive levels that could not be run to the end.
     failures: u32,
 }
 
@@ -238,7 +239,7 @@ impl Ladder<'_> {
                 Ok(rung) => {
                     let sources = top.errors_of(&rung);
                     let next = Top { rung, sources };
-                    // Where nothing wears, work and forces come nearer for ever; what is near enough ends that.
+                    // If nothing wears, work and forces keep converging; stop once they are near enough.
                     let is_enough = next.promised() <= MARGIN * self.accuracy;
                     let is_nearer = next.promised() < 0.9 * top.promised()
                         && !(next.is_unworn() && is_enough)
@@ -278,7 +279,7 @@ impl Ladder<'_> {
         !self.budget.is_limited() && finest > self.accuracy
     }
 
-    /// The first rung: finer after one that breaks down.
+    /// Runs the first rung, refining it until it does not break down.
     fn first(&mut self) -> Result<Top, SearchError> {
         let aim = match self.budget.is_limited() {
             true => self.accuracy.max(COARSE),
@@ -324,7 +325,7 @@ impl Ladder<'_> {
         Ok(Top { rung, sources })
     }
 
-    /// Runs a level, and leaves it where it takes more than is left of the budget.
+    /// Runs a level, and abandons it when it exceeds the remaining budget.
     fn run(&mut self, level: &Level) -> Result<Rung, Failure> {
         let (go_on, spent) = (self.go_on, self.spent);
         let start = spent();
@@ -354,8 +355,8 @@ impl Ladder<'_> {
         }
     }
 
-    /// Whether there is time for the level `planned` after `top`, as far as that tells; a level that would take too
-    /// long is made coarser, if what is left of it is worth its time.
+    /// Whether there is time for the level `planned` after `top`, judging by the time of `top`. A level that would take
+    /// too long is made coarser, if the remaining refinement is worth its time.
     fn affordable(&self, planned: &mut Level, top: &Top) -> bool {
         let left = self.budget.left((self.spent)()) / top.rung.seconds;
         let ratio = planned.ratio(&top.rung.level);
@@ -374,21 +375,21 @@ impl Ladder<'_> {
         }
     }
 
-    /// The shape that nodes are placed for; `None` if the scenario says where they lie.
+    /// Returns the shape to place nodes for; `None` if the scenario determines the nodes.
     fn placing(&self) -> Option<&Indenter> {
         let setup = self.scenario.setup();
-        let is_open = self.scenario.value("numerics.grid").is_none();
+        let is_open = self.scenario.spec().numerics.grid.is_none();
         (setup.method == AbelMethod::Product && is_open).then_some(&setup.indenter)
     }
 
-    /// The nodes of a level with `cells` cells after a run that ended so; `None` if it shows no scar, or one that they
-    /// would not see.
+    /// Places nodes for a level with `cells` cells after a run with this outcome; `None` if there is no scar, or the
+    /// nodes would not resolve it.
     fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
         let grid = placing::place(&outcome.grid, &outcome.profile, cells, self.placing()?)?;
         outcome.is_seen_by(&grid).then_some(grid)
     }
 
-    /// The level after a rung: finer in what uses up more than its share, where all have equal ones.
+    /// Plans the level after a rung: finer in each source whose error exceeds its equal share.
     fn plan(&self, top: &Top) -> Level {
         let allowed = MARGIN * self.accuracy / (top.sources.len() as f64).sqrt();
         let mut finer = [1.0; 3];
@@ -403,13 +404,13 @@ impl Ladder<'_> {
         if top.is_unworn() {
             finer = [STRIDE.1, STRIDE.0, 1.0];
         } else if finer == [1.0; 3] && outcome.imbalance > MARGIN * self.accuracy {
-            // V and k E_d differ where an edge lies between two nodes, or where a step or a jump is too long.
+            // V and k E_d differ if an edge lies between two nodes, or if a step or a jump is too long.
             finer = [STRIDE.0; 3];
         }
         self.finer(top, finer)
     }
 
-    /// The level of a rung refined by `ratio`, its cells placed by the rung's scar.
+    /// Refines the level of a rung by `ratio`, and places its cells by the rung's scar.
     fn finer(&self, top: &Top, ratio: Ratio) -> Level {
         let Rung { level, outcome, .. } = &top.rung;
         let mut finer = level.refined(ratio);
@@ -421,7 +422,7 @@ impl Ladder<'_> {
 }
 
 impl Level {
-    /// The tolerance of jumps is measured in depths, the accuracy in the depth of the scar.
+    /// Converts the accuracy, relative to the scar's depth, to a tolerance of jumps, relative to the contact's depth.
     fn settle_tolerance(&mut self, aim: f64, outcome: &Outcome) {
         let scar = outcome.scar_depth() / outcome.depth;
         if let Some(tolerance) = &mut self.tolerance
@@ -432,22 +433,22 @@ impl Level {
     }
 }
 
-/// A level coarser in one source than the one beside it.
+/// The refinement of a twin, which is coarser in one source.
 fn coarser(source: usize) -> Ratio {
     let mut ratio = [1.0; 3];
     ratio[source] = 1.0 / TWIN;
     ratio
 }
 
-/// The first rung that is any good for a scene.
+/// Returns the first level that is useful for a scene.
 fn first(scenario: &Scenario, cycles: f64, accuracy: f64) -> Level {
     let setup = scenario.setup();
     let finer = (COARSE / accuracy).max(1.0);
     let turns = setup.drive.frequency_ratio().max(1.0);
     let period = setup.drive.repeats_after().map(f64::from);
     let is_long = period.is_some_and(|period| cycles >= WORTH_JUMPING * period);
-    let jumps = match scenario.value("numerics.integrator") {
-        Some(_) => matches!(setup.integrator, Integrator::CycleJump { .. }),
+    let jumps = match scenario.spec().numerics.integrator {
+        Some(passage) => passage == Passage::CycleJump,
         None => is_long && setup.wear.is_some() && setup.drive.tangential().is_some(),
     };
     let points = (20.0 * finer.powf(0.4)).round() as usize;
@@ -462,7 +463,7 @@ mod tests {
     use super::*;
     use crate::scenario::Refusal;
 
-    /// A level that breaks down is followed by a finer one, and a scenario that always does has no result.
+    /// After a level that breaks down, a finer one follows; a scenario that always breaks down has no result.
     #[test]
     fn failures_climb_too_and_end() {
         let tried = RefCell::new(Vec::new());

@@ -1,20 +1,21 @@
-//! How finely a scenario is computed: cells, steps and the tolerance of jumps.
+//! The resolution of a computation: cells, steps and the tolerance of jumps.
 
 use crate::math::grid::{MAX_CELLS, MIN_CELLS, RadialGrid};
+use crate::scenario::spec::{Numerics, Passage};
 use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Spacing};
 
-/// The fewest steps per cycle that are tried.
+/// Minimum number of steps per cycle.
 const MIN_STEPS: u32 = 4;
 
-/// The largest tolerance that a scenario may have.
+/// Maximum tolerance of a scenario.
 pub(super) const MOST_TOLERANT: f64 = 0.1;
 
-/// How much finer one level is than another, in cells, in steps per cycle and in jumps over the same cycles.
+/// How much finer one level is than another: in cells, in steps per cycle, and in jumps over the same cycles.
 pub(super) type Ratio = [f64; 3];
 
-/// The error of a jump is of third order in its length, so this many times the jumps go with a tolerance smaller by
-/// their third power.
+/// The error of a jump is of third order in its length, so this many times the jumps require a tolerance smaller by the
+/// third power.
 const ORDER_OF_A_JUMP: f64 = 3.0;
 
 /// One level of refinement.
@@ -26,12 +27,12 @@ pub struct Level {
     pub steps: u32,
     /// The tolerance of jumps over cycles, in units of the depth; `None` if every cycle is stepped.
     pub tolerance: Option<f64>,
-    /// The nodes, where a coarser run has placed them.
+    /// The nodes, if a coarser run has placed them.
     pub nodes: Option<RadialGrid>,
 }
 
 impl Level {
-    /// A level without nodes of its own.
+    /// Makes a level without placed nodes.
     pub fn new(points: usize, steps: u32, tolerance: Option<f64>) -> Self {
         Self {
             points,
@@ -41,7 +42,7 @@ impl Level {
         }
     }
 
-    /// The level of a scenario as it stands.
+    /// Returns the level of a scenario.
     pub fn of(scenario: &Scenario) -> Self {
         let setup = scenario.setup();
         Self {
@@ -55,8 +56,8 @@ impl Level {
         }
     }
 
-    /// The same with `cells` times the cells and `time` times the steps, and with jumps to match, within what a scenario
-    /// may have.
+    /// Returns the level with `cells` times the cells and `time` times the steps, and with jumps to match, within the
+    /// limits of a scenario.
     #[must_use]
     pub fn scaled(&self, cells: f64, time: f64) -> Self {
         let tolerance = self.tolerance.map(|tolerance| at_steps(tolerance, time));
@@ -66,12 +67,12 @@ impl Level {
         }
     }
 
-    /// How many sources of error it has: cells and steps, and jumps if there are any.
+    /// Returns the number of error sources: cells and steps, and jumps if there are any.
     pub(super) fn sources(&self) -> usize {
         2 + usize::from(self.tolerance.is_some())
     }
 
-    /// The same, finer by a ratio each, within what a scenario may have. Nodes keep their spacing.
+    /// Returns the level refined by the given ratios, within the limits of a scenario. Nodes keep their spacing.
     #[must_use]
     pub(super) fn refined(&self, [cells, steps, jumps]: Ratio) -> Self {
         let points = (self.points as f64 * cells).round();
@@ -92,7 +93,7 @@ impl Level {
         }
     }
 
-    /// How much finer this level is than another one.
+    /// Returns how much finer this level is than a `coarse` one.
     pub(super) fn ratio(&self, coarse: &Self) -> Ratio {
         let jumps = match (self.tolerance, coarse.tolerance) {
             (Some(fine), Some(coarse)) => (coarse / fine).powf(1.0 / ORDER_OF_A_JUMP),
@@ -105,41 +106,34 @@ impl Level {
         ]
     }
 
-    /// The keys of a scenario and their values.
-    pub fn keys(&self) -> Vec<(&'static str, String)> {
-        let jumps = |tolerance| Integrator::CycleJump { tolerance };
-        let integrator = self.tolerance.map_or(Integrator::Direct, jumps);
-        let mut keys = vec![
-            ("numerics.points", self.points.to_string()),
-            ("numerics.steps_per_cycle", self.steps.to_string()),
-            ("numerics.integrator", integrator.name().to_owned()),
-        ];
-        let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
-        keys.extend(tolerance.map(|tolerance| ("numerics.tolerance", tolerance)));
-        // Last: another number of points would take their place.
-        if let Some(grid) = &self.nodes {
-            let nodes: Vec<String> = grid.nodes().iter().map(|r| format!("{r:e}")).collect();
-            keys.push(("numerics.nodes", format!("[{}]", nodes.join(", "))));
-        }
-        keys
+    /// Puts the numerics of a scenario on this level.
+    pub fn set(&self, numerics: &mut Numerics) {
+        numerics.accuracy = None;
+        numerics.points = Some(self.points);
+        numerics.steps_per_cycle = Some(self.steps);
+        let jumps = self.tolerance.map(|_| Passage::CycleJump);
+        numerics.integrator = jumps.or(Some(Passage::Direct));
+        numerics.tolerance = self.tolerance.or(numerics.tolerance);
+        numerics.nodes = self.nodes.as_ref().map(|grid| grid.nodes().to_vec());
+        numerics.grid = numerics.grid.filter(|_| self.nodes.is_none());
     }
 
-    /// The scenario on this level; its changes stay.
+    /// Returns the scenario on this level, including its changes.
     ///
     /// # Errors
     /// If the scenario's method or shape does not allow this many cells.
     pub fn of_scenario(&self, scenario: &Scenario) -> Result<Scenario, Refusal> {
-        scenario.with_all(&self.keys())
+        scenario.edited(|spec| self.set(&mut spec.numerics))
     }
 }
 
-/// The tolerance of jumps that goes with `time` times the steps. It bounds the error of a jump, which so falls about
-/// as the error of the steps does; a higher power of `time` makes jumps shorter than the steps are worth.
+/// Returns the tolerance of jumps for `time` times the steps. It bounds the error of a jump, which so falls about as
+/// the error of the steps does; a higher power of `time` would make jumps shorter than the steps justify.
 pub(super) fn at_steps(tolerance: f64, time: f64) -> f64 {
     rounded((tolerance / time).clamp(1e-12, MOST_TOLERANT))
 }
 
-/// Two digits: no more than anybody would write.
+/// Rounds to two digits, as people write them.
 fn rounded(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }

@@ -1,7 +1,7 @@
 //! Errors measured by refinement: the same scenario on other levels of cells and steps.
 //!
-//! Nothing is assumed about a scenario. A ladder of levels is [climbed](climb) from coarse to fine until the measured
-//! error is as small as `numerics.accuracy` asks for.
+//! This assumes nothing about a scenario: it [climbs](climb) a ladder of levels from coarse to fine until the measured
+//! error is as small as `numerics.accuracy` requires.
 
 mod estimate;
 mod ladder;

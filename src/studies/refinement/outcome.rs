@@ -1,4 +1,4 @@
-//! The quantities by which two runs of a scenario are compared: those of [`Quantity`].
+//! The quantities by which two runs of a scenario are compared: see [`Quantity`].
 
 use std::ops::Index;
 
@@ -15,67 +15,67 @@ use crate::simulation::Simulation;
 /// Radii at which scars and pressures are compared.
 const RADII: usize = 401;
 
-/// Moments of the last cycle at which forces are compared; the [fine period](Simulation::fine_period) has a point at each.
+/// Moments of the last cycle at which forces are compared; the [fine period](Simulation::fine_period) includes them.
 const MOMENTS: usize = 20;
 
-/// p is compared this far from the axis, the stick border and the contact's edge, in contact radii: there p or its slope
-/// is singular, and what a node shows depends on where it lies.
+/// p is not compared within this distance, in contact radii, of the axis, the stick border and the contact's edge:
+/// there p or its slope is singular, and nodal values depend on where the node lies.
 const BORDER: f64 = 0.05;
 
-/// E_d and the loop's area are told relative to at least this part of 4μF_zU: what rubs no more than that is a line to
-/// any rig.
+/// Errors of E_d and of the loop's area are relative to at least this fraction of 4μF_zU: a rig sees a thinner loop as
+/// a line.
 const LEAST_AREA: f64 = 1e-3;
 
-/// V and E_d err by at least this part of what the worn depth does.
+/// Lower bound on the error of V and E_d, relative to the error of the worn depth.
 const OF_SCAR: f64 = 0.3;
 
-/// The deepest wear errs by at least this part of what the worn depth does, rms: it is one node's.
+/// Lower bound on the error of the deepest wear, which is one node's, relative to the rms error of the worn depth.
 const OF_DEEPEST: f64 = 1.0;
 
-/// The order that an error is estimated by. Orders of 1.5 to 2 are usual, so that estimates are twice the true error in
-/// the median. An order that is read from two differences is no better, since neighbouring levels scatter.
+/// The order assumed in estimating errors. Orders of 1.5 to 2 are usual, so estimates are twice the true error in the
+/// median. An order inferred from two differences is no better, since neighbouring levels scatter.
 const ORDER: f64 = 1.1;
 
-/// No error falls faster than with this order; what seems to is a coincidence of two runs.
+/// Errors cannot fall with a higher order; if they seem to, two runs agree by chance.
 const HIGHEST_ORDER: f64 = 2.0;
 
-/// A grid sees a scar if its volume there differs by less than this part.
+/// A grid resolves a scar if its volume on the grid is off by less than this fraction.
 const SEEN: f64 = 0.5;
 
-/// How a run ended.
+/// The state of a run at its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     pub(super) grid: RadialGrid,
-    /// Worn depth at the nodes, m, with the scar that the run began with.
+    /// Worn depth at the nodes, m, including the scar that the run began with.
     pub(super) profile: Vec<f64>,
-    /// What has worn of it since, m.
+    /// Wear since then, m.
     pub(super) wear: Vec<f64>,
-    /// V that the run itself has worn, m³.
+    /// V worn by the run itself, m³.
     pub volume: f64,
     /// E_d, J.
     work: f64,
     /// Cycles.
     cycles: f64,
-    /// How far V is from k E_d, relative to it: two computations of one number.
+    /// Relative difference of V and k E_d, two computations of one number.
     pub imbalance: f64,
     last: LastCycle,
     pressure: Vec<f64>,
     /// a, m.
     radius: f64,
-    /// The stick radii of the moment and permanent, m; 0 without tangential motion.
+    /// Stick radii, present and permanent, m; 0 without tangential motion.
     stick_radii: [f64; 2],
-    /// d or the present depth, m: what the tolerance of jumps is measured in.
+    /// d or the present depth, m, to which the tolerance of jumps is relative.
     pub depth: f64,
 }
 
-/// The last fretting loop, as far as it is compared; empty without tangential motion.
+/// The compared values of the last fretting loop; empty without tangential motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct LastCycle {
-    /// F_x at [`MOMENTS`] even parts of the last cycle, N.
+    /// F_x at [`MOMENTS`] equidistant moments of the last cycle, N.
     forces: Vec<f64>,
-    /// μF_z at its largest, N.
+    /// Largest μF_z, N.
     friction: f64,
-    /// The area of the loop, per cycle, J.
+    /// Area of the loop, per cycle, J.
     area: f64,
     /// 4μF_zU, J.
     sliding: f64,
@@ -101,10 +101,10 @@ impl LastCycle {
         }
     }
 
-    /// The largest difference of forces from another cycle, N.
+    /// Returns the largest difference of the forces from another cycle's, N.
     fn force_difference(&self, other: &Self) -> f64 {
         let pairs = self.forces.iter().zip(&other.forces);
-        // NaN stays.
+        // Keeps NaN, unlike a fold by `f64::max`.
         pairs
             .map(|(a, b)| (a - b).abs())
             .max_by(f64::total_cmp)
@@ -112,7 +112,7 @@ impl LastCycle {
     }
 }
 
-/// How far a run is from another one: the error of each [`Quantity`].
+/// The difference between two runs: the error of each [`Quantity`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Difference([f64; Quantity::COUNT]);
 
@@ -125,25 +125,25 @@ impl Index<Quantity> for Difference {
 }
 
 impl Difference {
-    /// The largest of those that an accuracy promises; NaN if one of them is.
+    /// Returns the largest error of the quantities that an accuracy guarantees; NaN if one of them is NaN.
     pub fn promised(&self) -> f64 {
         self.worst(Quantity::is_promised)
     }
 
-    /// The largest of those about wear.
+    /// Returns the largest error of the quantities of wear.
     pub fn of_wear(&self) -> f64 {
         self.worst(Quantity::is_of_wear)
     }
 
     fn worst(&self, counts: impl Fn(Quantity) -> bool) -> f64 {
         let counted = Quantity::ALL.iter().filter(|&&of| counts(of));
-        // In this order NaN is the largest.
+        // `total_cmp` sorts NaN last.
         let worst = counted.map(|&of| self[of]).max_by(f64::total_cmp);
         worst.unwrap_or_default()
     }
 
-    /// As an estimate. V and E_d are integrals of one scar: where two runs differ in its depth, that theirs agree is
-    /// chance.
+    /// Turns the difference into an estimate. V and E_d are integrals of the same scar: if two runs differ in its depth
+    /// but not in these, that is chance.
     pub(super) fn as_estimate(&self) -> Self {
         let mut estimate = *self;
         for (of, least) in [
@@ -157,12 +157,13 @@ impl Difference {
         estimate
     }
 
-    /// The error of the finer one of two levels that differ by this, the one `ratio` times finer: D/(ρᵖ − 1).
+    /// Estimates the error of the finer of two levels with this difference, the one `ratio` times finer: D/(ρᵖ − 1).
     pub(super) fn error_of_finer(&self, ratio: f64) -> Self {
         self.with(self, |d, _| d / (ratio.powf(ORDER) - 1.0))
     }
 
-    /// The same where the coarser one has an error of `before`, of which at least 1/ρ² is left.
+    /// As [`error_of_finer`](Self::error_of_finer), if the coarser
+    /// level has the error `before`: at least 1/ρ² of it remains.
     pub(super) fn error_above(&self, before: &Self, ratio: f64) -> Self {
         let left = ratio.powf(-HIGHEST_ORDER);
         let error = self.error_of_finer(ratio);
@@ -176,7 +177,7 @@ impl Difference {
 }
 
 impl Outcome {
-    /// The present moment of a run.
+    /// Records the present moment of a run.
     pub fn of(session: &Session) -> Self {
         let simulation = session.simulation();
         let (setup, moment) = (simulation.setup(), simulation.moment());
@@ -197,12 +198,12 @@ impl Outcome {
         }
     }
 
-    /// The largest new worn depth, m.
+    /// Returns the largest new worn depth, m.
     pub fn scar_depth(&self) -> f64 {
         largest(&self.wear)
     }
 
-    /// Whether the nodes of a grid see about as much of the scar as there is.
+    /// Whether the nodes of a grid resolve most of the scar.
     pub(super) fn is_seen_by(&self, grid: &RadialGrid) -> bool {
         let volume =
             |grid: &RadialGrid, depth: &[f64]| weighted(&worn::volume_weights(grid), depth);
@@ -214,7 +215,7 @@ impl Outcome {
         (1.0 - SEEN..1.0 + SEEN).contains(&ratio)
     }
 
-    /// Where the scar begins and ends, m, if there is one.
+    /// Returns where the scar begins and ends, m, if there is one.
     fn scar(&self) -> Option<(f64, f64)> {
         let least = worn::SCAR * self.scar_depth();
         let is_worn = |&wear: &f64| wear > least;
@@ -225,7 +226,7 @@ impl Outcome {
         Some((self.grid.nodes()[before], self.grid.nodes()[after]))
     }
 
-    /// How far this run is from a finer one, in the finer one's measures.
+    /// Returns the difference of this run from a finer one, in units of the finer one.
     pub fn against(&self, fine: &Self) -> Difference {
         let least = LEAST_AREA * fine.last.sliding;
         let stick = self.stick_radii.iter().zip(&fine.stick_radii);
@@ -239,7 +240,7 @@ impl Outcome {
             Quantity::Energy => relative(self.work - fine.work, fine.work.max(least * fine.cycles)),
             Quantity::Force => relative(
                 self.last.force_difference(&fine.last),
-                // At the moment of lift-off one of the two may carry no force at all.
+                // At lift-off one of the two may carry no force at all.
                 fine.last.friction.max(self.last.friction),
             ),
             Quantity::Loop => relative(self.last.area - fine.last.area, fine.last.area.max(least)),
@@ -249,7 +250,7 @@ impl Outcome {
         }))
     }
 
-    /// The largest difference of p away from borders, relative to the largest p there.
+    /// Returns the largest difference of p away from borders, relative to the largest p there.
     fn pressure_difference(&self, fine: &Self) -> f64 {
         let away = BORDER * fine.radius;
         let end = self.radius.min(fine.radius) - away;
@@ -267,7 +268,7 @@ impl Outcome {
         relative(difference, most)
     }
 
-    /// The rms difference of the worn depth over both scars, m.
+    /// Returns the rms difference of the worn depth over both scars, m.
     fn worn_difference(&self, fine: &Self) -> f64 {
         let (here, there) = (self.scar(), fine.scar());
         let both = here.into_iter().chain(there);
@@ -284,7 +285,7 @@ impl Outcome {
     }
 }
 
-/// A difference relative to a size; 0 of none.
+/// Returns a difference relative to a size; 0 if there is no difference.
 fn relative(difference: f64, size: f64) -> f64 {
     match difference.abs() {
         0.0 => 0.0,
@@ -302,11 +303,11 @@ mod tests {
 
     #[test]
     fn differences_tell_errors_of_the_usual_order_and_no_coincidence() {
-        // e(h) = hᵖ: a ratio of 2 makes a difference of 2ᵖ − 1 for an error of 1 of the finer level.
+        // e(h) = hᵖ: with a ratio of 2 an error of 1 of the finer level gives a difference of 2ᵖ − 1.
         let difference = all(2f64.powf(ORDER) - 1.0);
         assert!((difference.error_of_finer(2.0).promised() - 1.0).abs() < 1e-12);
         assert_eq!(difference.error_above(&all(3.0), 2.0).promised(), 1.0);
-        // Two levels that agree have a quarter of the error of the one below, not none.
+        // If two levels agree, a quarter of the coarser one's error remains.
         assert_eq!(all(0.0).error_above(&all(1.0), 2.0).promised(), 0.25);
     }
 }

@@ -1,39 +1,39 @@
-//! Resolves an accuracy to points and steps, and words the result for files and messages.
+//! Finds points and steps for an accuracy, and words the result for files and messages.
 
 use super::ladder::{Budget, Reached, SearchError, Verdict, run_to_accuracy};
 use super::level::Level;
 use super::outcome::Difference;
 use crate::reading::Quantity;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::spec::Passage;
 use crate::scenario::{Scenario, USUAL_ACCURACY};
-use crate::simulation::Integrator;
 
-/// Cycles over which an accuracy is met for a run without an end.
+/// Cycles over which a run without an end must meet its accuracy.
 const WITHOUT_END: f64 = 100.0;
 
-/// The longest that a screen waits for an accuracy: the usual one, and one that is asked for, s.
+/// Maximum time that a screen waits for the usual accuracy, and for one that was requested, s.
 const SCREEN_WAITS: [f64; 2] = [0.5, 10.0];
 
-/// A screen shows every cycle of a run of fewer cycles than this, unless the scenario wants jumps.
+/// A screen shows every cycle of shorter runs, unless the scenario asks for jumps.
 const WATCHED: f64 = 1e4;
 
-/// A scenario with the points and steps that were found for its accuracy.
+/// A scenario with the points and steps found for its accuracy.
 #[derive(Debug, Clone)]
 pub struct Resolved {
     /// The scenario, ready to run.
     pub scenario: Scenario,
-    /// What the headers of its files state: keys and values.
+    /// Statements for the headers of its files: keys and values.
     pub statements: Vec<(String, String)>,
     /// One line if the accuracy is not met.
     pub warning: Option<String>,
-    /// The estimated error of a scar that is larger than the accuracy asked for.
+    /// Estimated error of a scar, if it exceeds the requested accuracy.
     pub missed_by: Option<f64>,
     /// The run on these points and steps at its end, if there was an accuracy to meet.
     pub ended: Option<Session>,
 }
 
 impl Resolved {
-    /// A scenario as it is, of whose error nothing is known.
+    /// Wraps a scenario unchanged; its error is unknown.
     fn unsought(scenario: Scenario) -> Self {
         Self {
             scenario,
@@ -45,12 +45,12 @@ impl Resolved {
     }
 }
 
-/// Finds the points and steps that meet the accuracy of `scenario` in a run of `cycles` (those of its own plan if
-/// `None`) within a `budget`: the coarsest level, of unknown error, if none ends in that time. A scenario without an
-/// accuracy is returned as it is.
+/// Finds the points and steps that meet the accuracy of `scenario` in a run of `cycles` (its own plan's if `None`)
+/// within a `budget`. If no level finishes in that time, the result is the coarsest level, whose error is unknown. A
+/// scenario without an accuracy is returned unchanged.
 ///
 /// # Errors
-/// If no level can be run, or if `go_on` says no and no run follows.
+/// If no level can be run, or if `go_on` returns false and no run follows.
 pub fn resolve(
     scenario: &Scenario,
     cycles: Option<f64>,
@@ -90,7 +90,7 @@ fn search(
     })
 }
 
-/// [`resolve`] for a screen: if no level ends in time, the scenario is shown on the default one.
+/// Runs [`resolve`] for a screen: if no level finishes in time, the scenario takes the default level.
 ///
 /// # Errors
 /// If no level can be run.
@@ -103,7 +103,7 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
     match search(scenario, None, budget, &|| true) {
         Ok(found) if is_watched(scenario) => Ok(Resolved {
             scenario: (found.scenario)
-                .with_all(&[("numerics.integrator", Integrator::Direct.name())])?,
+                .edited(|spec| spec.numerics.integrator = Some(Passage::Direct))?,
             ..found
         }),
         Ok(found) => Ok(found),
@@ -112,7 +112,7 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
     }
 }
 
-/// A scenario on a `level` of which nothing is known, since no search ended within the `budget`.
+/// Returns a scenario on a `level` of unknown error, since no search finished within the `budget`.
 fn unverified(
     scenario: &Scenario,
     level: &Level,
@@ -131,7 +131,7 @@ fn unverified(
     })
 }
 
-/// The end of a search in words.
+/// Says in words how the search ended.
 fn in_time(budget: Budget) -> String {
     match budget.seconds() {
         f64::INFINITY => "before the search was interrupted".into(),
@@ -139,22 +139,22 @@ fn in_time(budget: Budget) -> String {
     }
 }
 
-/// Whether the cycles of a run are what a screen is there for, though it could jump over them.
+/// Whether the screen should show every cycle of a run, though the run could jump over them.
 fn is_watched(scenario: &Scenario) -> bool {
-    let is_open = scenario.accuracy().is_some() && scenario.value("numerics.integrator").is_none();
+    let is_open = scenario.accuracy().is_some() && scenario.spec().numerics.integrator.is_none();
     is_open && scenario.run().cycles.is_none_or(|cycles| cycles < WATCHED)
 }
 
-/// Estimated errors as the headers of files state them; where nothing has worn, those of wear mean nothing.
+/// Formats estimated errors for the headers of files; if nothing has worn, the errors of wear mean nothing.
 pub fn statements_of(error: &Difference, has_worn: bool) -> Vec<(String, String)> {
     let stated = Quantity::ALL
         .iter()
         .filter(|of| has_worn || !of.is_of_wear());
-    let stated = stated.map(|&of| (of.column().to_owned(), format!("{:.1e}", error[of])));
+    let stated = stated.map(|&of| (of.column().name().to_owned(), format!("{:.1e}", error[of])));
     stated.collect()
 }
 
-/// What is said of an accuracy that is not met.
+/// Explains why an accuracy was not met, if so.
 fn unmet(reached: &Reached, accuracy: f64, budget: Budget) -> Option<String> {
     let (Level { points, steps, .. }, outcome) = (&reached.rung.level, &reached.rung.outcome);
     let why = match &reached.verdict {
@@ -182,7 +182,7 @@ fn unmet(reached: &Reached, accuracy: f64, budget: Budget) -> Option<String> {
     ))
 }
 
-/// The estimated error that is compared with an accuracy.
+/// Returns the estimated error to compare with an accuracy.
 fn error_of(reached: &Reached) -> f64 {
     reached.error.promised().max(reached.rung.outcome.imbalance)
 }

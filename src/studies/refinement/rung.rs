@@ -1,13 +1,13 @@
 //! A rung of the ladder and its errors.
 //!
-//! A difference D of two levels, the one ρ times finer, tells the error of the finer one:
+//! A difference D of two levels, one ρ times finer than the other, gives the error of the finer one:
 //!
 //! ```text
-//! e = D/(ρᵖ − 1),   p = 1.1,   but at least e of the rung before/ρ²
+//! e = D/(ρᵖ − 1),   p = 1.1,   but at least e of the previous rung/ρ²
 //! ```
 //!
-//! Where cells and steps are both refined, D is shared out as the errors stood before. Errors of several sources add up
-//! as independent ones do: as the root of the sum of squares.
+//! If both cells and steps are refined, D is divided in proportion to their previous errors. Errors of several sources
+//! add up like independent ones: as the root of the sum of squares.
 
 use super::level::Level;
 use super::outcome::{Difference, Outcome};
@@ -17,21 +17,21 @@ use crate::scenario::session::{Session, SessionError};
 /// One run of the ladder.
 #[derive(Debug, Clone)]
 pub struct Rung {
-    /// How finely it was computed.
+    /// Its resolution.
     pub level: Level,
     /// The run at its end.
     pub session: Session,
-    /// How it ended.
+    /// State at the end of the run.
     pub outcome: Outcome,
-    /// What it cost, s.
+    /// Its time, s.
     pub seconds: f64,
 }
 
-/// A rung and its errors, by what they come from.
+/// A rung and its errors by source.
 #[derive(Debug)]
 pub(super) struct Top {
     pub rung: Rung,
-    /// Those of cells, of steps and of jumps.
+    /// Errors due to cells, steps and jumps.
     pub sources: Vec<Difference>,
 }
 
@@ -43,8 +43,8 @@ impl Top {
         sum.as_estimate()
     }
 
-    /// The error that a promise is held against: V and k E_d must agree as well, since they are two computations of one
-    /// number.
+    /// Returns the error to compare with the requested accuracy. V and k E_d must agree as well, since they are two
+    /// computations of one number.
     pub fn promised(&self) -> f64 {
         self.error().promised().max(self.rung.outcome.imbalance)
     }
@@ -53,7 +53,7 @@ impl Top {
         self.rung.outcome.volume <= 0.0
     }
 
-    /// The errors of a finer rung.
+    /// Returns the errors of a finer rung.
     pub fn errors_of(&self, finer: &Rung) -> Vec<Difference> {
         let ratios = finer.level.ratio(&self.rung.level);
         let difference = self.rung.outcome.against(&finer.outcome);
@@ -77,7 +77,7 @@ impl Top {
     }
 }
 
-/// Runs a scenario to `cycles`, as long as `go_on` says so.
+/// Runs a scenario to `cycles` while `go_on` returns true.
 ///
 /// # Errors
 /// If the run stops, or is [interrupted](SessionError::Interrupted).

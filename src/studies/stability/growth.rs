@@ -6,11 +6,11 @@ use crate::math::scan::largest;
 use crate::simulation::Scheme;
 use crate::simulation::stability::limit;
 
-/// Steps of one percent in which the boundary is looked for, from where the stiffest step has its limit.
+/// Number of steps of one percent in the search for the boundary, from where the stiffest step has its limit.
 const REACH: i32 = 300;
 
-/// The factor on the stiffness z of every step of a cycle at which the product of their
-/// amplifications to exceed 1. None if that cannot be.
+/// Returns the smallest factor on the stiffness z of every step
+/// for which errors grow over a cycle; `None` if there is none.
 pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
     let stiffest = largest(stiffness);
     if stiffest <= 0.0 {
@@ -26,7 +26,7 @@ pub(super) fn growing_from(scheme: Scheme, stiffness: &[f64]) -> Option<f64> {
     (0..REACH).find(|&rung| grows(rung)).map(factor)
 }
 
-/// By how much a step of the stiffness z multiplies the stiffest error: the largest root λ of the
+/// Returns the factor by which a step of stiffness z multiplies the stiffest error: the largest root λ of the
 /// [polynomial of its scheme](crate::simulation::stability).
 fn amplification(scheme: Scheme, z: f64) -> f64 {
     match scheme {

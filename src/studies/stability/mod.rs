@@ -1,12 +1,13 @@
-//! Where wear becomes unstable: a scenario run with increasing wear coefficients, by every method
-//! and on every grid, compared with the [prediction](predict).
+//! Where wear becomes unstable: runs a scenario with increasing wear coefficients, by every method and on every grid,
+//! and compares the boundary with the [prediction](predict).
 //!
-//! A sawtooth is looked for at the end of every cycle: stiff wear may remove it again, so the last
-//! profile alone would not show it.
+//! Looks for a sawtooth at the end of every cycle: stiff wear may remove it again, so the last profile alone would not
+//! show it.
 
 use crate::math::abel::AbelMethod;
+use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Change, Scenario};
+use crate::simulation::Stability;
 use crate::studies::refinement::Level;
 use predict::predict;
 
@@ -17,23 +18,23 @@ mod sawtooth;
 
 pub use sawtooth::sawtooth;
 
-/// Numbers of cells that are tried.
+/// Numbers of cells to try.
 pub const POINTS: [usize; 4] = [25, 50, 100, 200];
 
-/// Wear numbers K that are tried: half decades.
+/// Wear numbers K to try: half decades.
 pub const WEAR_NUMBERS: [f64; 9] = [0.1, 0.316, 1.0, 3.16, 10.0, 31.6, 100.0, 316.0, 1000.0];
 
-/// The height from which a sawtooth counts, relative to the largest depth. The presets reach 7e-5 at most, and
-/// runs with the guard end with 3e-4 next to the stick border, at a single node.
+/// Smallest height of a sawtooth that counts, relative to the largest depth. The presets reach 7e-5 at most, and runs
+/// with the guard end with 3e-4 next to the stick border, at a single node.
 pub const VISIBLE: f64 = 5e-4;
 
-/// Halvings of the interval, on the scale of ratios, in which the boundary lies.
+/// Halvings of the interval that contains the boundary, on a logarithmic scale.
 const HALVINGS: u32 = 3;
 
-/// What is run.
+/// Numerics of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    /// The transforms; grid and scheme are those that go with them, unless the scenario says so.
+    /// The transforms; they determine grid and scheme, unless the scenario gives them.
     pub method: AbelMethod,
     /// N.
     pub points: usize,
@@ -43,49 +44,49 @@ pub struct Setting {
     pub guard: bool,
 }
 
-/// How a run ended: stable, unless it tells of something else.
+/// How a run ended: stable if both are `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Outcome {
-    /// The height of a sawtooth at the end of a cycle, relative to the largest depth.
+    /// Height of a sawtooth at the end of a cycle, relative to the largest depth.
     pub sawtooth: Option<f64>,
-    /// The cycles that it held, and the reason in a plain word.
+    /// Number of cycles before it broke down, and the reason in a plain word.
     pub exploded: Option<(f64, String)>,
 }
 
 impl Outcome {
-    /// Whether it was smooth to the end.
+    /// Whether it stayed smooth to the end.
     pub fn is_stable(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// The scenario and how long it is run.
+/// The scenario and the length of its runs.
 #[derive(Debug, Clone)]
 pub struct Study {
     scenario: Scenario,
     cycles: f64,
-    /// k of K = 1, 1/Pa.
+    /// k for K = 1, 1/Pa.
     unit: f64,
 }
 
 /// The results of the runs of one setting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// How it was run.
+    /// Numerics of the runs.
     pub setting: Setting,
-    /// The wear numbers of the ladder that were tried, and what came of them.
+    /// The wear numbers tried on the ladder, and their outcomes.
     pub outcomes: Vec<(f64, Outcome)>,
     /// The wear number from which a sawtooth is [predicted](predict); `None` if nothing slips.
     pub predicted: Option<f64>,
-    /// The smallest wear number at which a sawtooth was seen, to a seventh; `None` if there was none.
+    /// The smallest wear number with a sawtooth, to one part in seven; `None` if there was none.
     pub seen: Option<f64>,
 }
 
 impl Study {
-    /// Of a scenario that wears, over `cycles`. None if nothing wears, or nothing touches at the
+    /// Makes a study of a scenario that wears, over `cycles`. `None` if nothing wears, or if nothing touches at the
     /// beginning: K = k E* d/a, with the depth and the contact radius there.
     pub fn new(scenario: Scenario, cycles: f64) -> Result<Option<Self>, SessionError> {
-        // The limits are those of one number of cells and steps, not of an accuracy.
+        // A stability limit belongs to one number of cells and steps, not to an accuracy.
         let scenario = match scenario.accuracy() {
             Some(_) => Level::of(&scenario).of_scenario(&scenario)?,
             None => scenario,
@@ -103,18 +104,21 @@ impl Study {
     }
 
     fn start(&self, setting: Setting, wear_number: f64) -> Result<Session, SessionError> {
-        let stability = if setting.guard { "sub-step" } else { "off" };
-        let mut keys = vec![
-            ("numerics.method", setting.method.name().to_owned()),
-            ("numerics.stability", stability.to_owned()),
-            ("wear.coefficient", format!("{:e}", wear_number * self.unit)),
-        ];
-        keys.extend(Level::new(setting.points, setting.steps, None).keys());
-        let changes = keys.iter().map(|(key, value)| Change::new(0.0, key, value));
-        Session::start(self.scenario.after(&changes.collect::<Vec<_>>())?)
+        let scenario = self.scenario.with_changes(Vec::new()).edited(|spec| {
+            let guarded = setting.guard.then_some(Stability::SubStep);
+            let numerics = &mut spec.numerics;
+            (numerics.method, numerics.stability) =
+                (Some(setting.method), guarded.or(Some(Stability::Off)));
+            Level::new(setting.points, setting.steps, None).set(numerics);
+            if let Some(wear) = &mut spec.wear {
+                wear.coefficient = Some(wear_number * self.unit);
+                wear.coefficient_per_load = None;
+            }
+        });
+        Session::start(scenario?)
     }
 
-    /// Runs one setting at one wear number; `None` if `go_on` said no.
+    /// Runs one setting at one wear number; `None` if `go_on` returned false.
     fn run(
         &self,
         setting: Setting,
@@ -140,8 +144,8 @@ impl Study {
         Ok(Some(outcome))
     }
 
-    /// Runs the ladder, and then between its last stable and its first other rung to find the boundary.
-    /// `on_run` hears of every rung. If `go_on` says no, the line is left as far as it is done.
+    /// Runs the ladder, and then between its last stable rung and the next to find the boundary. Calls `on_run` after
+    /// every rung. If `go_on` returns false, the line stays incomplete.
     ///
     /// # Errors
     /// If a scenario cannot be made.
@@ -170,7 +174,7 @@ impl Study {
             return Ok(line);
         };
         let mut high = tried[above].0;
-        // After a sawtooth on the lowest rung: the boundary lies below the ladder.
+        // If even the lowest rung shows a sawtooth, the boundary lies below the ladder.
         if above > 0 {
             let mut low = tried[above - 1].0;
             for _ in 0..HALVINGS {

@@ -2,35 +2,31 @@
 //!
 //! # Formula
 //!
-//! There are three causes of a sawtooth; the smallest K of the three is the predicted boundary.
+//! A sawtooth has three causes; the smallest K of the three is the predicted boundary.
 //!
 //! **Steps.** Errors grow over a cycle in which the amplifications of its steps, by the
-//! [stiffness](crate::simulation::stability) z, multiply to more than 1. In an unworn contact that is so from some K
-//! on. As the contact wears, z rises: springs that carry no load slip all the way. A run at a small K, with the guard,
-//! goes through the same shapes as one at a large K, X = K × cycles being the same. So each of its cycles tells
-//! the K(X) from which errors grow over it, and the boundary of explicit Euler is the smallest of
-//! max{K(X), X/cycles}. A node counts where a sawtooth that [counts](super::VISIBLE), of amplitude A, would stay in
-//! contact: where p > ρ E* A/h. The trapezoid is asked on the unworn contact alone: a worn one is seen to
-//! bear up to twice K(X), perhaps because it slips in the few steps after the motion has turned, in the
-//! first of which nothing is looked ahead.
+//! [stiffness](crate::simulation::stability) z, multiply to more than 1. In an unworn contact that is so above some K.
+//! As the contact wears, z rises: springs that carry no load slip all the way. A run at a small K, with the guard, goes
+//! through the same shapes as one at a large K, at equal X = K × cycles. So each of its cycles gives the K(X) from
+//! which errors grow over it, and the boundary of explicit Euler is the smallest of max{K(X), X/cycles}. A node counts
+//! if a sawtooth that [counts](super::VISIBLE), of amplitude A, would stay in contact: where p > ρ E* A/h. For the
+//! trapezoid only the unworn contact is used: a worn one tolerates up to twice K(X), perhaps because it slips in the
+//! few steps after a reversal, and the first of these does not extrapolate.
 //!
-//! **Slip instabilities.** A spring that slips holds u = μq/G*, so that wear by δ lets the surface
-//! slip by μE*δ/G* more (Eq. (2) after Eq. (1) is the identity), and that wears G times as much as
-//! δ did:
+//! **Slip instabilities.** A spring that slips holds u = μq/G*, so wear by δ lets the surface slip by μE*δ/G* more (Eq.
+//! (2) after Eq. (1) is the identity), and that wears G times as much as δ did:
 //!
 //! ```text
 //! G = k μ² p E*/G*
 //! ```
 //!
-//! Where G exceeds 1 a spring slips all at once at any step size; the trapezoid, which
-//! extrapolates, overshoots. The pressure on what slips rises as the ring around it wears: the
-//! boundary is the K at which G reaches 1 in the first cycle, at X = K. Later, at smaller K, it
-//! does so next to the border alone, and that node's peak is worn off by the end of the cycle.
-//! Explicit Euler shoots beyond only at a G that depends on the cell; nothing is predicted of that,
-//! and with many short steps it comes first (400 per cycle: at 0.4 to 0.9 of what is predicted).
+//! If G exceeds 1 a spring slips all at once at any step size; the trapezoid, which extrapolates, overshoots. The
+//! pressure on the slipping part rises as the ring around it wears: the boundary is the K at which G reaches 1 in the
+//! first cycle, at X = K. Later, at smaller K, G only reaches 1 next to the border, and that node's peak is worn off by
+//! the end of the cycle. Explicit Euler overshoots only beyond a G that depends on the cell; this is not predicted, and
+//! with many short steps it comes first (400 per cycle: at 0.4 to 0.9 of the prediction).
 //!
-//! **Methods that are unstable at any step size.** For b and benad, a constant of the method that
-//! was measured, not derived.
+//! **Methods that are unstable at any step size.** For b and benad, a measured constant of the method, not derived.
 
 use super::growth::growing_from;
 use super::{Setting, Study, VISIBLE};
@@ -41,35 +37,35 @@ use crate::scenario::session::{Session, SessionError};
 use crate::simulation::stability::response;
 use crate::simulation::{Scheme, Setup, Simulation};
 
-/// The wear number at which the unworn contact is examined: small enough for its shape not to change.
+/// Wear number at which the unworn contact is examined: small enough to preserve its shape.
 const MILD: f64 = 1e-3;
 
-/// The small K is that from which an unworn contact would fail, divided by this.
+/// The small K is the predicted limit of the unworn contact divided by this.
 const SMALLER: f64 = 8.0;
 
-/// Nodes that wear less than this, relative to the largest wear of a step, are left out.
+/// Nodes that wear less than this, relative to the largest wear of a step, are ignored.
 const LEAST: f64 = 1e-3;
 
-/// What a cycle shows, scaled to K = 1.
+/// Measurements of a cycle, scaled to K = 1.
 #[derive(Default)]
 struct Cycle {
-    /// The largest z of each step.
+    /// Largest z of each step.
     stiffness: Vec<f64>,
-    /// The largest G.
+    /// Largest G.
     gain: f64,
-    /// The deepest wear, in largest depths.
+    /// Deepest wear, in largest depths.
     worn: f64,
 }
 
 impl Cycle {
-    /// The K from which errors grow over the cycle.
+    /// Returns the K from which errors grow over the cycle.
     fn growing(&self, scheme: Scheme) -> f64 {
         growing_from(scheme, &self.stiffness).unwrap_or(f64::INFINITY)
     }
 }
 
-/// The wear number from which `setting` is expected to show a sawtooth within the cycles of the study; `None` if
-/// nothing slips.
+/// Predicts the wear number from which `setting` shows a sawtooth
+/// within the cycles of the study; `None` if nothing slips.
 pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, SessionError> {
     let mut guarded = setting;
     guarded.guard = true;
@@ -95,7 +91,7 @@ pub(super) fn predict(study: &Study, setting: Setting) -> Result<Option<f64>, Se
     .map(Some)
 }
 
-/// The smallest K from which errors grow over a cycle of a `run` at the wear number `small`, and not above
+/// Returns the smallest K from which errors grow over a cycle of a `run` at the wear number `small`, at most
 /// `boundary`.
 fn while_it_wears(
     mut run: Session,
@@ -113,8 +109,8 @@ fn while_it_wears(
     Ok(boundary)
 }
 
-/// The K at which springs let go at once in the first cycle, as a `run` at the wear number `small` tells; not above
-/// `boundary`.
+/// Returns the K at which springs slip all at once in the first cycle, found from a `run` at the wear number `small`;
+/// at most `boundary`.
 fn letting_go(mut run: Session, small: f64, boundary: f64) -> Result<f64, SessionError> {
     let (mut worn, mut before) = (0.0, 0.0);
     while worn < boundary {
@@ -154,13 +150,13 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
     Ok(cycle)
 }
 
-/// The wear at which a method shows a sawtooth whatever the step, at the rate of a cycle of the unworn contact and
-/// relative to the largest depth, and why. `None` if short steps prevent it.
+/// Returns the wear at which a method shows a sawtooth whatever the step, at the rate of a cycle of the unworn contact
+/// and relative to the largest depth, and why. `None` if short steps prevent it.
 ///
-/// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps a
-/// cycle, 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of what a cycle wears by a given profile
-/// are those of the other methods with b, and change fourfold with N with benad, so that they tell neither.
-/// On other motions they may be off by more than 1.5.
+/// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps per cycle,
+/// 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of the map from a profile to its wear per cycle
+/// do not predict this: with b they equal those of other methods, with benad they change fourfold with N. On other
+/// motions the constants may be off by more than 1.5.
 pub(super) fn sawtooth_from(method: AbelMethod) -> Option<(f64, &'static str)> {
     match method {
         AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
@@ -176,8 +172,8 @@ pub(super) fn sawtooth_from(method: AbelMethod) -> Option<(f64, &'static str)> {
     }
 }
 
-/// G for p = 1 Pa: a spring that slips holds u = μq/G*, so that wear by δ lets the surface slip by μE*δ/G* more,
-/// and that wears G = kμ²pE*/G* times δ. None under a law that is not in proportion to friction work.
+/// Returns G for p = 1 Pa: a spring that slips holds u = μq/G*, so wear by δ lets the surface slip by μE*δ/G* more,
+/// which wears G = kμ²pE*/G* times δ. `None` unless the law is in proportion to friction work.
 fn gain(setup: &Setup) -> Option<f64> {
     let law = setup.wear.filter(|law| law.follows_energy())?;
     let (material, friction) = (&setup.material, setup.material.friction());
@@ -185,7 +181,7 @@ fn gain(setup: &Setup) -> Option<f64> {
     Some(law.coefficient() * friction * friction * moduli)
 }
 
-/// The largest z and G of the step that has just been taken, from the pressures before and after it.
+/// Returns the largest z and G of the last step, from the pressures before and after it.
 fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> (f64, f64) {
     let setup = simulation.setup();
     let Some(law) = &setup.wear else {
@@ -203,7 +199,7 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
         if zones[j] != Zone::Slip || worn[j] <= least {
             continue;
         }
-        // The pressure by which the step wore.
+        // The pressure with which the step wore.
         let pressure = match setup.scheme {
             Scheme::Euler => after[j],
             Scheme::Trapezoid => 0.5 * (before[j] + after[j]),
@@ -216,7 +212,7 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     (stiffest, most)
 }
 
-/// What the depth of a sawtooth is measured in, m.
+/// Returns the depth to which the height of a sawtooth is relative, m.
 pub(super) fn depth(simulation: &Simulation) -> f64 {
     simulation.setup().depth_scale(simulation.moment().depth)
 }

@@ -9,7 +9,7 @@ use crate::studies::table::Format::{Fixed, Rough, Words};
 use crate::studies::table::Table;
 
 impl Outcome {
-    /// The word for it in tables, and the mark in maps.
+    /// Returns the word in tables, and the mark in maps.
     fn words(&self) -> (&'static str, char) {
         match (&self.exploded, self.sawtooth) {
             (Some(_), _) => ("exploded", '#'),
@@ -20,7 +20,7 @@ impl Outcome {
 }
 
 impl Line {
-    /// The seen boundary in units of the predicted one.
+    /// Returns the observed boundary relative to the predicted one.
     pub fn ratio(&self) -> Option<f64> {
         Some(self.seen? / self.predicted?)
     }
@@ -30,7 +30,7 @@ fn guard(line: &Line) -> &'static str {
     if line.setting.guard { "on" } else { "off" }
 }
 
-/// A row a run.
+/// Makes a table with one row per run.
 pub fn runs(lines: &[Line]) -> Table {
     let mut table = Table::of(&[
         ("", "method guard", Words),
@@ -53,7 +53,7 @@ pub fn runs(lines: &[Line]) -> Table {
     table
 }
 
-/// A row a method and grid: where the boundary was predicted, and where it was seen.
+/// Makes a table with one row per method and grid: the predicted and the observed boundary.
 pub fn boundaries(lines: &[Line]) -> Table {
     let mut table = Table::of(&[
         ("", "method guard", Words),
@@ -76,7 +76,7 @@ fn key(line: &Line) -> [Value; 3] {
 /// Width of a rung in a map.
 const RUNG: usize = 7;
 
-/// A map a method and guard: a row a grid, a column a wear number, `|` where the boundary is predicted.
+/// Draws one map per method and guard: a row per grid, a column per wear number, `|` at the predicted boundary.
 pub fn maps(lines: &[Line]) -> String {
     let mut text = String::new();
     let kind = |line: &Line| (line.setting.method, line.setting.guard);
@@ -102,7 +102,7 @@ pub fn maps(lines: &[Line]) -> String {
     text
 }
 
-/// One row of a map.
+/// Draws one row of a map.
 fn strip(line: &Line) -> String {
     let rung = |mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']);
     let outcomes = line.outcomes.iter();

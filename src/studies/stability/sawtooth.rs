@@ -1,4 +1,4 @@
-//! The height of a sawtooth in a profile.
+//! Measures the height of a sawtooth in a profile.
 //!
 //! # Formula
 //!
@@ -10,11 +10,10 @@
 //! ½ min(|D_{j−1}|, |D_j|, |D_{j+1}|)       the height of the sawtooth is the largest of these
 //! ```
 //!
-//! An even comb, every second node higher by H, has D = ±2H and so a sawtooth of height H. A kink,
-//! as at the stick border and at the contact edge, is one large D among small ones, and a jump is
-//! two: neither is a sawtooth.
+//! A regular comb, every second node higher by H, has D = ±2H and so a sawtooth of height H. A kink, as at the stick
+//! border and at the contact edge, is one large D among small ones, and a jump is two: neither counts as a sawtooth.
 
-/// The height of the highest sawtooth in `values`, from peak to valley, in their unit; 0 if they are smooth.
+/// Returns the height of the highest sawtooth in `values`, from peak to valley, in their unit; 0 if they are smooth.
 pub fn sawtooth(values: &[f64]) -> f64 {
     let bends = values.windows(3).map(|v| (v[0] - v[1]) + (v[2] - v[1]));
     let bends: Vec<f64> = bends.collect();
@@ -29,8 +28,7 @@ pub fn sawtooth(values: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A limiting profile: nothing worn inside the border, a root outside of it, a kink where the worn
-    /// zone ends; on equal cells.
+    /// A limiting profile on equal cells: unworn inside the border, a root outside it, a kink where the worn zone ends.
     fn worn(cells: i32) -> Vec<f64> {
         let radius = |j: i32| f64::from(j) * 1.5 / f64::from(cells);
         let depth = |r: f64| {
@@ -41,7 +39,7 @@ mod tests {
         (0..=cells).map(|j| depth(radius(j))).collect()
     }
 
-    /// Every `pitch`-th node from `from` to `to` higher by `height`.
+    /// Raises every `pitch`-th node from `from` to `to` by `height`.
     fn comb(values: &[f64], from: usize, to: usize, pitch: usize, height: f64) -> Vec<f64> {
         let mut swinging = values.to_vec();
         for j in (from..to).step_by(pitch) {
@@ -88,7 +86,7 @@ mod tests {
             let found = sawtooth(&comb(&worn(100), 40, 80, pitch, 2e-3));
             assert!((0.4e-3..2.1e-3).contains(&found), "{pitch}: {found}");
         }
-        // A sawtooth at the border and one at the end of the worn zone.
+        // One sawtooth at the border and one at the end of the worn zone.
         for from in [26, 66] {
             let found = sawtooth(&comb(&worn(100), from, from + 8, 2, 0.2));
             assert!(found > 0.1, "{from}: {found}");

@@ -1,4 +1,4 @@
-//! An axis: a key of the scenario and the values it takes, and the keys that follow it.
+//! An axis: a key of the scenario with its values, and the keys tied to it.
 
 use toml::Value;
 
@@ -15,14 +15,13 @@ pub struct Axis {
     pub key: String,
     /// Its values: numbers, words or flags, in order.
     pub values: Values,
-    /// How they are spread.
+    /// Their scale.
     pub spread: Scale,
-    /// Keys that move with it, each with its value in units of the axis's.
+    /// Keys that move with it, each with its value relative to the axis's.
     pub tied: Vec<(String, f64)>,
 }
 
-/// The values of an axis. Those between two ends are made when they are needed, so that an axis of
-/// millions takes no memory.
+/// The values of an axis. Values between two ends are computed on demand, so that an axis of millions takes no memory.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
     /// As written in the study.
@@ -32,7 +31,7 @@ pub enum Values {
 }
 
 impl Axis {
-    /// The number of values.
+    /// Returns the number of values.
     pub fn count(&self) -> usize {
         match &self.values {
             Values::Listed(values) => values.len(),
@@ -40,7 +39,7 @@ impl Axis {
         }
     }
 
-    /// The value at `index`.
+    /// Returns the value at `index`.
     pub fn value(&self, index: usize) -> Value {
         match &self.values {
             Values::Listed(values) => values[index].clone(),
@@ -51,19 +50,19 @@ impl Axis {
         }
     }
 
-    /// The value at `index` as `--set` takes it and as its column shows it: numbers in the shortest
-    /// form that reads back to the same bits, words bare.
+    /// Returns the value at `index` as for `--set` and in its column: numbers in the shortest form that reads back to
+    /// the same bits, words bare.
     pub fn text(&self, index: usize) -> String {
         text(&self.value(index))
     }
 
-    /// The value at `index` as a number, if it is one.
+    /// Returns the value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
         values::number(&self.value(index))
     }
 
-    /// Where on the axis a value lies: between the indices of its neighbours, as the axis is
-    /// spread. None outside, and without numbers.
+    /// Returns the place of a value on the axis, between the indices of its neighbours, on the axis's scale. `None`
+    /// outside, and without numbers.
     pub fn place_of(&self, value: f64) -> Option<f64> {
         let of = |value: f64| self.spread.spread(value);
         (1..self.count()).find_map(|index| {
@@ -74,8 +73,7 @@ impl Axis {
         })
     }
 
-    /// The value at a place between indices, as the axis is spread: the inverse of
-    /// [`place_of`](Self::place_of).
+    /// Returns the value at a place between indices, on the axis's scale: the inverse of [`place_of`](Self::place_of).
     pub fn value_at(&self, place: f64) -> Option<f64> {
         let index = (place.floor() as usize).min(self.count().saturating_sub(2));
         let next = (index + 1).min(self.count() - 1);
@@ -83,7 +81,7 @@ impl Axis {
         Some(between(self.spread, low, high, place - index as f64))
     }
 
-    /// What `value` assigns: the key's own value, then those of the tied keys.
+    /// Returns the assignments for `value`: the key's own value, then the tied keys' values.
     pub fn assignments(&self, value: &Value) -> Vec<(&str, String)> {
         let own = (self.key.as_str(), text(value));
         let number = values::number(value);
@@ -94,7 +92,7 @@ impl Axis {
     }
 }
 
-/// A value as `--set` takes it.
+/// Formats a value as for `--set`.
 pub(super) fn text(value: &Value) -> String {
     match value {
         Value::Float(value) => number(*value),
@@ -103,7 +101,7 @@ pub(super) fn text(value: &Value) -> String {
     }
 }
 
-/// Refuses a key that no scenario has.
+/// Refuses an unknown key.
 pub(super) fn known_key(key: &str, place: &str) -> Result<(), Refusal> {
     if schema::find(key).is_some() && !key.starts_with("changes") {
         return Ok(());
@@ -113,7 +111,7 @@ pub(super) fn known_key(key: &str, place: &str) -> Result<(), Refusal> {
     Err(format!("{place}: unknown key {key}; {hint}").into())
 }
 
-/// A number as a value of `key`: an integer where the key takes whole numbers.
+/// Converts a number to a value of `key`: an integer if the key takes whole numbers.
 pub(super) fn value_of(key: &str, value: f64) -> Value {
     match schema::find(key).map(|parameter| parameter.kind) {
         Some(Kind::Whole) => Value::Integer(value.round() as i64),
@@ -121,7 +119,7 @@ pub(super) fn value_of(key: &str, value: f64) -> Value {
     }
 }
 
-/// The place `share` (0 to 1) of the way from `from` to `to`; both ends are met exactly.
+/// Returns the value a `share` (0 to 1) of the way from `from` to `to`; both ends are exact.
 pub(super) fn between(spread: Scale, from: f64, to: f64, share: f64) -> f64 {
     if share <= 0.0 {
         return from;
@@ -131,7 +129,7 @@ pub(super) fn between(spread: Scale, from: f64, to: f64, share: f64) -> f64 {
     }
     match spread {
         Scale::Linear => from + (to - from) * share,
-        // Not the system's, whose last digit differs between machines: shards of one study must not.
+        // The system's pow differs in the last digit between machines, and shards of one study must not.
         Scale::Log => from * libm::pow(to / from, share),
     }
 }

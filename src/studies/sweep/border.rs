@@ -2,16 +2,16 @@
 //!
 //! # Formulas
 //!
-//! - **Gross slip** begins where no spring sticks through the whole cycle. With both displacements
+//! - **Gross slip** begins where no spring sticks through the whole cycle. If both displacements are
 //!   prescribed, Melan's theorem gives the depth g(c) at the border of the permanent stick zone, and
-//!   gross slip begins where it reaches 0. At a depth d that is held this is U = d/κ, κ = G*/(μE*), for
-//!   any shape. With a normal force prescribed, d is the depth at the smallest force on the unworn
-//!   shape. A rig of compliance C takes a part of the motion: under a steady load N, U = d/κ + μNC.
-//! - Of a line the forces are what moves the springs: Melan's theorem holds for them, and gives Q = μP for a load that
-//!   is held. A displacement has its border against the gauge length, see [`Unworn`].
+//!   gross slip begins where it reaches 0. At a held depth d this is U = d/κ, κ = G*/(μE*), for
+//!   any shape. If a normal force is prescribed, d is the depth at the smallest force on the unworn
+//!   shape. A rig of compliance C takes part of the motion: under a steady load N, U = d/κ + μNC.
+//! - In a line contact, forces move the springs: Melan's theorem holds for them, and gives Q = μP for a held load. A
+//!   displacement has its border against the gauge length, see [`Unworn`].
 //! - **Lift-off** begins where the depth, or the normal force, passes through 0.
 //!
-//! Both hold for the unworn shape. Wear moves the border of gross slip where a force is prescribed.
+//! Both hold for the unworn shape. If a force is prescribed, wear moves the border of gross slip.
 
 use super::Study;
 use crate::math::root;
@@ -19,15 +19,15 @@ use crate::scenario::Scenario;
 use crate::simulation::Unworn;
 use crate::simulation::drive::Control;
 
-/// How far a scenario is from a border: negative beyond it, `None` without a closed form.
+/// Distance of a scenario from a border: negative beyond it, `None` without a closed form.
 pub type Distance = fn(&Scenario) -> Option<f64>;
 
-/// The [distance](Distance), m or N, from the border between a contact that stays closed and one that opens.
+/// Returns the [distance](Distance), m or N, from the border between a contact that stays closed and one that opens.
 pub fn to_lift_off(scenario: &Scenario) -> Option<f64> {
     Some(scenario.setup().drive.normal().oscillation().lowest())
 }
 
-/// The [distance](Distance), m, from the border between partial and gross slip.
+/// Returns the [distance](Distance), m, from the border between partial and gross slip.
 pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     let setup = scenario.setup();
     let normal = setup.drive.normal();
@@ -38,7 +38,7 @@ pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     let shift = setup.drive.tangential()?.displacement()?;
     let unworn = Unworn::of(setup);
     if setup.geometry.is_line() {
-        // No closed form for a displacement under a varying load.
+        // A displacement under a varying load has no closed form.
         if normal.oscillation().amplitude() != 0.0 {
             return None;
         }
@@ -49,7 +49,7 @@ pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     let steady = normal.oscillation().amplitude() == 0.0;
     let lowest = normal.oscillation().lowest();
     let (depth, force) = match normal {
-        // No closed form for the share of a rig under a varying load.
+        // The share of a rig under a varying load has no closed form.
         _ if rig > 0.0 && !steady => return None,
         Control::Force(_) => (unworn.depth(lowest.max(0.0)), lowest.max(0.0)),
         Control::Displacement(_) => (lowest, unworn.force(lowest)),
@@ -58,8 +58,8 @@ pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     Some(depth - ratio * (shift.amplitude() - taken_by_rig))
 }
 
-/// The value of axis `along` at which a border is crossed, the other axes standing at `places`; none if it is not
-/// crossed between the ends of the axis, or the axis holds no numbers.
+/// Returns the value of axis `along` at which a border is crossed, with the other axes at `places`; `None` if the
+/// border is not crossed between the ends of the axis, or if the axis holds no numbers.
 pub fn crossing(to_border: Distance, study: &Study, places: &[usize], along: usize) -> Option<f64> {
     let axis = &study.axes[along];
     let ends = [axis.number(0)?, axis.number(axis.count() - 1)?];
@@ -72,7 +72,7 @@ pub fn crossing(to_border: Distance, study: &Study, places: &[usize], along: usi
     if at_low * at_high > 0.0 {
         return None;
     }
-    // Values that make no valid scenario count as beyond the border.
+    // Values that do not form a valid scenario count as beyond the border.
     let sign = |value| distance(value).unwrap_or(at_high);
     root::bracketed(sign, low, high, 1e-9 * (high - low))
 }
@@ -116,7 +116,7 @@ mod tests {
         }
     }
 
-    /// U = d/κ + μNC, d held or N held.
+    /// U = d/κ + μNC, with d held or N held.
     #[test]
     fn a_rig_moves_the_border_of_gross_slip_by_its_share() {
         let (depth, load) = (1e-6, 4.0 / 3.0 * 2.3077e11 * 1e-6 * 1e-4);

@@ -1,12 +1,11 @@
-//! Combines the values of several axes into points: every combination, pairwise, or samples that
-//! fill the space evenly.
+//! Combines the values of several axes into points: every combination, pairwise, or samples that fill the space evenly.
 
 use serde::Deserialize;
 use strum::Display;
 
 use super::shuffle::{mix, shuffled};
 
-/// The way from axes to points.
+/// How axes are combined into points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Display)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
@@ -16,15 +15,15 @@ pub enum Design {
     Grid,
     /// The first values of all axes, then the second ones, and so on.
     Zip,
-    /// A Latin hypercube: each axis is cut into as many strata as there are samples, and each
-    /// stratum holds one of them.
+    /// A Latin hypercube: each axis is cut into as many strata as
+    /// there are samples, and each stratum contains one sample.
     LatinHypercube,
     /// A Sobol sequence with Owen's scrambling (Burley 2020, JCGT 9(4)).
     Sobol,
 }
 
 impl Design {
-    /// The most samples of a design that draws the values of its axes, so that an axis names its ends alone.
+    /// Maximum number of samples of a design that draws the values of its axes; an axis then only gives its ends.
     pub fn most_samples(self) -> Option<usize> {
         match self {
             Self::Grid | Self::Zip => None,
@@ -35,25 +34,25 @@ impl Design {
     }
 }
 
-/// The most points of a study.
+/// Maximum number of points of a study.
 pub(super) const MOST_POINTS: usize = 10_000_000;
 
-/// The most axes of a Sobol sequence.
+/// Maximum number of axes of a Sobol sequence.
 pub(super) const MOST_SOBOL_AXES: usize = 256;
 
-/// Where the values of an axis lie between its ends.
+/// How the values of an axis lie between its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spacing {
     /// In order, at equal distances from end to end.
     Even,
-    /// Anywhere, one in each stratum, by a key of the axis's own, so that adding one leaves the others unchanged.
+    /// At random, one in each stratum; each axis has its own key, so that adding an axis leaves the others unchanged.
     Strata(u64),
-    /// As in a Sobol sequence: of this axis, with this seed.
+    /// As in a Sobol sequence: the dimension of this axis, and the seed.
     Sobol(u32, u32),
 }
 
 impl Spacing {
-    /// That of the axis number `axis` in a design.
+    /// Returns the spacing of axis number `axis` in a design.
     pub(super) fn of(design: Design, axis: usize, seed: u32) -> Self {
         match design {
             Design::Sobol => Self::Sobol(axis as u32, seed),
@@ -61,7 +60,7 @@ impl Spacing {
         }
     }
 
-    /// How far (0 to 1) the value at `index` of `count` is from the first end to the second.
+    /// Returns how far (0 to 1) the value at `index` of `count` is from the first end to the second.
     pub(super) fn share(self, index: usize, count: usize) -> f64 {
         match self {
             Self::Even => index as f64 / (count - 1).max(1) as f64,

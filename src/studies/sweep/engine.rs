@@ -1,5 +1,5 @@
-//! Many points on several threads. Each thread takes the next free point, so all threads end at
-//! about the same time, and rows arrive nearly in order.
+//! Runs many points on several threads. Each thread takes the next free point, so all threads end at about the same
+//! time, and rows arrive nearly in order.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
@@ -11,16 +11,16 @@ use super::point;
 use super::{Shard, Study};
 use crate::scenario::Refusal;
 
-/// How many points are checked between two looks at the clock.
+/// Number of points checked between two looks at the clock.
 const CHUNK: usize = 256;
 
-/// Checks on the threads of `pool` that the points of a shard make valid scenarios, as long as `go_on`, which is given
-/// the number checked so far, says so. An invalid point is most often where an axis ends, so of many points those at
-/// both ends of all axes come first.
+/// Checks on the threads of `pool` that the points of a shard are valid scenarios, while `go_on`, called with the
+/// number checked so far, returns true. Invalid points are usually at the end of an axis, so in a large study the
+/// points at the ends of all axes come first.
 ///
 /// # Errors
 ///
-/// The first point of those checked together that is invalid, and why.
+/// The first invalid point, and why it is invalid.
 pub fn check(
     study: &Study,
     shard: Shard,
@@ -44,7 +44,7 @@ pub fn check(
     Ok(())
 }
 
-/// The points of a shard at the ends of each axis, the others at one of their ends.
+/// Returns the points of a shard at the ends of each axis, with the other axes at one of their ends.
 fn edges(study: &Study, shard: Shard) -> Vec<usize> {
     let last = study.points() - 1;
     let mut step = 1_usize;
@@ -58,19 +58,19 @@ fn edges(study: &Study, shard: Shard) -> Vec<usize> {
     edges
 }
 
-/// Refuses a point that makes no valid scenario.
+/// Checks that a point is a valid scenario.
 ///
 /// # Errors
 ///
-/// Why it makes none.
+/// Why it is not.
 pub fn validated(study: &Study, point: usize) -> Result<(), Refusal> {
     let refused = |error| Refusal::new(study.name(point), error);
     study.scenario(point).map(drop).map_err(refused)
 }
 
-/// Runs the points `todo` of `study` on the threads of `pool`, and gives each row to `finished`, on
-/// the calling thread, when it is there. Stops after the present steps, losing the points that are
-/// not finished, if `go_on` or `finished` says no.
+/// Runs the points `todo` of `study` on the threads of `pool`, and passes each row to
+/// `finished` on the calling thread as soon as it is there. If `go_on` or `finished`
+/// returns false, stops after the current steps and loses unfinished points.
 pub fn run(
     study: &Study,
     todo: impl Iterator<Item = usize> + Send,

@@ -1,14 +1,14 @@
-//! From the values that a row begins with to the points that have them.
+//! Finds the points that a row belongs to from the values at its beginning.
 
 use super::{Axis, Design, Study};
 use crate::scenario::escape::cell;
 use crate::scenario::scalars::number;
 
-/// Finds the points of a study by their values. It grows with the lengths of the axes, and not with the number of
+/// Finds the points of a study by their values. Its size grows with the lengths of the axes, not with the number of
 /// points of a grid.
 #[derive(Debug)]
 pub(super) struct Finder {
-    /// For each axis, its places under a hash of their values, sorted.
+    /// For each axis, the hashes of its values with their places, sorted.
     places: Vec<Vec<(u32, u32)>>,
 }
 
@@ -25,8 +25,8 @@ impl Finder {
         }
     }
 
-    /// The points of `study` whose axis values a row begins with, in order; numbers count, however they are written.
-    /// None if the row has another number of columns.
+    /// Returns the points of `study` with the axis values at the start of a row, in order; numbers are equal however
+    /// they are written. Empty if the row has another number of columns.
     pub fn points_of(&self, study: &Study, row: &[String]) -> Vec<usize> {
         if row.len() != study.columns().len() {
             return Vec::new();
@@ -57,12 +57,12 @@ impl Finder {
     }
 }
 
-/// The value at a place of an axis as a row shows it, numbers in one form.
+/// Returns the value at a place of an axis as in a row, with numbers normalised.
 fn value(axis: &Axis, place: usize) -> Vec<u8> {
     normal(&cell(&axis.text(place)))
 }
 
-/// One form for all ways to write a number.
+/// Normalises the spelling of a number.
 fn normal(value: &str) -> Vec<u8> {
     let number = value.parse().map(number);
     number.unwrap_or_else(|_| value.to_owned()).into_bytes()

@@ -1,5 +1,5 @@
-//! The rows of a study in a file, and where each of them stands, in memory that does not grow with
-//! their number: one bit a point.
+//! Stores the rows of a study in a file, and an index to them. Its memory does not grow with the rows, except for one
+//! bit per point.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -13,32 +13,32 @@ use super::{Shard, Study, Success};
 use crate::scenario::escape::csv_line;
 use crate::scenario::scalars::number;
 
-/// The bytes of an entry of the index.
+/// Size of an entry of the index, in bytes.
 const ENTRY: usize = 16;
 
-/// Rows in the order in which they came.
+/// Rows in order of arrival.
 #[derive(Debug)]
 pub struct Ledger {
-    /// Made when the first row is added.
+    /// Created when the first row is added.
     finder: Option<Finder>,
     rows: File,
-    /// The length of `rows` up to the last whole row.
+    /// Length of `rows` up to the last complete row.
     length: u64,
-    /// For each point, where its row begins in `rows` and its length; without a name, so that it goes with the
+    /// For each point, where its row begins in `rows` and its length. The file has no name, so it disappears with the
     /// process.
     index: File,
-    /// A bit for each point that has its row.
+    /// One bit per point: whether it has its row.
     done: Vec<u64>,
-    /// The number of rows, by how their points went.
+    /// Number of rows by the success of their points.
     counts: BTreeMap<Success, usize>,
 }
 
 impl Ledger {
-    /// No rows yet; they are appended to `rows`. The index is a file in `directory`.
+    /// Makes an empty ledger, which appends rows to `rows`. The index is a file in `directory`.
     ///
     /// # Errors
     ///
-    /// If no file can be made there.
+    /// If the file cannot be created.
     pub fn new(study: &Study, mut rows: File, directory: &Path) -> io::Result<Self> {
         Ok(Self {
             finder: None,
@@ -50,12 +50,12 @@ impl Ledger {
         })
     }
 
-    /// Adds the row of a point. On an error the file ends with the last whole row, or with part of
-    /// one that a reader drops.
+    /// Adds the row of a point. On an error the file ends with the last complete row, or with part of a row that
+    /// readers drop.
     ///
     /// # Errors
     ///
-    /// As the system says.
+    /// If the system reports one.
     pub fn add(&mut self, point: usize, fields: &[String]) -> io::Result<()> {
         let line = csv_line(fields);
         let entry = [self.length, line.len() as u64].map(u64::to_le_bytes);
@@ -72,12 +72,11 @@ impl Ledger {
         Ok(())
     }
 
-    /// Adds a row that was read to the point that it belongs to, with its numbers in the form
-    /// that this program writes.
+    /// Adds a row read from elsewhere to its point, with numbers in the form that this program writes.
     ///
     /// # Errors
     ///
-    /// As the system says; inside, why no point waits for the row.
+    /// If the system reports one; the inner error says why no point takes the row.
     pub fn take(
         &mut self,
         study: &Study,
@@ -98,7 +97,7 @@ impl Ledger {
                 *field = number(value);
             }
         }
-        // Points with equal values have equal rows: which of them takes which does not matter.
+        // Points with equal values have equal rows, so any of them may take it.
         if let Some(&free) = points.iter().find(|&&point| !self.has(point)) {
             return self.add(free, &fields).map(Ok);
         }
@@ -115,7 +114,7 @@ impl Ledger {
         is_set(&self.done, point)
     }
 
-    /// The points of a shard that have no row now, in order.
+    /// Returns the points of a shard without a row, in order.
     pub fn missing(
         &self,
         study: &Study,
@@ -126,31 +125,31 @@ impl Ledger {
         points.filter(move |&point| !is_set(&done, point))
     }
 
-    /// The number of rows.
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.counts.values().sum()
     }
 
-    /// The number of rows whose points went so.
+    /// Returns the number of rows with this success.
     pub fn count(&self, success: Success) -> usize {
         self.counts.get(&success).copied().unwrap_or(0)
     }
 
-    /// The number of rows without a result.
+    /// Returns the number of rows without a result.
     pub fn failed(&self) -> usize {
         self.count(Success::Failed) + self.count(Success::Invalid)
     }
 
-    /// Makes sure that a crash of the machine does not lose the rows.
+    /// Ensures that a crash of the machine does not lose the rows.
     ///
     /// # Errors
     ///
-    /// As the system says.
+    /// If the system reports one.
     pub fn sync(&self) -> io::Result<()> {
         self.rows.sync_data()
     }
 
-    /// The row of a point that has one.
+    /// Returns the row of a point that has one.
     ///
     /// # Errors
     ///
@@ -169,11 +168,11 @@ impl Ledger {
         Ok(line)
     }
 
-    /// Gives the rows, as lines, to `take` in the order of the points.
+    /// Passes the rows, as lines, to `take` in the order of the points.
     ///
     /// # Errors
     ///
-    /// Of `take`, or if a file cannot be read.
+    /// From `take`, or if a file cannot be read.
     pub fn each(&self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         let mut points = (0..64 * self.done.len()).filter(|&point| self.has(point));
         points.try_for_each(|point| take(&self.line(point)?))

@@ -1,4 +1,4 @@
-//! One point of a study, run from beginning to end.
+//! Runs one point of a study from beginning to end.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -9,35 +9,35 @@ use crate::scenario::session::{Session, SessionError};
 use crate::scenario::{Scenario, printable};
 use crate::studies::refinement;
 
-/// The status of a point that went well.
+/// Status of a successful point.
 pub const OK: &str = "ok";
 
-/// How the status of a point begins that makes no valid scenario.
+/// Start of the status of a point that is not a valid scenario.
 pub(super) const INVALID: &str = "invalid: ";
 
-/// How the status of a point begins that has its result, but not to the accuracy asked for.
+/// Start of the status of a point with a result that misses the requested accuracy.
 const INACCURATE: &str = "accuracy ";
 
-/// How the status of a point begins that has its result, but fails a check of it.
+/// Start of the status of a point with a result that fails a check.
 const UNCHECKED: &str = "check failed: ";
 
-/// What the status of a row says of its point.
+/// The success of a point, from the status of its row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Success {
-    /// It has its result, to the accuracy asked for if one was.
+    /// It has a result, to the requested accuracy if there is one.
     Full,
-    /// It has its result, less accurate than asked for.
+    /// It has a result, less accurate than requested.
     Inaccurate,
-    /// It has its result, which fails a check.
+    /// It has a result, which fails a check.
     Unchecked,
     /// It failed.
     Failed,
-    /// It makes no valid scenario.
+    /// It is not a valid scenario.
     Invalid,
 }
 
 impl Success {
-    /// Of a row, whose status is its last field.
+    /// Reads it from a row, whose last field is the status.
     pub fn of(row: &[String]) -> Self {
         match row.last().map(String::as_str) {
             Some(OK) => Self::Full,
@@ -54,9 +54,9 @@ impl Success {
     }
 }
 
-/// Runs `point` and returns its row: the values of the axes, the columns, and [`OK`], the accuracy that was reached
-/// instead of the one asked for, or why the point failed. None if `go_on` said no before its end. A failure, even a
-/// defect of the program, is the status of the row, which then shows the last good state if there is one.
+/// Runs `point` and returns its row: the values of the axes, the columns, and a status, which is [`OK`], the accuracy
+/// reached instead of the requested one, or why the point failed. `None` if `go_on` returned false before the end. A
+/// failure, even a bug of the program, becomes the status; the row then shows the last good state, if there is one.
 pub(super) fn run(study: &Study, point: usize, go_on: &dyn Fn() -> bool) -> Option<Vec<String>> {
     let ended = match study.scenario(point) {
         Ok(scenario) => run_scenario(study, scenario, go_on)?,
@@ -71,7 +71,7 @@ fn failed(study: &Study, why: &str) -> Vec<String> {
     row
 }
 
-/// Runs `scenario` as a point of `study`: for its columns and its status, until one of its ends.
+/// Runs `scenario` as a point of `study` until one of its ends, for its columns and its status.
 pub(super) fn run_scenario(
     study: &Study,
     scenario: Scenario,
@@ -86,8 +86,8 @@ pub(super) fn run_scenario(
         crate::failpoint::hit("point");
         let ended = advance(&mut session, &study.stop, go_on);
         let reading = Reading::new(&session);
-        let columns = study.columns.iter();
-        let fields = columns.map(|column| cell(&column.read(&reading)));
+        let columns = study.columns.iter().copied();
+        let fields = columns.map(|column| cell(&reading.value(column)));
         (ended, fields.collect::<Vec<_>>(), failed_check(&session))
     }));
     let Ok((ended, mut row, failed_check)) = ended else {
@@ -102,7 +102,7 @@ pub(super) fn run_scenario(
     Some(row)
 }
 
-/// The status of a point that fails a check: the worst one with its size.
+/// Returns the status of a point that fails a check: the worst check with its error.
 fn failed_check(session: &Session) -> Option<String> {
     let failing = session.checks().into_iter().filter(|check| !check.holds());
     let worst = failing.max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()))?;
@@ -110,9 +110,9 @@ fn failed_check(session: &Session) -> Option<String> {
     Some(format!("{UNCHECKED}{name} {size:.1e}"))
 }
 
-/// A session with the points and steps that meet the accuracy of the scenario if it asks for one, and the status
-/// that its row gets. If only the scenario's last cycle ends the point, the run that met the accuracy is the point
-/// already; else the session is at its start.
+/// Returns a session with points and steps for the accuracy of the scenario, if it has one, and the status of its row.
+/// If the point only ends with the scenario's last cycle, the session is the finished run that met the accuracy;
+/// otherwise it is at its start.
 fn begun(
     scenario: &Scenario,
     stop: &Stop,
@@ -153,11 +153,11 @@ fn advance(
     }
 }
 
-/// The worn volume over the cycles, for [`Stop::settled`].
+/// Worn volume over the cycles, for [`Stop::settled`].
 struct Worn(Vec<[f64; 2]>);
 
 impl Worn {
-    /// Whether one of the ends in `stop` is reached at the present moment.
+    /// Whether one of the conditions in `stop` holds at the present moment.
     fn reaches(&mut self, session: &Session, stop: &Stop) -> bool {
         if *stop == Stop::default() {
             return false;
@@ -172,7 +172,7 @@ impl Worn {
             || stop.settled.is_some_and(settled)
     }
 
-    /// The worn volume at an earlier cycle, m³, on straight lines between those that were noted.
+    /// Returns the worn volume at an earlier cycle, m³, by linear interpolation.
     fn at(&self, cycle: f64) -> f64 {
         let after = self.0.partition_point(|[at, _]| *at < cycle);
         let after = after.clamp(1, self.0.len() - 1);

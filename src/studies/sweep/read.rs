@@ -1,4 +1,4 @@
-//! From a TOML text to a study. Each refusal is one line: what is wrong, where, what would be right.
+//! Reads a study from a TOML text. Each refusal is one line: what is wrong, where, what would be right.
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -11,22 +11,23 @@ use super::axis::{self, Axis, Values, known_key};
 use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
 use crate::math::scale::Scale;
+use crate::reading::Column;
 use crate::scenario::blocks::flatten;
-use crate::scenario::scalars::{self, Scalar, number};
+use crate::scenario::scalars::{self, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{preset, schema, units, values};
 
 /// The columns of a study that names none.
-const COLUMNS: [&str; 4] = [
-    "wear_volume_m3",
-    "dissipated_energy_J",
-    "regime",
-    "estimated_error",
+const COLUMNS: [Column; 4] = [
+    Column::WearVolume,
+    Column::DissipatedEnergy,
+    Column::Regime,
+    Column::WornDepthError,
 ];
 
 type Result<T> = std::result::Result<T, Refusal>;
 
-/// A study as it is written.
+/// A study as written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -46,7 +47,7 @@ struct Written {
     axis: Vec<WrittenAxis>,
 }
 
-/// An axis as it is written.
+/// An axis as written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenAxis {
@@ -60,13 +61,12 @@ struct WrittenAxis {
 }
 
 impl Study {
-    /// Reads a study from a text that messages call `origin`; the path of its base is relative to
-    /// `directory`.
+    /// Reads a study from a text, called `origin` in messages; the path of its base is relative to `directory`.
     ///
     /// # Errors
     ///
-    /// Refuses what is not TOML, unknown keys and columns (with the nearest known one), values that
-    /// break a rule, and a base that cannot be loaded.
+    /// If the text is not TOML, has unknown keys or columns (suggests the nearest known one) or values that break a
+    /// rule, or if the base cannot be loaded.
     pub fn read(text: &str, origin: &str, directory: &Path) -> Result<Self> {
         Self::read_on(text, origin, |name| {
             let path = match preset::is_path(name) {
@@ -77,7 +77,7 @@ impl Study {
         })
     }
 
-    /// Reads a study whose base is given by its own text, as a record holds it.
+    /// Reads a study whose base is given as text, as in a record.
     ///
     /// # Errors
     ///
@@ -101,7 +101,7 @@ impl Study {
 }
 
 impl Written {
-    /// The study, on its base.
+    /// Builds the study on its base.
     fn study(self, base: Scenario, written: Table) -> Result<Study> {
         let samples = samples(&self)?;
         check_stop(self.stop)?;
@@ -151,7 +151,7 @@ fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> 
     Err(Refusal::of_value(place, value, rule))
 }
 
-/// The number of samples and the seed of a sampled design.
+/// Returns the number of samples and the seed of a sampled design.
 fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
     let (design, seed) = (written.design, written.seed);
     let Some(most) = design.most_samples() else {
@@ -170,7 +170,7 @@ fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
     }
 }
 
-/// The scenario keys of a table at `place` and their values: dotted keys and nested tables alike.
+/// Returns the scenario keys of a table at `place` and their values, from dotted keys and nested tables alike.
 fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
     let mut found = Vec::new();
     for (key, value) in table {
@@ -181,15 +181,16 @@ fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
     Ok(found)
 }
 
-fn columns(names: Option<&[String]>) -> Result<Vec<&'static Scalar>> {
-    let usual = || COLUMNS.map(str::to_owned).to_vec();
-    let names = names.map_or_else(usual, <[String]>::to_vec);
-    let mut columns: Vec<&Scalar> = Vec::new();
+fn columns(names: Option<&[String]>) -> Result<Vec<Column>> {
+    let Some(names) = names else {
+        return Ok(COLUMNS.to_vec());
+    };
+    let mut columns = Vec::new();
     for name in names {
-        let column = scalars::named(&name);
+        let column = scalars::named(name);
         let column = column.map_err(|why| Refusal::from(format!("columns: {why}")))?;
-        if columns.iter().any(|known| known.name == column.name) {
-            return refuse("columns", Value::from(name), "stands twice");
+        if columns.contains(&column) {
+            return refuse("columns", Value::from(name.as_str()), "stands twice");
         }
         columns.push(column);
     }
@@ -215,7 +216,7 @@ fn sensitivity(table: &Table) -> Result<Vec<(String, f64)>> {
     numbers("sensitivity", table, rule, |number| number >= 0.0)
 }
 
-/// The scenario keys of a table at `place` and their values, finite numbers that keep a `rule`.
+/// Returns the scenario keys of a table at `place` and their values, finite numbers that satisfy a `rule`.
 fn numbers(
     place: &str,
     table: &Table,
@@ -230,7 +231,7 @@ fn numbers(
     values.collect()
 }
 
-/// The next axis of a study.
+/// Reads the next axis of a study.
 fn read_axis(
     axis: WrittenAxis,
     place: &str,
@@ -251,7 +252,7 @@ fn read_axis(
     let why = format!("{place}.scale: goes with values, not with {name}");
     ensure(axis.scale.is_none() || name == "values", why)?;
     let named = format!("{place}.{name}");
-    // Texts may be numbers with a unit.
+    // Texts may be numbers with units.
     for value in &mut list {
         let text = value.as_str().unwrap_or_default();
         let quantity = |known| units::quantity(text, known, study.is_force(&key));
@@ -286,7 +287,7 @@ fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
         let rule = "its values must be numbers, texts or flags";
         return refuse(place, Value::Array(list), rule);
     }
-    // 100 and 100.0 are one value, so that both are written alike.
+    // 100 and 100.0 are one value, and are written alike.
     let normal = |value: Value| match value {
         Value::Integer(whole) => axis::value_of(key, whole as f64),
         value => value,
@@ -294,7 +295,7 @@ fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
     Ok(list.into_iter().map(normal).collect())
 }
 
-/// The values that a list [from, to, number] tells, or [from, to] where they are sampled.
+/// Reads the values from a list [from, to, number], or [from, to] for samples.
 fn between(
     place: &str,
     list: &[Value],

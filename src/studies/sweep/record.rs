@@ -1,5 +1,5 @@
-//! The table of a study as text: a header that holds the whole study and its base, the names of the
-//! columns, and a row per point.
+//! The table of a study as text: a header that contains the whole study and its base, the names of the columns, and a
+//! row per point.
 //!
 //! ```text
 //! # mdr-tui: 0.1.0
@@ -11,11 +11,11 @@
 //! 5e-7,1.2e-18,ok
 //! ```
 //!
-//! While the study runs, rows are in the order in which they finish; a row belongs to the point
-//! whose values it begins with. A last line without its end was cut short and does not count.
+//! While the study runs, rows appear in the order in which they finish; a row belongs to the point whose values it
+//! begins with. A last line without a line end was cut short and does not count.
 //!
-//! What a spreadsheet does to a table is undone: columns are read by name, numbers in any form, lines
-//! with any end, and a byte order mark is skipped.
+//! Changes made by a spreadsheet are tolerated: columns are read by name, numbers in any form, lines with any line end,
+//! and a byte order mark is skipped.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -29,7 +29,7 @@ use crate::scenario::scalars::Value;
 use crate::scenario::{Refusal, printable};
 use crate::studies::table::Object;
 
-/// The longest line and the longest header that are read, in bytes.
+/// Maximum length of a line, and of the header, in bytes.
 const LONGEST: u64 = 1 << 26;
 
 /// The arithmetic of each machine that has run some of the rows: their last digits depend on it.
@@ -63,12 +63,12 @@ pub fn header(study: &Study) -> String {
     text
 }
 
-/// The fields of one line of a CSV file.
+/// Splits one line of a CSV file into fields.
 pub(super) fn split(line: &str) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
     let mut row = csv::StringRecord::new();
-    // Memory does not fail to be read.
+    // Reading from memory cannot fail.
     let _ = reader.read_record(&mut row);
     row.iter().map(str::to_owned).collect()
 }
@@ -84,38 +84,38 @@ pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) 
     escape::json(&Object(columns, &values), false).unwrap_or_default()
 }
 
-/// A table that is read back, row by row.
+/// A table read back row by row.
 pub struct Record {
-    /// What messages call it.
+    /// Name in messages.
     name: String,
     /// The header without arithmetic and shard.
     header: String,
     /// The arithmetic of its rows.
     pub arithmetic: Arithmetic,
-    /// The part of the study that it holds.
+    /// The shard of the study that it contains.
     pub shard: Shard,
-    /// The names of the columns, as they stand.
+    /// The names of the columns, in the file's order.
     columns: Vec<String>,
     lines: Box<dyn BufRead>,
 }
 
 impl Record {
-    /// Begins to read the table in a file.
+    /// Starts reading the table in a file.
     ///
     /// # Errors
     ///
-    /// As [`open`](Self::open), and if the file cannot be opened.
+    /// As for [`open`](Self::open), and if the file cannot be opened.
     pub fn of_file(path: &Path) -> Result<Self, Refusal> {
         let name = path.display();
         let file = bounded_read::open(path).map_err(|why| Refusal::unread(&name, &why))?;
         Self::open(file, &name.to_string())
     }
 
-    /// Begins to read a table that messages call `name`.
+    /// Starts reading a table, called `name` in messages.
     ///
     /// # Errors
     ///
-    /// Refuses a file that is not the table of a study.
+    /// If the file is not the table of a study.
     pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, Refusal> {
         let name = printable(name);
         let refuse = |why: &str| Refusal::new(&name, why);
@@ -159,11 +159,11 @@ impl Record {
         })
     }
 
-    /// The study that the header holds.
+    /// Returns the study in the header.
     ///
     /// # Errors
     ///
-    /// Refuses a header that was edited and no longer holds a study.
+    /// If the header was edited and no longer describes a study.
     pub fn study(&self) -> Result<Study, Refusal> {
         let part = |key: &str| -> String {
             let prefix = format!("# {key}: ");
@@ -174,11 +174,11 @@ impl Record {
         Study::read_with_base(&part("study"), &self.name, &part("base"))
     }
 
-    /// Refuses a table of another study, or one made by another version.
+    /// Refuses a table of another study, or one written by another version.
     ///
     /// # Errors
     ///
-    /// Names the first line of the headers that differs.
+    /// The first line of the headers that differs.
     pub fn expect(&self, study: &Study, origin: &str) -> Result<(), Refusal> {
         let expected = header(study);
         if self.header == expected {
@@ -193,11 +193,11 @@ impl Record {
         Err(Refusal::new(&self.name, rule))
     }
 
-    /// The rows that follow, with the columns in the order of `study`.
+    /// Iterates over the remaining rows, with the columns in the order of `study`.
     ///
     /// # Errors
     ///
-    /// Refuses columns that differ from the study's.
+    /// If the columns differ from the study's.
     pub fn rows(
         mut self,
         study: &Study,
@@ -239,7 +239,7 @@ impl Record {
     }
 }
 
-/// The next line without its end; one without an end does not count.
+/// Returns the next line without its line end; a line without one does not count.
 fn next_line(lines: &mut dyn BufRead) -> io::Result<Option<String>> {
     let mut line = Vec::new();
     let read = lines.take(LONGEST).read_until(b'\n', &mut line)?;
@@ -254,13 +254,13 @@ fn next_line(lines: &mut dyn BufRead) -> io::Result<Option<String>> {
     Ok(Some(line))
 }
 
-/// Why a row cannot be taken.
+/// Why a row is not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refused {
     /// It has another number of fields, or no point has these values.
     Foreign,
-    /// All points of these values have their rows, equal to this one.
+    /// All points with these values have their rows, and one of them equals this row.
     Double,
-    /// All points of these values have their rows, and they differ from this one.
+    /// All points with these values have their rows, and they differ from this one.
     Contradiction,
 }

@@ -1,18 +1,16 @@
-//! How sensitive the results of a scenario are to its keys.
+//! Computes how sensitive the results of a scenario are to its keys.
 //!
 //! # Formula
 //!
-//! The elasticity of a result y with respect to a key x, E = d ln y/d ln x, by the central
-//! difference D(h) = [ln y(x eʰ) − ln y(x e⁻ʰ)]/2h and one step of Richardson's extrapolation, E =
-//! [4 D(h) − D(2h)]/3. |E − D(h)| covers both the remaining truncation error and the noise of the
-//! runs, and is taken as the error of E. Where an error is above `WANTED`, all runs are repeated
-//! on a finer grid with more steps, at most `LEVELS` times.
+//! The elasticity of a result y with respect to a key x, E = d ln y/d ln x, by the central difference D(h) = [ln y(x
+//! eʰ) − ln y(x e⁻ʰ)]/2h and one step of Richardson extrapolation, E = [4 D(h) − D(2h)]/3. |E − D(h)| covers both the
+//! remaining truncation error and the noise of the runs, and serves as the error of E. If an error exceeds `WANTED`,
+//! all runs are repeated on a finer grid with more steps, at most `LEVELS` times.
 //!
-//! With standard deviations σ of the keys, which are taken as independent, the relative spread of y
-//! is √Σ(E σ/x)².
+//! With standard deviations σ of the keys, which are assumed independent, the relative spread of y is √Σ(E σ/x)².
 //!
-//! All runs use the numerics chosen for the scenario in the middle: an accuracy chooses by the values
-//! of the keys, and a different choice would be noise in the difference.
+//! All runs use the numerics chosen for the central scenario: an accuracy chooses by the values of the keys, and a
+//! different choice would add noise to the difference.
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -27,33 +25,32 @@ use crate::studies::table::{Format, Table};
 /// h, in ln x.
 const STEP: f64 = 0.01;
 
-/// The errors of elasticities that are good enough: absolute, and relative to the elasticity.
+/// Acceptable errors of elasticities: absolute, and relative to the elasticity.
 const WANTED: (f64, f64) = (0.01, 0.02);
 
-/// The most levels of refinement; each halves cells and steps.
+/// Maximum number of refinement levels; each halves cells and steps.
 const LEVELS: u32 = 3;
 
-/// Where the runs of a key stand, in units of the step.
+/// Positions of the runs of a key, in units of the step.
 const PLACES: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
-/// What a study of sensitivities has found.
+/// Results of a sensitivity study.
 #[derive(Debug)]
 pub struct Sensitivity {
-    /// A row per key and column; at the end, of each column, the relative spread that all deviations bring about
-    /// together.
+    /// A row per key and column, followed by the relative spread of each column due to all deviations together.
     pub table: Table,
     /// Cells and steps per cycle of the last runs.
     pub numerics: (usize, u32),
-    /// Whether every elasticity is known as well as wanted.
+    /// Whether every elasticity is as accurate as wanted.
     pub is_resolved: bool,
 }
 
-/// Finds the elasticities of the study's columns with respect to the keys that it asks for, or those of its axes, around
-/// its base with what it sets. None if `go_on` said no before the end.
+/// Computes the elasticities of the study's columns with respect to its sensitivity keys, or else to its axes, around
+/// its base with its settings. `None` if `go_on` returned false before the end.
 ///
 /// # Errors
 ///
-/// Refuses a key whose value in the scenario is not a number greater than 0, and reports a run that failed.
+/// If a key's value in the scenario is not a number greater than 0, or if a run failed.
 pub fn run(
     study: &Study,
     pool: &ThreadPool,
@@ -91,7 +88,7 @@ pub fn run(
     }
 }
 
-/// Finds the elasticities around a scenario with its numerics written down.
+/// Computes the elasticities around a scenario with fixed numerics.
 fn around(
     study: &Study,
     fixed: &Scenario,
@@ -134,7 +131,7 @@ fn around(
     ]);
     let mut is_resolved = true;
     let has_deviation = keys.iter().any(|(_, deviation, _)| deviation.is_some());
-    // The relative spread of each column, unless an elasticity that adds to it is not known.
+    // The relative spread of each column, unless one of its elasticities is unknown.
     let mut spreads = vec![has_deviation.then_some(0.0); study.columns.len()];
     for (&(key, deviation, value), around) in keys.iter().zip(results[1..].chunks(PLACES.len())) {
         for (column, known) in study.columns.iter().enumerate() {
@@ -149,7 +146,7 @@ fn around(
                 let both = spreads[column].zip(spread);
                 spreads[column] = both.map(|(sum, spread)| f64::hypot(sum, spread));
             }
-            let (name, result) = (known.name, results[0][column]);
+            let (name, result) = (known.name(), results[0][column]);
             table.push((
                 key, value, name, result, elasticity, error, deviation, spread,
             ));
@@ -157,7 +154,7 @@ fn around(
     }
     for (column, spread) in spreads.into_iter().enumerate() {
         if spread.is_some() {
-            let (name, result) = (study.columns[column].name, results[0][column]);
+            let (name, result) = (study.columns[column].name(), results[0][column]);
             table.push(("all", (), name, result, (), (), (), spread));
         }
     }
@@ -169,7 +166,7 @@ fn around(
     }))
 }
 
-/// E and its error from the results at [`PLACES`]; none if one of them is not positive.
+/// Returns E and its error from the results at [`PLACES`]; `None` unless all are positive.
 fn difference(results: &[f64]) -> Option<[f64; 2]> {
     let &[far_below, below, above, far_above] = results else {
         return None;
@@ -193,7 +190,7 @@ mod tests {
         let results = PLACES.map(|place| 7.0 * (STEP * place).exp().powf(1.5));
         let [elasticity, error] = difference(&results).expect("an elasticity");
         assert!((elasticity - 1.5).abs() < 1e-10 && error < 1e-10);
-        // Noise shows up as an error of the same size.
+        // Noise appears as an error of the same size.
         let noisy = [results[0], results[1], results[2] * 1.001, results[3]];
         let [elasticity, error] = difference(&noisy).expect("an elasticity");
         assert!(error > 0.2 * (elasticity - 1.5).abs() && error > 0.01);

@@ -1,14 +1,14 @@
-//! A shard: the part of a study that one task runs, independently of the others.
+//! A shard: the part of a study that one task runs, independent of the others.
 
 use std::str::FromStr;
 
-/// Shard `index` of `count`: every `count`-th point, beginning with point `index`. Neighbouring
-/// points cost about the same, so interleaved shards do as well.
+/// Shard `index` of `count`: every `count`-th point, beginning with point `index`. Neighbouring points cost about the
+/// same, so interleaving balances the shards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Counted from 0.
     pub index: usize,
-    /// How many there are, at least 1.
+    /// Number of shards, at least 1.
     pub count: usize,
 }
 
@@ -16,12 +16,12 @@ impl Shard {
     /// The whole study.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
-    /// The points of this shard among the first `points`, in order.
+    /// Returns the points of this shard among the first `points`, in order.
     pub fn points(self, points: usize) -> impl ExactSizeIterator<Item = usize> + Send + use<> {
         (self.index..points).step_by(self.count)
     }
 
-    /// Whether a point is one of this shard's.
+    /// Whether a point belongs to this shard.
     pub fn holds(self, point: usize) -> bool {
         point % self.count == self.index
     }

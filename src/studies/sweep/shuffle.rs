@@ -1,13 +1,13 @@
-//! A random order of many places of which any one is known without the others.
+//! A random permutation with O(1) access (Feistel network).
 
-/// Enough for what looks random.
+/// Enough rounds to look random.
 const ROUNDS: u64 = 4;
 
-/// Where `place` of `length` goes in a random order, one for each `key`: a Feistel network of four rounds on the
-/// next even number of bits, walked until it comes back below `length`.
+/// Returns the position of `place` in a random permutation of `length` elements, which depends on `key`: a Feistel
+/// network of four rounds on the next even number of bits, repeated until the result is below `length`.
 pub(super) fn shuffled(place: usize, length: usize, key: u64) -> usize {
     let bits = usize::BITS - length.saturating_sub(1).leading_zeros();
-    // Bits of a half.
+    // Bits per half.
     let bits = bits.div_ceil(2).max(1);
     let mask = (1 << bits) - 1;
     let round = |place: u64, round: u64| {
@@ -23,7 +23,7 @@ pub(super) fn shuffled(place: usize, length: usize, key: u64) -> usize {
     }
 }
 
-/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): a number that looks random.
+/// Mixes a number into one that looks random, by the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
 pub(super) fn mix(number: u64) -> u64 {
     let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn neighbours_are_torn_apart() {
-        // The correlation of neighbouring places of a random order is about 1/√n.
+        // Neighbouring places of a random permutation have a correlation of about 1/√n.
         let share = |place: usize| shuffled(place, 10_000, 7) as f64 / 1e4 - 0.5;
         let sum: f64 = (1..10_000).map(|at| share(at) * share(at - 1)).sum();
         assert!((12.0 * sum / 1e4).abs() < 0.05, "{}", 12.0 * sum / 1e4);

@@ -1,35 +1,39 @@
-//! A table of a study along one or two of its axes: what a map shows, on the screen and on paper.
+//! The table of a study along one or two of its axes, as shown in a map, on the screen and on paper.
 
 use super::border::{Distance, crossing, to_gross_slip, to_lift_off};
 use super::finder::Finder;
 use super::record::Record;
 use super::{Axis, Design, Study, Success};
-use crate::reading::Regime;
+use crate::reading::{Column, Regime};
 use crate::scenario::Refusal;
 
 /// The field's criteria that can be laid over a map: column, value, and name with what it holds for.
-const CRITERIA: [(&str, f64, &str); 5] = [
+const CRITERIA: [(Column, f64, &str); 5] = [
     (
-        "energy_ratio",
+        Column::EnergyRatio,
         0.2,
         "A = 0.2 (unworn sphere, stiff rig only)",
     ),
     (
-        "sliding_ratio",
+        Column::SlidingRatio,
         0.26,
         "D = 0.26 (unworn sphere, stiff rig only)",
     ),
-    ("energy_ratio_B", 0.77, "B = 0.77 (sphere, any rig)"),
-    ("swt_ratio", 1.0, "SWT at the fatigue limit"),
-    ("crossland_ratio", 1.0, "Crossland at the fatigue limit"),
+    (Column::EnergyRatioB, 0.77, "B = 0.77 (sphere, any rig)"),
+    (Column::SwtRatio, 1.0, "SWT at the fatigue limit"),
+    (
+        Column::CrosslandRatio,
+        1.0,
+        "Crossland at the fatigue limit",
+    ),
 ];
 
-/// A line over a map, as places on its axes: 1.5 lies halfway between the second and the third value.
+/// A line on a map, as places on its axes: 1.5 lies halfway between the second and the third value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// What it is.
+    /// Its name.
     pub name: &'static str,
-    /// Places on the x axis and on the y axis, where it crosses columns and rows of the map, from left to right.
+    /// Places on the x and y axes where it crosses columns and rows of the map, from left to right.
     pub at: Vec<[f64; 2]>,
 }
 
@@ -39,42 +43,41 @@ impl Line {
         (at.len() > 1).then_some(Self { name, at })
     }
 
-    /// The letter that marks it on a map: the first of its name.
+    /// Returns the letter that marks it on a map: the first of its name.
     pub fn letter(&self) -> char {
         let first = self.name.chars().next().unwrap_or(' ');
         first.to_ascii_uppercase()
     }
 
-    /// Its parts; one ends where a column is not crossed.
+    /// Returns its parts; a part ends at a column that the line does not cross.
     pub fn parts(&self) -> impl Iterator<Item = &[[f64; 2]]> {
         let parts = self.at.chunk_by(|from, to| to[0] - from[0] <= 1.0);
         parts.filter(|part| part.len() > 1)
     }
 }
 
-/// A study with its rows, and the axes that are shown.
+/// A study with its rows, and the axes shown.
 #[derive(Debug)]
 pub struct Slice {
     /// The study.
     pub study: Study,
-    /// The fields of each point, `None` while it has no row.
+    /// The fields of each point; `None` while it has no row.
     pub rows: Vec<Option<Vec<String>>>,
-    /// The axis that runs to the right.
+    /// The axis to the right.
     pub x: usize,
-    /// The axis that runs upwards; `None` where there is one axis, or no grid.
+    /// The axis upwards; `None` if there is only one axis, or no grid.
     pub y: Option<usize>,
-    /// A place on each axis, or the same point on all without a grid. Those on the axes that are shown are a
-    /// cursor's.
+    /// A place on each axis, or without a grid the same point on all. On the axes shown, these are a cursor's places.
     pub at: Vec<usize>,
     held: Vec<usize>,
 }
 
 impl Slice {
-    /// The first and the last axis of a study without rows, at the first place of the others.
+    /// Shows the first and the last axis of a study without rows, with the other axes at their first places.
     ///
     /// # Errors
     ///
-    /// If the study, which messages call `name`, has no axis.
+    /// If the study, called `name` in messages, has no axis.
     pub fn new(study: Study, name: &str) -> Result<Self, Refusal> {
         if study.axes.is_empty() {
             return Err(Refusal::new(name, "there is no axis to show"));
@@ -90,7 +93,7 @@ impl Slice {
         })
     }
 
-    /// Takes the rows of a table of the same study, which messages call `name`.
+    /// Reads the rows of a table of the same study, called `name` in messages.
     ///
     /// # Errors
     ///
@@ -111,19 +114,18 @@ impl Slice {
         Ok(())
     }
 
-    /// The number of rows, and how many of them failed.
+    /// Returns the number of rows, and how many of them failed.
     pub fn count(&self) -> (usize, usize) {
         let rows = || self.rows.iter().flatten();
         let failed = rows().filter(|row| !Success::of(row).has_result());
         (rows().count(), failed.count())
     }
 
-    /// Holds the axis `key` at one of its values, and shows others: the last one and the first one that are not
-    /// held.
+    /// Holds the axis `key` at one of its values, and shows the last and the first axis that are not held.
     ///
     /// # Errors
     ///
-    /// In one line, for a key that is not an axis, a value that the axis does not have, or no axis left to show.
+    /// In one line, if `key` is not an axis, the axis does not have that value, or no axis is left to show.
     pub fn hold(&mut self, key: &str, value: &str) -> Result<(), String> {
         if self.study.design != Design::Grid {
             return Err("only a grid has axes to hold".into());
@@ -152,30 +154,30 @@ impl Slice {
         Ok(())
     }
 
-    /// The axis to the right.
+    /// Returns the axis to the right.
     pub fn x(&self) -> &Axis {
         &self.study.axes[self.x]
     }
 
-    /// The axis upwards.
+    /// Returns the axis upwards.
     pub fn y(&self) -> Option<&Axis> {
         self.y.map(|y| &self.study.axes[y])
     }
 
-    /// The axes that are not shown.
+    /// Returns the axes that are not shown.
     pub fn hidden(&self) -> impl Iterator<Item = usize> {
         let grid = self.study.design == Design::Grid;
         (0..self.study.axes.len())
             .filter(move |axis| grid && *axis != self.x && Some(*axis) != self.y)
     }
 
-    /// The numbers of places to the right and upwards.
+    /// Returns the numbers of places to the right and upwards.
     pub fn size(&self) -> [usize; 2] {
         let high = self.y().map_or(1, |axis| axis.count());
         [self.x().count(), high]
     }
 
-    /// The point at a place to the right and upwards.
+    /// Returns the point at a place to the right and upwards.
     pub fn point_at(&self, x: usize, y: usize) -> usize {
         if self.study.design != Design::Grid {
             return x;
@@ -189,41 +191,41 @@ impl Slice {
         axes.fold(0, |point, (axis, place)| point * axis.count() + place)
     }
 
-    /// The points that are shown, row by row.
+    /// Returns the points shown, row by row.
     pub fn points(&self) -> impl Iterator<Item = usize> {
         let [wide, high] = self.size();
         (0..high).flat_map(move |y| (0..wide).map(move |x| self.point_at(x, y)))
     }
 
-    /// The row of a point.
+    /// Returns the row of a point.
     pub fn row(&self, point: usize) -> Option<&Vec<String>> {
         self.rows[point].as_ref()
     }
 
     /// The field of `column` of a point; `None` without a row, or where the point failed.
-    pub fn field(&self, point: usize, column: &str) -> Option<&str> {
+    pub fn field(&self, point: usize, column: Column) -> Option<&str> {
         let row = self.row(point)?;
         let mut columns = self.study.columns.iter();
-        let at = columns.position(|known| known.name == column)?;
+        let at = columns.position(|known| *known == column)?;
         let field = row.get(self.study.axes.len() + at)?;
         (Success::of(row).has_result() && !field.is_empty()).then_some(field)
     }
 
     /// The number in `column` of a point.
-    pub fn number(&self, point: usize, column: &str) -> Option<f64> {
+    pub fn number(&self, point: usize, column: Column) -> Option<f64> {
         let number: f64 = self.field(point, column)?.parse().ok()?;
         number.is_finite().then_some(number)
     }
 
-    /// The regime of a point.
+    /// Returns the regime of a point.
     pub fn regime(&self, point: usize) -> Option<Regime> {
-        self.field(point, "regime")?.parse().ok()
+        self.field(point, Column::Regime)?.parse().ok()
     }
 
-    /// The criteria of the field, where the study has their columns: between neighbouring points of the map.
+    /// Draws the published criteria whose columns the study has, between neighbouring points of the map.
     pub fn criteria(&self) -> Vec<Line> {
         let [wide, high] = self.size();
-        let line = |(column, value, name): (&str, f64, &'static str)| {
+        let line = |(column, value, name): (Column, f64, &'static str)| {
             let off = |x: usize, y: usize| {
                 let inside = x < wide && y < high;
                 let number = inside.then(|| self.number(self.point_at(x, y), column));
@@ -243,14 +245,14 @@ impl Slice {
         CRITERIA.into_iter().filter_map(line).collect()
     }
 
-    /// The borders in closed form.
+    /// Returns the borders in closed form.
     pub fn borders(&self) -> Vec<Line> {
         let Some(y) = self.y else {
             return Vec::new();
         };
         let [wide, high] = self.size();
         let line = |to_border: Distance| {
-            // Along one axis, the other one at a place.
+            // Crosses the border along one axis, with the other one at a place.
             let crossed = |along: usize, other: usize, place: usize| {
                 let mut places = self.at.clone();
                 places[other] = place;

@@ -7,14 +7,13 @@ use toml::{Table, Value};
 
 use super::Design;
 use super::axis::{self, Axis, known_key};
+use crate::reading::Column;
 use crate::scenario::escape::cell;
-use crate::scenario::scalars::Scalar;
 use crate::scenario::values::{self, literal};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::scenario::{assign, schema, units};
 
-/// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is
-/// reached.
+/// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stop {
@@ -22,8 +21,7 @@ pub struct Stop {
     pub worn_depth: Option<f64>,
     /// The worn volume, m³.
     pub volume: Option<f64>,
-    /// The wear has come to rest: the second half of the cycles has added at most this share of
-    /// the worn volume.
+    /// Wear has settled: the second half of the cycles added at most this share of the worn volume.
     pub settled: Option<f64>,
 }
 
@@ -32,26 +30,26 @@ pub struct Stop {
 pub struct Study {
     /// The `title`, if there is one.
     pub title: Option<String>,
-    /// The base.
+    /// The base scenario.
     pub base: Scenario,
-    /// What is set for all points, as `--set` takes it.
+    /// Settings for all points, as for `--set`.
     pub set: BTreeMap<String, Value>,
-    /// What is varied.
+    /// The varied keys.
     pub axes: Vec<Axis>,
-    /// How the axes make points.
+    /// How the axes are combined into points.
     pub design: Design,
     /// The columns after the axes' columns.
-    pub columns: Vec<&'static Scalar>,
+    pub columns: Vec<Column>,
     /// When a point ends.
     pub stop: Stop,
-    /// Keys whose sensitivities are asked for, each with its standard deviation in its unit; 0 where that is not known.
+    /// Keys of a sensitivity study, each with its standard deviation in its unit; 0 if unknown.
     pub sensitivity: Vec<(String, f64)>,
-    /// As it is written.
+    /// The study as written.
     pub(super) written: Table,
 }
 
 impl Study {
-    /// The number of points.
+    /// Returns the number of points.
     pub fn points(&self) -> usize {
         match self.design {
             Design::Grid => self.axes.iter().map(|axis| axis.count()).product(),
@@ -59,7 +57,7 @@ impl Study {
         }
     }
 
-    /// The place of `point` on each axis.
+    /// Returns the place of `point` on each axis.
     pub fn places(&self, point: usize) -> Vec<usize> {
         if self.design != Design::Grid {
             return vec![point; self.axes.len()];
@@ -72,7 +70,7 @@ impl Study {
         places
     }
 
-    /// The values of the axes at `point`, as its row shows them: on one line, whatever they hold.
+    /// Returns the values of the axes at `point`, as in its row, each on one line.
     pub fn values(&self, point: usize) -> Vec<String> {
         let places = self.places(point);
         let axes = self.axes.iter().zip(places);
@@ -80,7 +78,7 @@ impl Study {
         shown.collect()
     }
 
-    /// `point` in words: its number and its values.
+    /// Names `point` by its number and its values.
     pub fn name(&self, point: usize) -> String {
         let values = self.axes.iter().zip(self.values(point));
         let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
@@ -88,27 +86,28 @@ impl Study {
         format!("point {point} ({})", values.join(", "))
     }
 
-    /// The names of all columns, in order: the keys of the axes, the columns, `status`.
+    /// Returns the names of all columns, in order: the keys of the axes, the columns, `status`.
     pub fn columns(&self) -> Vec<&str> {
         let axes = self.axes.iter().map(|axis| axis.key.as_str());
-        let columns = self.columns.iter().map(|column| column.name);
+        let columns = self.columns.iter().map(|column| column.name());
         axes.chain(columns).chain(["status"]).collect()
     }
 
-    /// The scenario of `point`.
+    /// Builds the scenario of `point`.
     ///
     /// # Errors
     ///
-    /// Refuses values that make no valid scenario, and one without an end.
+    /// If the values are not a valid scenario, or if the scenario has no end.
     pub fn scenario(&self, point: usize) -> Result<Scenario, Refusal> {
         self.scenario_at(&self.places(point), None)
     }
 
-    /// The scenario with the first axes at `places`, but for an axis that has another value, and nothing of the others.
+    /// Builds the scenario with the first axes at `places`, except
+    /// for an axis with another value; further axes are not set.
     ///
     /// # Errors
     ///
-    /// As [`scenario`](Self::scenario).
+    /// As for [`scenario`](Self::scenario).
     pub fn scenario_at(
         &self,
         places: &[usize],
@@ -133,13 +132,13 @@ impl Study {
         Ok(scenario)
     }
 
-    /// The unit of an axis.
+    /// Returns the unit of an axis.
     pub fn unit(&self, axis: &Axis) -> &'static str {
         let is_force = self.is_force(&axis.key);
         schema::find(&axis.key).map_or("", |known| units::unit_of(known, is_force))
     }
 
-    /// Whether the motion that `key` belongs to prescribes a force, by what is set for all points or by the base.
+    /// Whether the motion of `key` prescribes a force, by the settings for all points or by the base.
     pub(super) fn is_force(&self, key: &str) -> bool {
         let control = values::join(values::split(key).0, "control");
         let control = match self.set.get(&control) {
@@ -149,12 +148,11 @@ impl Study {
         control.is_some_and(|control| control.trim_matches('"') == "force")
     }
 
-    /// Sets a key for all points, as `--set` does: `KEY=VALUE`. It takes the place of what `[set]`
-    /// says.
+    /// Sets a key for all points, as `--set` does: `KEY=VALUE`. Replaces the value in `[set]`.
     ///
     /// # Errors
     ///
-    /// Refuses a text that is not an assignment, an unknown key, and the key of an axis.
+    /// If the text is not an assignment, the key is unknown, or it is the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
         let place = format!("--set {}", printable(set));
         let (key, value) = assign::split(set, &place)?;
@@ -169,7 +167,7 @@ impl Study {
         Ok(())
     }
 
-    /// The study as TOML: as it is written, without comments, and with what was set since.
+    /// Returns the study as TOML, as written but without comments, including later settings.
     pub fn to_toml(&self) -> String {
         let mut table = self.written.clone();
         table.remove("set");
@@ -197,7 +195,7 @@ fn lines(rows: &Table) -> String {
     rows.iter().map(|(key, value)| line(key, value)).collect()
 }
 
-/// A key and its value. A dotted path is one key; those of scenarios need no escapes.
+/// Formats a key and its value. A dotted path is one key; scenario keys need no escapes.
 fn line(key: &str, value: &Value) -> String {
     let mut signs = key.chars();
     let is_bare = signs.all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));

@@ -2,25 +2,25 @@
 
 use crate::math::quadrature::trapezoid;
 
-/// Errors at the nodes of one result, none of them negative.
+/// Errors at the nodes of one result, all non-negative.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Errors {
-    /// r/a of the nodes that were compared.
+    /// r/a of the compared nodes.
     pub radii: Vec<f64>,
     /// The error at each.
     pub errors: Vec<f64>,
-    /// r/a of the nodes where theory is infinite, or 0 and the error relative to it.
+    /// r/a of the nodes where theory is infinite, or where it is 0 and the error relative to it.
     pub left_out: Vec<f64>,
-    /// Whether [`rms`](Self::rms) averages over the radius instead of over the nodes: fair between grids whose nodes lie
-    /// differently.
+    /// Whether [`rms`](Self::rms) averages over the radius instead
+    /// of the nodes: fair between grids with different node spacing.
     pub over_radius: bool,
 }
 
-/// One node: r/a, result and theory.
+/// A node: r/a, result and theory.
 pub type Sample = (f64, f64, f64);
 
 impl Errors {
-    /// |result − theory|/`unit`, or relative to theory without a unit, as in the paper's Fig. 2.
+    /// Computes |result − theory|/`unit`, or relative to theory without a unit, as in the paper's Fig. 2.
     pub fn new(unit: Option<f64>, samples: impl Iterator<Item = Sample>) -> Self {
         let mut all = Self::default();
         for (r, result, theory) in samples {
@@ -35,13 +35,13 @@ impl Errors {
         all
     }
 
-    /// The largest error; NaN if any is.
+    /// Returns the largest error; NaN if any is NaN.
     pub fn max(&self) -> f64 {
         let larger = |worst: f64, &e: &f64| if e > worst || e.is_nan() { e } else { worst };
         self.errors.iter().fold(0.0, larger)
     }
 
-    /// √(mean of squares), over the nodes or over the radius.
+    /// Returns the root mean square, over the nodes or over the radius.
     pub fn rms(&self) -> f64 {
         let squares: Vec<f64> = self.errors.iter().map(|e| e * e).collect();
         match (self.radii.first(), self.radii.last()) {

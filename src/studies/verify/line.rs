@@ -1,4 +1,4 @@
-//! A cylinder on a flat with a = R = E* = 1: first loading, and the end of all wear.
+//! A cylinder on a flat with a = R = E* = 1: first loading, and the limit of wear.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -15,13 +15,13 @@ use crate::simulation::drive::{Control, Drive, Oscillation};
 use crate::simulation::{Breakdown, Setup, Simulation};
 use crate::wear::WearLaw;
 
-/// ℓ/a, of no effect under forces.
+/// ℓ/a, irrelevant under forces.
 const GAUGE: f64 = 10.0;
 
 /// L/a, beyond the end of the scar.
 const DOMAIN: f64 = 1.3;
 
-/// Q/(μP), k E* and the cycles of the run to the limit.
+/// Q/(μP), k E* and the number of cycles of the run to the limit.
 const SHARE: f64 = 0.5;
 const WEAR: f64 = 3.0;
 const CYCLES: f64 = 400.0;
@@ -35,7 +35,7 @@ fn cylinder() -> Cylinder {
     }
 }
 
-/// One metre of it, under a tangential force of this amplitude.
+/// Returns one metre of it, under a tangential force of this amplitude.
 fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setup {
     let force = |mean, amplitude| {
         let force = Oscillation::new(mean, amplitude, 1.0, 0.0);
@@ -54,7 +54,7 @@ fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setu
     }
 }
 
-/// τ and slip after a quarter of a cycle without wear, c about a/2.
+/// Computes errors of τ and slip after a quarter of a cycle without wear, c about a/2.
 pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
     let exact = cylinder();
@@ -62,18 +62,18 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     let mut simulation = Simulation::new(moved(method, points, domain, force))?;
     simulation.advance_to(0.25)?;
     let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE | Curves::SPRINGS);
-    let nodes = seen.radii.iter().copied();
-    let shear = nodes.clone().zip(&seen.shear);
+    let nodes = seen.radii().iter().copied();
+    let shear = nodes.clone().zip(seen.shear());
     let shear = shear.map(|(x, &tau)| (x, tau, exact.shear(force, x)));
-    let slip = nodes.zip(&seen.surface).take_while(|(x, _)| *x <= 1.0);
-    let slip = slip.map(|(x, surface)| (x, seen.spring[0] - surface, exact.slip(force, x)));
+    let slip = nodes.zip(seen.surface()).take_while(|(x, _)| *x <= 1.0);
+    let slip = slip.map(|(x, surface)| (x, seen.spring()[0] - surface, exact.slip(force, x)));
     Ok(vec![
         Errors::new(Some(exact.shear(force, inner)), shear),
         Errors::new(Some(exact.slip(force, 1.0)), slip),
     ])
 }
 
-/// The worn depth after a long run.
+/// Computes errors of the worn depth after a long run.
 pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let exact = cylinder();
     let force = SHARE * exact.friction * exact.load;

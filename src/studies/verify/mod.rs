@@ -1,6 +1,6 @@
 //! The error study: the paper's Fig. 2 and more, for every method over a ladder of N.
 //!
-//! [`tasks`] names what to try, [`Task::run`] compares one method on one grid with theory, and [`report`] makes tables
+//! [`tasks`] lists what to try, [`Task::run`] compares one method on one grid with theory, and [`report`] makes tables
 //! of the results.
 
 use std::collections::BTreeSet;
@@ -19,30 +19,31 @@ mod sliding;
 use errors::Errors;
 pub use problem::{Problem, STICK_RADIUS};
 
-/// N of the ladder that is tried if nothing else is asked for.
+/// Default values of N.
 pub const LADDER: [usize; 5] = [50, 100, 200, 400, 800];
 
 /// One method on one grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
-    /// What is solved.
+    /// The problem to solve.
     pub problem: Problem,
-    /// With which transforms.
+    /// The transforms to use.
     pub method: AbelMethod,
     /// N.
     pub points: usize,
 }
 
-/// What came out of a task.
+/// The result of a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// What was tried.
+    /// The task.
     pub task: Task,
     /// The errors of the problem's quantities, in their order; or why there are none.
     pub errors: Result<Vec<Errors>, Breakdown>,
 }
 
-/// The tasks of some problems, by problem, method and rising N; `long` ones, which take minutes, only if asked for.
+/// Returns the tasks of some problems, by problem, method and
+/// rising N; `long` ones, which take minutes, only on request.
 pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
     let points: BTreeSet<usize> = points.iter().copied().collect();
     let wanted = |problem: &&Problem| problems.contains(problem);
@@ -62,7 +63,7 @@ pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
 }
 
 impl Task {
-    /// Computes and compares; from milliseconds to a minute.
+    /// Computes and compares; takes from milliseconds to a minute.
     pub fn run(self) -> Outcome {
         Outcome {
             task: self,

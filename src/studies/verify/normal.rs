@@ -10,13 +10,13 @@ use crate::math::grid::RadialGrid;
 use crate::oracle::flat_punch::FlatPunch;
 use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated::TruncatedParaboloid;
-use crate::reading::Curves;
+
 use crate::simulation::{Breakdown, Simulation};
 use crate::studies::theory::over;
 
-/// L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points` on which the contact radius a = 1
-/// and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third of a cell outside
-/// a node: an error that depends on the place within the cell would else hide the order.
+/// Returns L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points`. The contact
+/// radius a = 1 and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third
+/// of a cell outside a node: otherwise an error that depends on the place within the cell would hide the order.
 pub fn between_nodes(points: usize) -> (f64, f64) {
     let cells = |whole: usize| whole as f64 + 1.0 / 3.0;
     let contact = cells(2 * points / 3);
@@ -54,8 +54,8 @@ impl Exact {
         }
     }
 
-    /// Errors of g of the exact f, of p of the exact q = d − g with E* = 1, or as the simulation of an indenter has it,
-    /// and of w of the exact u: relative to theory, or in d and in the mean pressure.
+    /// Computes the errors of g from the exact f, of p from the exact q = d − g with E* = 1 (or by simulating an
+    /// indenter), and of w from the exact u: relative to theory, or in d and in the mean pressure.
     fn errors(
         &self,
         method: AbelMethod,
@@ -92,14 +92,14 @@ impl Exact {
     }
 }
 
-/// Node, result and theory at the nodes up to a = 1.
+/// Returns node, result and theory at the nodes up to a = 1.
 fn inside(grid: &RadialGrid, values: &[f64], theory: &[f64]) -> impl Iterator<Item = Sample> {
     let nodes = grid.nodes().iter().zip(values).zip(theory);
     let samples = nodes.map(|((&r, &value), &theory)| (r, value, theory));
     samples.take_while(|(r, ..)| *r <= 1.0)
 }
 
-/// p by the simulation, which has to find the edges.
+/// Computes p by the simulation, which has to find the edges.
 fn simulated(
     method: AbelMethod,
     grid: &RadialGrid,
@@ -107,7 +107,7 @@ fn simulated(
     depth: f64,
 ) -> Result<Vec<f64>, Breakdown> {
     let setup = pressed(method, grid.clone(), indenter, depth);
-    Ok(Simulation::new(setup)?.observe(Curves::PRESSURE).pressure)
+    Ok(Simulation::new(setup)?.pressure())
 }
 
 /// The paraboloid of the paper's Fig. 2.
@@ -122,7 +122,7 @@ pub fn cone(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown>
     Exact::power_law(PowerLaw::cone(1.0), &grid).errors(method, &grid, None, false)
 }
 
-/// f = r⁴, the edge between nodes.
+/// f = r⁴, with the edge between nodes.
 pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let grid = grid(points, between_nodes(points).0);
     let exact = Exact::power_law(PowerLaw::quartic(1.0), &grid);
@@ -130,7 +130,7 @@ pub fn quartic(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdo
     exact.errors(method, &grid, Some(indenter), false)
 }
 
-/// R = 1, b about a/2, both edges between nodes.
+/// R = 1, b about a/2, with both edges between nodes.
 pub fn truncated_paraboloid(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
     let grid = grid(points, domain);

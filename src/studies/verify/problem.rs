@@ -31,48 +31,48 @@ pub enum Problem {
     FlatPunch,
     /// Partial slip of a paraboloid.
     Cattaneo,
-    /// What endless fretting leaves of a paraboloid.
+    /// The limiting profile of a paraboloid.
     Limit,
     /// Partial slip of a cylinder on a flat.
     Cylinder,
-    /// What endless fretting leaves of it.
+    /// The limiting profile of a cylinder.
     CylinderLimit,
 }
 
-/// The border of the permanent stick zone: the quantity that is one number, and not one a node.
+/// The border of the permanent stick zone: the only quantity with one number instead of one per node.
 pub const STICK_RADIUS: &str = "c";
 
-/// What there is to know of a problem.
+/// Facts about a problem.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields, bound(deserialize = "'de: 'static"))]
 pub struct Facts {
-    /// The symbols of what is compared.
+    /// Symbols of the compared quantities.
     pub quantities: Vec<&'static str>,
-    /// What is solved, how, where the edges lie, in what the error is measured and what is left
-    /// out: lines of at most 78 columns.
+    /// What is solved and how, where the edges lie, the unit of the
+    /// error and what is left out: lines of at most 78 columns.
     pub description: Vec<&'static str>,
 }
 
-/// What `problems.toml` says.
+/// Contents of `problems.toml`.
 static FACTS: LazyLock<HashMap<Problem, Facts>> = LazyLock::new(|| {
     toml::from_str(include_str!("problems.toml")).expect("the problems are whole")
 });
 
 impl Problem {
-    /// Every problem, in the order of the report.
+    /// All problems, in the order of the report.
     pub const ALL: &[Self] = Self::VARIANTS;
 
-    /// The name on the command line and in files.
+    /// Returns the name on the command line and in files.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// What there is to know of it.
+    /// Returns the facts about it.
     pub fn facts(self) -> &'static Facts {
         &FACTS[&self]
     }
 
-    /// Solves it by a method on N cells; gives the errors of the quantities.
+    /// Solves it by a method on N cells; returns the errors of the quantities.
     pub(super) fn solve(self, method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
         let solve = match self {
             Self::Hertz => normal::hertz,
@@ -88,7 +88,7 @@ impl Problem {
         solve(method, points)
     }
 
-    /// The methods that solve it: those of the paper are of round contacts.
+    /// Returns the methods that solve it: the paper's methods only solve round contacts.
     pub fn methods(self) -> &'static [AbelMethod] {
         match self {
             Self::Cylinder | Self::CylinderLimit => AbelMethod::of(Geometry::Line { length: 1.0 }),

@@ -5,13 +5,13 @@ use super::{Outcome, Problem, STICK_RADIUS};
 use crate::scenario::scalars::Value;
 use crate::studies::table::{Format, Table};
 
-/// Below this an error is rounding, and its order means nothing.
+/// Smaller errors are rounding, and their order means nothing.
 pub const ROUNDING: f64 = 1e-12;
 
-/// With no more quantities than this there is room for the order of the rms as well.
+/// Up to this many quantities there is room for the order of the rms as well.
 const ROOMY: usize = 2;
 
-/// The table of one problem, a row for each method and N.
+/// Makes the table of one problem, with a row for each method and N.
 pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
     let quantities = &problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
@@ -33,7 +33,7 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
     table
 }
 
-/// The columns of one quantity.
+/// Returns the columns of one quantity.
 fn shown(quantity: &str, roomy: bool) -> &'static [(&'static str, Format)] {
     const ALL: [(&str, Format); 4] = [
         ("max", Format::Rough),
@@ -49,7 +49,7 @@ fn shown(quantity: &str, roomy: bool) -> &'static [(&'static str, Format)] {
     }
 }
 
-/// Max, its order, rms and its order; or where the run stopped.
+/// Returns the maximum, its order, the rms and its order; or where the run stopped.
 fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
     match &outcome.errors {
         Ok(errors) => vec![
@@ -65,8 +65,8 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
     }
 }
 
-/// log(error of the next coarser grid / error)/log(N/N of it): none on the coarsest and where an
-/// error is rounding.
+/// Returns log(error of the next coarser grid / error)/log(ratio
+/// of N): `None` on the coarsest grid and if an error is rounding.
 fn order(
     outcome: &Outcome,
     at: usize,
@@ -85,7 +85,7 @@ fn order(
     (order.is_finite() && before.min(now) >= ROUNDING).then_some(order)
 }
 
-/// Every row of every problem, a quantity a row.
+/// Makes a table of all problems, with one row per quantity.
 pub fn all_rows(outcomes: &[Outcome]) -> Table {
     let mut table = Table::of(&[
         ("", "problem quantity method", Format::Words),
@@ -118,7 +118,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
     table
 }
 
-/// The error at every node.
+/// Makes a table of the errors at all nodes.
 pub fn all_nodes(outcomes: &[Outcome]) -> Table {
     let mut table = Table::of(&[
         ("", "problem quantity method", Format::Words),

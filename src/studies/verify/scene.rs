@@ -1,4 +1,4 @@
-//! The dimensionless contact of the study: E* = 1, and a = 1 where something presses.
+//! The dimensionless contact of the study: E* = 1, and a = 1 if there is contact.
 
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
@@ -17,7 +17,7 @@ pub const POISSON: f64 = 0.3;
 /// Steps per cycle.
 const STEPS: u32 = 40;
 
-/// `indenter` pressed to `depth` on the nodes of `grid`, by the paper's scheme; nothing moves sideways or wears.
+/// Presses `indenter` to `depth` on the nodes of `grid`, by the paper's scheme, without tangential motion or wear.
 pub fn pressed(method: AbelMethod, grid: RadialGrid, indenter: Indenter, depth: f64) -> Setup {
     Setup {
         geometry: Geometry::Round,
@@ -38,16 +38,16 @@ pub fn pressed(method: AbelMethod, grid: RadialGrid, indenter: Indenter, depth: 
     }
 }
 
-/// A displacement of angular frequency 1.
+/// Makes a displacement of angular frequency 1.
 pub fn swing(mean: f64, amplitude: f64) -> Control {
     let swing = Oscillation::new(mean, amplitude, 1.0, 0.0);
     Control::Displacement(swing.expect("a motion"))
 }
 
-/// N = `points` equal cells up to `radius`.
+/// Makes N = `points` equal cells up to `radius`.
 ///
 /// # Panics
-/// With fewer or more cells than a grid can have.
+/// If a grid cannot have that many or that few cells.
 pub fn grid(points: usize, radius: f64) -> RadialGrid {
     RadialGrid::uniform(points, radius).expect("a grid")
 }

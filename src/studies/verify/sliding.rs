@@ -1,4 +1,4 @@
-//! Tangential contact of a paraboloid with a = d = R = 1: first loading, and the end of all wear.
+//! Tangential contact of a paraboloid with a = d = R = 1: first loading, and the limit of wear.
 
 use super::errors::Errors;
 use super::normal::between_nodes;
@@ -14,7 +14,7 @@ use crate::simulation::drive::Drive;
 use crate::simulation::{Breakdown, Setup, Simulation};
 use crate::wear::WearLaw;
 
-/// The closed form, moved by `amplitude`.
+/// Returns the closed form for the motion `amplitude`.
 fn theory(amplitude: f64) -> CattaneoMindlin {
     CattaneoMindlin {
         e_star: 1.0,
@@ -26,7 +26,7 @@ fn theory(amplitude: f64) -> CattaneoMindlin {
     }
 }
 
-/// The paraboloid, moved by `amplitude`, on N = `points` over `domain`.
+/// Returns the paraboloid, moved by `amplitude`, on N = `points` over `domain`.
 fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setup {
     let indenter = Indenter::paraboloid(1.0).expect("a shape");
     Setup {
@@ -35,7 +35,7 @@ fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setu
     }
 }
 
-/// τ and slip after a quarter of a cycle without wear, c about a/2: c² = 1 − κU.
+/// Computes errors of τ and slip after a quarter of a cycle without wear, c about a/2: c² = 1 − κU.
 pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
     let exact = theory((1.0 - inner * inner) * theory(0.0).gross_slip_displacement());
@@ -43,12 +43,12 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(0.25)?;
     let seen = simulation.observe(Curves::SHEAR | Curves::SURFACE);
-    let nodes = seen.radii.iter().copied();
-    let shear = nodes.clone().zip(&seen.shear);
+    let nodes = seen.radii().iter().copied();
+    let shear = nodes.clone().zip(seen.shear());
     let shear = shear.map(|(r, &tau)| (r, tau, exact.shear_stress(r)));
-    let slip = nodes.zip(&seen.surface).take_while(|(r, _)| *r <= 1.0);
+    let slip = nodes.zip(seen.surface()).take_while(|(r, _)| *r <= 1.0);
     let slip = slip.map(|(r, surface)| (r, seen.moment.shift - surface, exact.slip(r)));
-    // τ rises up to c and falls from there; the slip rises up to a.
+    // τ rises up to c and falls beyond; the slip rises up to a.
     let peak = exact.shear_stress(exact.stick_radius());
     Ok(vec![
         Errors::new(Some(peak), shear),
@@ -56,7 +56,7 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     ])
 }
 
-/// L/a: wider than √2, beyond which nothing touches.
+/// L/a: greater than √2, beyond which nothing touches.
 const DOMAIN: f64 = 1.5;
 
 /// U, in d.
@@ -68,7 +68,7 @@ const WEAR: f64 = 3.0;
 /// Cycles after which the remaining wear is far below every error.
 const CYCLES: f64 = 400.0;
 
-/// f and the permanent stick radius after a long run.
+/// Computes errors of f and the permanent stick radius after a long run.
 pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
     let stick_radius = theory(AMPLITUDE).stick_radius();
     let exact = LimitingProfile {
@@ -83,7 +83,7 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown
     let mut simulation = Simulation::new(setup)?;
     simulation.advance_to(CYCLES)?;
     let seen = simulation.observe(Curves::PROFILE);
-    let worn = seen.radii.iter().zip(&seen.profile);
+    let worn = seen.radii().iter().zip(seen.profile());
     let worn = worn.map(|(&r, &f)| (r, f, exact.profile(r)));
     let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
     let mut profile = Errors::new(Some(1.0), worn);

@@ -26,7 +26,7 @@ use crate::reading::Regime;
 use crate::tui::canvas::Canvas;
 use crate::tui::line::cells;
 
-/// The keys of the footer, as many as fit, and the one that is always there.
+/// The keys of the footer, of which as many as fit are shown, and the one that is always shown.
 const KEYS: [[&str; 2]; 7] = [
     ["arrows", "move"],
     ["Enter", "open"],
@@ -38,7 +38,7 @@ const KEYS: [[&str; 2]; 7] = [
 ];
 const ALWAYS: [[&str; 2]; 2] = [["?", "help"], ["q", "quit"]];
 
-/// All keys, as the help explains them.
+/// All keys, with the explanations of the help.
 pub const ALL_KEYS: [[&str; 2]; 12] = [
     ["arrows, hjkl", "move the cursor, which reads the point"],
     ["Home End", "to the first and the last point of the row"],
@@ -54,13 +54,13 @@ pub const ALL_KEYS: [[&str; 2]; 12] = [
     ["q", "leave the map"],
 ];
 
-/// The sign of the base scenario.
+/// The character of the base scenario.
 const HERE: char = '◆';
 
-/// Significant digits of what is read.
+/// Significant digits of values.
 const DIGITS: usize = 4;
 
-/// Draws the whole screen; a `notice` stands in place of the keys.
+/// Draws the whole screen; a `notice` replaces the keys.
 pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     let (area, theme) = (canvas.area, &canvas.theme.clone());
     if area.width < 20 || area.height < 10 {
@@ -74,7 +74,7 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     let count = format!("{there} of {points} points{failed}");
     let behind = area.width.saturating_sub(count.chars().count() as u16);
     let mut chart = view.chart();
-    // Letters on the map stand for the names of its lines.
+    // The lines' names go below the map; letters on the map refer to them.
     let lines = chart.curves.iter_mut().zip(&chart.points);
     let names =
         lines.map(|(line, point)| format!("{} {}", point.sign, std::mem::take(&mut line.name)));
@@ -89,7 +89,7 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
         (vec![place(view, point)], Role::Quiet),
         (reading(view, point), Role::Notice),
     ];
-    // Each in as many rows as it needs, and the map in what they leave.
+    // Each part takes as many rows as it needs, and the map gets the rest.
     let told = told.iter().flat_map(|(parts, role)| {
         let lines = side_by_side(parts, usize::from(area.width)).into_iter();
         lines.map(move |line| (line, *role))
@@ -119,8 +119,8 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     canvas.at(last).keys(notice, &KEYS, &ALWAYS);
 }
 
-/// Puts the signs on the chart that belong to a screen: the base scenario, and on a map points without a value, the
-/// words of regions, and the cursor.
+/// Adds the marks of the screen to the chart: the base scenario and, on a map, points without a value, the words of
+/// regions, and the cursor.
 fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
     let (mut signs, here) = (Vec::new(), view.here());
     let mut add = |at, sign, role| signs.push(Point { at, sign, role });
@@ -145,7 +145,7 @@ fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
             sum / there.len().max(1)
         };
         let (x, y) = (mean(|k, wide| k % wide), mean(|k, wide| k / wide));
-        // The middle of a bent region can lie outside of it.
+        // The middle of a bent region may lie outside it.
         let nearest = there
             .iter()
             .min_by_key(|&k| (k % wide).abs_diff(x) + (k / wide).abs_diff(y));
@@ -159,7 +159,7 @@ fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
     chart.points.extend(signs);
 }
 
-/// Texts side by side in lines of this width; at least one line.
+/// Arranges texts side by side in lines of this width; returns at least one line.
 fn side_by_side(parts: &[String], width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for part in parts {
@@ -176,7 +176,7 @@ fn side_by_side(parts: &[String], width: usize) -> Vec<String> {
     lines
 }
 
-/// A point in words: its number and its values.
+/// Describes a point by its number and its position on the axes.
 fn place(view: &View, point: usize) -> String {
     let study = &view.slice.study;
     let axes = study.axes.iter().zip(study.places(point));
@@ -188,7 +188,7 @@ fn place(view: &View, point: usize) -> String {
     format!("point {point}: {}", values.join(", "))
 }
 
-/// The values of a point: the column that is shown, the others and the status.
+/// Returns the values of a point: the shown column, the others and the status.
 fn reading(view: &View, point: usize) -> Vec<String> {
     let study = &view.slice.study;
     let Some(fields) = view.slice.row(point) else {
@@ -196,7 +196,8 @@ fn reading(view: &View, point: usize) -> Vec<String> {
     };
     let columns = study.columns();
     let read = columns.iter().zip(fields).skip(study.axes.len());
-    let (first, others): (Vec<_>, Vec<_>) = read.partition(|(name, _)| **name == view.column());
+    let (first, others): (Vec<_>, Vec<_>) =
+        read.partition(|(name, _)| **name == view.column().name());
     let read = first.into_iter().chain(others);
     let read = read.map(|(name, field)| match field.parse() {
         Ok(number) => in_words(&study::quantity(name, &[]), number),
@@ -205,16 +206,16 @@ fn reading(view: &View, point: usize) -> Vec<String> {
     read.collect()
 }
 
-/// A number with the name and the unit of what it is.
+/// Formats a number with the name and the unit of its quantity.
 fn in_words(of: &Axis, number: f64) -> String {
     format!("{} {}", of.label, format_value(number, of.unit, DIGITS))
 }
 
-/// The column, and its range or its words in their colours.
+/// Returns the column with its range, or its words, in their colours.
 fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     let ((quantity, range), quiet) = (shown(chart), theme.style(Role::Quiet));
     let name = match view.is_regime() {
-        true => view.column(),
+        true => view.column().name(),
         false => &quantity.label,
     };
     let name = Span::styled(theme.printable(name), theme.style(Role::Focus));

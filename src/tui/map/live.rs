@@ -1,5 +1,5 @@
-//! Studies that are shown while they run: `:sweep KEY A..B`, one key around the present scenario, and the table of
-//! another program's, which is read again whenever it has grown.
+//! Studies that are shown while they run: `:sweep KEY A..B`, which varies one key of the present scenario, and the
+//! table of another program, which is read again whenever it has grown.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ use crate::studies::sweep::Shard;
 use crate::studies::sweep::engine;
 use crate::studies::sweep::record::Record;
 
-/// How often a table is looked at.
+/// Interval for checking the table.
 const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 
 /// A study under way, shared by the screen and the worker threads.
@@ -26,22 +26,22 @@ pub struct Live {
     view: Arc<Mutex<View>>,
     halt: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
-    /// The table that it is read from, which the explorer was opened for; `None` if it runs here.
+    /// The table that is read, for which the explorer was opened; `None` if the study runs here.
     file: Option<Arc<Path>>,
 }
 
-/// When a file was changed last, and its length.
+/// Returns when a file was last changed, and its length.
 fn changed(file: &Path) -> Option<(SystemTime, u64)> {
     let about = fs::metadata(file).ok()?;
     Some((about.modified().ok()?, about.len()))
 }
 
 impl Live {
-    /// The study in a table, as far as that goes.
+    /// Opens the study in a table, as far as it has been computed.
     ///
     /// # Errors
     ///
-    /// One line: a file that cannot be read, or is no table of a study.
+    /// In one line: the file cannot be read, or is not the table of a study.
     pub fn of_file(file: &Path) -> Result<Self, Refusal> {
         let (record, name) = (Record::of_file(file)?, file.display().to_string());
         let mut view = View::new(record.study()?, &name)?;
@@ -58,7 +58,8 @@ impl Live {
         }
     }
 
-    /// Reads the table again whenever it has grown, and tells that there is something new to see, until nobody hears it.
+    /// Reads the table again whenever it has grown and calls `tell`, until that returns false because the screen is
+    /// gone.
     pub fn watch(&self, tell: impl Fn() -> bool + Send + 'static) {
         let Some(file) = self.file.clone() else {
             return;
@@ -72,7 +73,7 @@ impl Live {
                 if std::mem::replace(&mut seen, now) == now {
                     continue;
                 }
-                // A file that is being replaced is read again the next time.
+                // A file that is just being replaced is read again the next time.
                 let _ = Record::of_file(&file)
                     .map(|rows| shared.with(|view| view.slice.renew(rows, &view.name)));
                 if !tell() {
@@ -82,11 +83,11 @@ impl Live {
         });
     }
 
-    /// Starts the study in threads of its own; `tell` is called when there is something new to see.
+    /// Starts the study in separate threads; `tell` is called when there is something new to show.
     ///
     /// # Errors
     ///
-    /// Returns the reason if the range is not a study or one of its points is invalid.
+    /// Returns the reason if the range does not make a study or one of its points is invalid.
     pub fn start(
         range: &Range,
         scenario: &Scenario,
@@ -103,7 +104,7 @@ impl Live {
         let shared = live.clone();
         thread::spawn(move || {
             let todo = 0..study.points();
-            // Every point is checked already.
+            // All points have been checked already.
             let go_on = || !shared.halt.load(Ordering::Relaxed);
             engine::run(&study, todo, &pool, &go_on, |point, row| {
                 shared.with(|view| view.slice.rows[point] = Some(row));
@@ -116,17 +117,17 @@ impl Live {
         Ok(live)
     }
 
-    /// Reads or changes what of it is shown.
+    /// Reads or changes the view.
     pub fn with<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
         act(&mut locked(&self.view))
     }
 
-    /// Ends it: no further point begins.
+    /// Stops the study: no further points begin.
     pub fn halt(&self) {
         self.halt.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it is that of a table, which the explorer was opened for.
+    /// Whether it reads a table, for which the explorer was opened.
     pub fn is_of_file(&self) -> bool {
         self.file.is_some()
     }

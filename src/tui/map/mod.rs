@@ -1,4 +1,4 @@
-//! A study as a map over everything, also while it runs: `:sweep`, and `mdr-tui sweep --view`.
+//! A study as a full-screen map, also while it runs: `:sweep`, and `mdr-tui sweep --view`.
 //!
 //! Two axes make a map in half blocks, one axis a curve; the cursor reads a point, Enter opens it.
 

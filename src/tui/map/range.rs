@@ -1,23 +1,24 @@
-//! The study of `:sweep KEY A..B`: one key around the present scenario.
+//! The study of `:sweep KEY A..B`, which varies one key of the present scenario.
 
+use crate::reading::Column;
 use crate::scenario::{Refusal, Scenario, schema, units};
 use crate::studies::sweep::Study;
 
-/// The points of the study.
+/// Number of points.
 pub const POINTS: usize = 25;
 
-/// From this ratio of its ends on, the axis is logarithmic.
+/// If its ends have at least this ratio, the axis is logarithmic.
 const DECADES: f64 = 20.0;
 
 /// The columns of the study.
-const COLUMNS: [&str; 7] = [
-    "wear_volume_m3",
-    "scar_depth_m",
-    "dissipated_energy_J",
-    "contact_radius_m",
-    "permanent_stick_radius_m",
-    "energy_ratio",
-    "regime",
+const COLUMNS: [Column; 7] = [
+    Column::WearVolume,
+    Column::ScarDepth,
+    Column::DissipatedEnergy,
+    Column::ContactRadius,
+    Column::PermanentStickRadius,
+    Column::EnergyRatio,
+    Column::Regime,
 ];
 
 /// The argument of `sweep`: a key and the ends of its axis.
@@ -25,15 +26,15 @@ const COLUMNS: [&str; 7] = [
 pub struct Range {
     /// The dotted path.
     pub key: String,
-    /// From here.
+    /// The first value.
     pub from: f64,
-    /// To here.
+    /// The last value.
     pub to: f64,
 }
 
 impl Range {
-    /// Reads `KEY A..B`, and what else it may be written like: `KEY = A .. B`, `KEY A to B`, `KEY A B`,
-    /// each end with a unit if it has one. A part of a key does where one of `keys` alone has it.
+    /// Reads `KEY A..B` or a variant: `KEY = A .. B`, `KEY A to B`, `KEY A B`, each end with an optional unit. A part
+    /// of a key is enough if only one of `keys` contains it.
     pub fn parse(text: &str, keys: &[(&str, &'static str)]) -> Option<Self> {
         let (key, ends) = text
             .trim()
@@ -63,18 +64,18 @@ impl Range {
         })
     }
 
-    /// The study of a scenario over this range, each point run for this many cycles.
+    /// Makes the study of a scenario over this range, in which each point runs for this many cycles.
     pub(super) fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
         let base = scenario.with_changes(Vec::new());
-        let base = base.with("run.cycles", &cycles.to_string())?;
+        let base = base.edited(|spec| spec.run.cycles = Some(cycles))?;
         let ratio = self.to / self.from;
         let spread = match self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
             true => "logspace",
             false => "linspace",
         };
-        let Self { key, from, to } = self;
+        let (Self { key, from, to }, columns) = (self, COLUMNS.map(Column::name));
         let text = format!(
-            "base = \"present\"\ncolumns = {COLUMNS:?}\n[[axis]]\nkey = {key:?}\n\
+            "base = \"present\"\ncolumns = {columns:?}\n[[axis]]\nkey = {key:?}\n\
              {spread} = [{from:?}, {to:?}, {POINTS}]\n"
         );
         Study::read_with_base(&text, "sweep", &base.to_toml())

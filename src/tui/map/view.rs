@@ -6,29 +6,30 @@ use std::collections::HashMap;
 use crate::figure::study;
 use crate::math::scan;
 use crate::plot::{self, Chart, Scale};
+use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::studies::sweep::slice::{Line, Slice};
 use crate::studies::sweep::{Axis, Design, Study};
 use crate::tui::keys::{Key, Named};
 
-/// A study, and what of it is shown.
+/// A study, and the state of its view.
 #[derive(Debug)]
 pub struct View {
-    /// The study, and what of it is shown.
+    /// The study, and the shown axes.
     pub slice: Slice,
     /// The title.
     pub name: String,
-    /// Which of the columns.
+    /// The index of the shown column.
     column: usize,
     /// Whether borders and criteria are drawn.
     pub with_overlays: bool,
-    /// Whether the scale of the column is the other one than what its values ask for.
+    /// Whether the user has switched the column's scale from the default.
     is_flipped: bool,
     borders: RefCell<HashMap<Vec<usize>, Vec<Line>>>,
 }
 
 impl View {
-    /// A view of a study that has no rows yet.
+    /// Makes a view of a study without rows.
     ///
     /// # Errors
     ///
@@ -44,7 +45,7 @@ impl View {
         })
     }
 
-    /// Answers a key that changes what is shown.
+    /// Handles a key that changes the view.
     pub fn press(&mut self, key: Key) {
         match key {
             Key::Char('l') | Key::Named(Named::Right) => self.move_by(Some(self.slice.x), 1),
@@ -84,7 +85,7 @@ impl View {
         }
     }
 
-    /// Shows the next axis horizontally; if it was the vertical one, the two are swapped.
+    /// Shows the next axis horizontally; if it was the vertical one, swaps the two.
     fn turn_x(&mut self) {
         let before = self.slice.x;
         self.slice.x = (self.slice.x + 1) % self.slice.study.axes.len();
@@ -99,7 +100,7 @@ impl View {
         self.slice.y = self.slice.y.and_then(next);
     }
 
-    /// Moves along the axes that are not shown, the last of them fastest.
+    /// Moves along the hidden axes, fastest along the last.
     fn move_others(&mut self, by: isize) {
         let hidden: Vec<usize> = self.slice.hidden().collect();
         for axis in hidden.into_iter().rev() {
@@ -112,19 +113,19 @@ impl View {
         }
     }
 
-    /// The cursor's places on the axes to the right and upwards.
+    /// Returns the cursor's position on the horizontal and the vertical axis.
     pub fn cursor(&self) -> [usize; 2] {
         let y = self.slice.y.map_or(0, |y| self.slice.at[y]);
         [self.slice.at[self.slice.x], y]
     }
 
-    /// The name of the column; empty if the study has none.
-    pub fn column(&self) -> &'static str {
+    /// The column that is shown; the cycle, which has no values, if the study has none.
+    pub fn column(&self) -> Column {
         let column = self.slice.study.columns.get(self.column);
-        column.map_or("", |column| column.name)
+        column.copied().unwrap_or(Column::Cycle)
     }
 
-    /// The point under the cursor.
+    /// Returns the point under the cursor.
     pub fn point(&self) -> usize {
         let [x, y] = self.cursor();
         self.slice.point_at(x, y)
@@ -132,11 +133,11 @@ impl View {
 
     /// Whether the column holds words.
     pub fn is_regime(&self) -> bool {
-        self.column() == "regime"
+        self.column() == Column::Regime
     }
 
-    /// The chart of the column, as on paper; its colours end with the values that are shown, and its scale is the
-    /// other one where the user wants that.
+    /// Returns the chart of the column, as on paper. Its colours end at the shown values, and its scale is switched if
+    /// the user wants that.
     pub fn chart(&self) -> Chart {
         let lines = match self.with_overlays {
             true => [self.borders(), self.slice.criteria()],
@@ -158,7 +159,7 @@ impl View {
         chart
     }
 
-    /// The values of the base scenario on the axes that are shown, where they are on the map.
+    /// Returns the values of the base scenario on the shown axes, if they are on the map.
     pub fn here(&self) -> Option<[f64; 2]> {
         let value = |axis: &Axis| {
             let value: f64 = self.slice.study.base.value(&axis.key)?.parse().ok()?;
@@ -171,7 +172,7 @@ impl View {
         Some([value(self.slice.x())?, y])
     }
 
-    /// The closed forms: computed once for the places of the axes that are not shown.
+    /// Returns the closed forms, computed once per position on the hidden axes.
     fn borders(&self) -> Vec<Line> {
         let mut key = self.slice.at.clone();
         for axis in [Some(self.slice.x), self.slice.y].into_iter().flatten() {
@@ -186,7 +187,7 @@ impl View {
     }
 }
 
-/// The quantity whose values a chart of a study shows, and the smallest and the largest of them; `None` without any.
+/// Returns the quantity that a chart of a study shows, with its smallest and largest value; `None` without any.
 pub fn shown(chart: &Chart) -> (&plot::Axis, Option<[f64; 2]>) {
     let (quantity, values) = match &chart.map {
         Some(map) => (&map.quantity, Some(&map.values)),

@@ -1,18 +1,24 @@
-//! The checks of the run, what each means, and the errors that the same run on half the cells tells.
+//! The checks of the run, what each means, and the run's errors as estimated from fewer cells and steps.
 
-use super::*;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+use crate::plot::theme::Role;
 use crate::reading::Quantity;
 use crate::studies::refinement::Level;
 use crate::tui::beside::NOTHING_YET;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::Command;
+use crate::tui::frame::Frame;
 
-/// What closes the panel, and what is done while it is open: the run can be watched from here.
+/// The commands that close the panel, and those that run while it stays open, so that the run can be watched.
 pub(super) const CLOSING: &[Command] = &[Command::Back, Command::Accuracy, Command::Accept];
 #[rustfmt::skip]
 pub(super) const WATCHED: &[Command] = &[
     Command::RunPause, Command::Step, Command::Cycle, Command::Faster, Command::Slower,
 ];
 
-/// The checks of the run and its errors.
+/// Draws the checks of the run and its errors.
 pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
     let [title, alarm] = [Role::Title, Role::Alarm].map(|role| canvas.style(role));
     let text = |text: &str| Line::raw(format!("   {text}"));
@@ -38,10 +44,11 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
             lines.push(text(&format!(
                 "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));
-            let rows = Quantity::ALL.iter();
-            lines.extend(
-                rows.map(|&number| error(of[number], &format!("error of {}", number.name()))),
-            );
+            let geometry = frame.observation.geometry;
+            lines.extend(Quantity::ALL.iter().map(|&number| {
+                let name = geometry.named(number.name());
+                error(of[number], &format!("error of {name}"))
+            }));
         }
     }
     let (title, height) = (
@@ -52,8 +59,7 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
     inside.show(Paragraph::new(lines));
 }
 
-/// What each check of the moment compares, and what a difference means; what lies outside the
-/// theory.
+/// Draws what each check compares, what a difference means, and what lies outside the theory.
 pub(super) fn draw_explanations(frame: &Frame, mut canvas: Canvas) {
     let warnings = frame.facts.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {warning}"));

@@ -1,26 +1,32 @@
-//! What an overlay answers to a key, and what overlays share: moving in a list, and a line being typed.
+//! An overlay's answer to a key, and what overlays share: selection in a list, and a line being typed.
 
-use super::*;
+use ratatui::style::{Modifier, Style};
+use ratatui::text::{Line, Span};
 
-/// What follows a key that an overlay has taken.
+use super::Overlay;
+use crate::tui::command::{self, Command};
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::LineEdit;
+
+/// What follows a key that an overlay has handled.
 #[derive(Debug)]
 pub enum Answer {
-    /// It stays.
+    /// The overlay stays.
     Stay,
-    /// It closes, and what lies under it is seen.
+    /// The overlay closes, and the one below it shows.
     Close,
-    /// It has done what it was opened for: of what lies under it, only the form waits for the next change.
+    /// The overlay has done its work. All overlays close, except the form, which waits for the next change.
     Done,
-    /// Another one is laid on it.
+    /// Another overlay opens on top.
     Open(Overlay),
-    /// A command is carried out, and it stays: the run can be watched from there.
+    /// The command runs and the overlay stays, so that the run can be watched.
     Watch(Command),
-    /// All overlays close, and a command is carried out.
+    /// All overlays close, and the command runs.
     Run(Command),
 }
 
-/// Answers a key beside which the run can be watched: those of commands that close do nothing else, those of `watched`
-/// ones leave open what is open, and no other key does anything.
+/// Handles a key in an overlay beside which the run can be watched: `closing` commands only close it, `watched`
+/// commands run while it stays, and other keys do nothing.
 pub(super) fn watch(key: Key, closing: &[Command], watched: &[Command]) -> Answer {
     match command::of_key(key) {
         Some(Command::Quit) => Answer::Close,
@@ -30,10 +36,10 @@ pub(super) fn watch(key: Key, closing: &[Command], watched: &[Command]) -> Answe
     }
 }
 
-/// The keys that a page up and a page down pass in a list.
+/// The number of entries that a page key moves in a list.
 pub(super) const PAGE: usize = 10;
 
-/// Selects another one of `count` entries by a key that moves in lists; false for other keys.
+/// Selects another of `count` entries if the key moves in lists; returns false for other keys.
 pub(super) fn select(at: &mut usize, count: usize, key: Key) -> bool {
     let last = count.saturating_sub(1);
     let Key::Named(key) = key else {
@@ -51,7 +57,7 @@ pub(super) fn select(at: &mut usize, count: usize, key: Key) -> bool {
     true
 }
 
-/// A line being typed behind a prompt, its cursor shown.
+/// Returns a line being typed, with its prompt and its cursor.
 pub(super) fn typing(prompt: &str, line: &LineEdit, style: Style) -> Line<'static> {
     let [before, after] = line.halves();
     let mut after = after.chars();

@@ -1,11 +1,19 @@
-//! What the focused panel shows: a few sentences, its symbols, and what to look for in this scenario.
+//! Explains the focused panel: a few sentences, its symbols, and what to look for in this scenario.
 
-use super::*;
-use crate::tui::canvas::rows;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout, Rect};
+use ratatui::text::{Line, Span};
+
+use crate::charts::About;
+use crate::plot::theme::Role;
+use crate::tui::canvas::{Canvas, rows};
+use crate::tui::command::Command;
+use crate::tui::explorer::Explorer;
 use crate::tui::stage::Stage;
 use crate::tui::{panels, tour};
 
-/// What closes the explanation, and what is done while it is open: it follows the focus, and the run can continue.
+/// The commands that close the explanation, and those that run while it is open: it follows the focus, and the run can
+/// continue.
 pub(super) const CLOSING: &[Command] = &[Command::Accept, Command::Back];
 #[rustfmt::skip]
 pub(super) const WATCHED: &[Command] = &[
@@ -13,7 +21,7 @@ pub(super) const WATCHED: &[Command] = &[
     Command::Down, Command::RunPause, Command::Step, Command::Cycle,
 ];
 
-/// What the focused panel leaves free above or below it; all where it is zoomed.
+/// Returns the larger area above or below the focused panel; the whole area if the panel is zoomed.
 fn beside(stage: &Stage, area: Rect) -> Rect {
     let mut places = stage.places(area).into_iter();
     let focused = places.find(|(panel, _)| *panel == stage.focus && !stage.zoomed);
@@ -29,14 +37,15 @@ fn beside(stage: &Stage, area: Rect) -> Rect {
 pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
     let is_compared = explorer.compares();
-    // In a comparison there are other panels than the focused one.
+    // A comparison shows other panels than the focused one.
     let focus = explorer.stage.focus;
-    let (recipe, keys) = match is_compared {
+    let (recipe, keys): (&About, _) = match is_compared {
         true => (&panels::compare::RECIPE, "Esc closes"),
         false => (focus.recipe(), "Tab: next panel, Esc closes"),
     };
     let (title, text, symbols) = (recipe.title, recipe.text, recipe.symbols);
-    let spelled = |text: &str| theme.printable(text);
+    let geometry = explorer.frame.observation.geometry;
+    let spelled = |text: &str| theme.printable(&geometry.named(text));
     let mut lines = vec![Line::raw(spelled(text)), Line::default()];
     lines.extend(symbols.iter().map(|(symbol, meaning)| {
         Line::from(vec![
@@ -55,7 +64,7 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
         lines.extend(here.map(|caption| Line::raw(spelled(&caption.text))));
     }
     let width = area.width.min(80);
-    // Where the whole would cover the panel, it is told in running text, without what can be done without.
+    // If the full text would cover the panel, it is shortened to running text without the captions.
     let mut place = beside(&explorer.stage, area);
     if rows(&lines, width) > place.height {
         let symbols = symbols
@@ -68,6 +77,6 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
             false => place = area,
         }
     }
-    let title = format!("{title} ({keys})");
+    let title = format!("{} ({keys})", spelled(title));
     canvas.at(place).page(&title, width, lines);
 }

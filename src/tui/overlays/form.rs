@@ -1,25 +1,39 @@
-//! The parameters of the scenario, edited while it runs: value, unit, range and effect of each.
+//! The parameters of the scenario, edited while it runs: the value, unit, range and effect of each.
 
 use std::sync::Arc;
 
-use super::*;
-use crate::plot::theme::Theme;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Layout;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+use super::Overlay;
+use crate::plot::theme::{Role, Theme};
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command};
+use crate::tui::explorer::Explorer;
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::LineEdit;
+use crate::tui::overlays::answer::{Answer, select, typing};
+use crate::tui::overlays::palette::Palette;
+use crate::tui::settings::Setting;
 use crate::tui::stage::LIST;
 
-/// The list, and the value of the selected parameter while that is typed.
+/// The list, and the selected parameter's value while it is being typed.
 #[derive(Debug, Default)]
 pub struct Form {
-    /// Which of those that fit the filter is selected.
+    /// The index of the selected parameter among those that pass the filter.
     at: usize,
-    /// What was typed to find a parameter.
+    /// The text typed to find a parameter.
     pub(super) filter: LineEdit,
-    /// The value that is typed, if there is one.
+    /// The value being typed, if any.
     pub(super) typed: Option<LineEdit>,
-    /// The value before the change that was asked for, until the answer is seen: a refused text stays.
+    /// The value before the requested change, until the answer is known: if the change is refused, the typed text
+    /// stays.
     sent: Option<Option<String>>,
 }
 
-/// What is done while the list stays open: the run can be watched from here, and an edit undone.
+/// Commands that run while the list stays open: the run can be watched, and an edit undone.
 const WATCHED: &[Command] = &[
     Command::RunPause,
     Command::Cycle,
@@ -27,16 +41,16 @@ const WATCHED: &[Command] = &[
     Command::TimeForth,
 ];
 
-/// The room of a key, in cells, and that beside the panels.
+/// The width of the keys, in cells, and in the list beside the panels.
 const KEYS: usize = 38;
 const BRIEF: usize = 30;
 
-/// The rows of what is told of a parameter below the list, and in a narrow one.
+/// The rows of the description below the list, and in the list beside the panels.
 const BELOW: u16 = 4;
 const BESIDE: u16 = 6;
 
 impl Form {
-    /// The settings that fit the filter.
+    /// Returns the settings that pass the filter.
     fn fitting<'a>(&self, settings: &'a [Setting]) -> Vec<&'a Setting> {
         let fits = |of: &&Setting| {
             let known = of.parameter;
@@ -46,12 +60,12 @@ impl Form {
         settings.iter().filter(fits).collect()
     }
 
-    /// The selected one of these settings and its value while that is typed; `None` if there is none.
+    /// Returns the selected setting with its index, and its value if being typed; `None` if the list is empty.
     fn seen<'a>(&self, settings: &[&'a Setting]) -> Option<(usize, &'a Setting, Option<LineEdit>)> {
-        // Another shape has other keys: the list can have become shorter.
+        // Another indenter shape has other keys, so the list may have become shorter.
         let at = self.at.min(settings.len().checked_sub(1)?);
         let setting = settings[at];
-        // The change that was asked for has been made.
+        // The requested change has been made.
         let sent = self.sent.as_ref();
         let is_taken = sent.is_some_and(|before| *before != setting.value);
         Some((at, setting, self.typed.clone().filter(|_| !is_taken)))
@@ -83,7 +97,7 @@ impl Form {
         Answer::Stay
     }
 
-    /// Takes a key that finds parameters, or closes the list.
+    /// Handles a key that filters the parameters or closes the list.
     fn find(&mut self, key: Key) -> Answer {
         if command::of_key(key) == Some(Command::Back) {
             return Answer::Close;
@@ -94,8 +108,8 @@ impl Form {
         Answer::Stay
     }
 
-    /// Selects another parameter of `count`, changes or begins to give the value of the one that is selected. Signs
-    /// act while nothing has been typed.
+    /// Selects another of `count` parameters, or changes or edits the selected one. `+` and `-` change it only while
+    /// nothing is typed.
     fn choose(
         &mut self,
         key: Key,
@@ -122,7 +136,7 @@ impl Form {
         Answer::Stay
     }
 
-    /// Begins to give the value: one of its words in the palette, else the text as it stands.
+    /// Begins to edit the value: a choice opens the palette, anything else its text.
     fn edit(&mut self, setting: &Setting, explorer: &mut Explorer) -> Answer {
         explorer.notice = setting.fixed();
         if explorer.notice.is_some() {
@@ -176,7 +190,7 @@ impl Form {
     }
 }
 
-/// Takes the next value up or down, where there is one.
+/// Changes to the next value up or down, if there is one.
 fn step(setting: &Setting, up: bool, explorer: &mut Explorer) {
     explorer.notice = setting.fixed();
     let next = setting.next(up).filter(|_| setting.fixed().is_none());
@@ -185,7 +199,7 @@ fn step(setting: &Setting, up: bool, explorer: &mut Explorer) {
     }
 }
 
-/// A key as far as its value in this room: of a longer one, the end tells most.
+/// Shortens a key to this width: its end says more than its beginning.
 fn key(path: &str, room: usize) -> String {
     let mut path = path;
     while path.len() + 2 > room
@@ -196,7 +210,7 @@ fn key(path: &str, room: usize) -> String {
     format!(" {:1$}", path, room - 1)
 }
 
-/// A row of the list.
+/// Returns a row of the list.
 fn value(key: String, setting: &Setting, theme: &Theme) -> Line<'static> {
     let style = match setting.fixed() {
         Some(_) => theme.style(Role::Faint),
@@ -206,7 +220,7 @@ fn value(key: String, setting: &Setting, theme: &Theme) -> Line<'static> {
     Line::styled(key + &shown, style)
 }
 
-/// The row of a value that is typed, with the unit that it is in.
+/// Returns the row of a value being typed, with its unit.
 fn typed(
     key: &str,
     setting: &Setting,
@@ -221,7 +235,7 @@ fn typed(
     row
 }
 
-/// Meaning and range, effect, and what was answered to the last change.
+/// Returns the meaning and range of a setting, its effect, and the answer to the last change.
 fn about_it(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'static>> {
     let quiet = theme.style(Role::Quiet);
     let told = match (told, setting.fixed()) {

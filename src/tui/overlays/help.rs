@@ -1,15 +1,24 @@
-//! The help: keys and what they do, one per row, in groups. The palette searches in it.
+//! The help: keys and their meanings, one per row, in groups. The palette can search it.
 
 use std::cell::Cell;
 
-use super::*;
-use crate::tui::command::Row;
-use crate::tui::manual::groups;
+use ratatui::layout::Constraint::Fill;
+use ratatui::layout::Layout;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Paragraph;
 
-/// What closes it.
+use crate::plot::theme::Role;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command, Row};
+use crate::tui::keys::{Key, Named};
+use crate::tui::manual::groups;
+use crate::tui::overlays::answer::{Answer, PAGE, watch};
+
+/// The commands that close it.
 const CLOSING: &[Command] = &[Command::Back, Command::Help, Command::Accept];
 
-/// The help, scrolled down by some lines: by no more than there are, which it learns as it is drawn.
+/// The help, scrolled down by some lines. Drawing limits them to the lines that there are.
 #[derive(Debug, Default)]
 pub struct Help {
     first: Cell<u16>,
@@ -31,7 +40,7 @@ impl Help {
         Answer::Stay
     }
 
-    /// All keys by groups: in two columns where there is room for them, else scrolled.
+    /// Draws all keys by group, in two columns if there is room, else scrolled.
     pub(super) fn draw(&self, mut canvas: Canvas) {
         let (area, style) = (canvas.area, canvas.style(Role::Title));
         let mut lines = Vec::new();
@@ -65,18 +74,18 @@ impl Help {
     }
 }
 
-/// What the mouse does.
+/// How the mouse is used.
 const MOUSE: [&str; 3] = [
     "with --mouse, or mouse = true in the configuration:",
     "a click focuses, moves the cursor or travels in time;",
     "a second one zooms; the wheel zooms about the cursor",
 ];
 
-/// The width of a column, and that of the keys in it.
+/// The width of a column, and of the keys in it.
 const WIDTH: u16 = 80;
 const KEYS: usize = 15;
 
-/// The keys of a command, and what they do.
+/// Returns the keys of a command, and what it does.
 fn line(row: &Row, style: Style) -> Line<'static> {
     let keys = format!(" {:>KEYS$}  ", row.key_names().join(" "));
     Line::from(vec![Span::styled(keys, style), Span::raw(row.help)])

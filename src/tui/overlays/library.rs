@@ -1,28 +1,37 @@
-//! Scenarios to choose from: the presets, and the user's own files, with what they show.
+//! Scenarios to choose from: the presets and the user's files, each with a description.
 
 use std::path::{Path, PathBuf};
 
-use super::*;
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Layout;
+use ratatui::text::Line;
+
+use crate::plot::theme::Role;
 use crate::scenario::preset::{self, Preset};
 use crate::scenario::{Scenario, printable};
-use crate::tui::line::one_line;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{self, Command};
+use crate::tui::explorer::Explorer;
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::{LineEdit, one_line};
+use crate::tui::overlays::answer::{Answer, select};
 use crate::tui::snapshot;
 
-/// The most entries of a directory that are listed.
+/// Maximum number of directory entries listed.
 const LONGEST: usize = 1000;
 
-/// Rows of words on what is selected.
+/// Rows for the description of the selected entry.
 const WORDS: u16 = 4;
 
-/// The list: presets first, then what is in a directory.
+/// The list: presets first, then the entries of a directory.
 #[derive(Debug, Default)]
 pub struct Library {
-    /// Which of those that fit the filter is selected.
+    /// The index of the selected entry among those that pass the filter.
     at: usize,
-    /// What was typed to find an entry.
+    /// The text typed to find an entry.
     pub(super) filter: LineEdit,
     entries: Vec<Entry>,
-    /// What is said of the selected entry.
+    /// The description of the selected entry.
     about: String,
 }
 
@@ -38,11 +47,11 @@ struct Entry {
 #[derive(Debug)]
 enum Kind {
     Preset(&'static Preset),
-    /// A scenario's file, which is read only to be described.
+    /// A scenario file, read only for its description.
     Scenario,
-    /// A directory that holds a state to go on from, and what is said of that.
+    /// A directory with a state to continue from, and its description.
     Snapshot(String),
-    /// A directory to look into.
+    /// A directory to open.
     Directory,
 }
 
@@ -55,7 +64,7 @@ impl Entry {
         }
     }
 
-    /// What is listed at a path, if anything.
+    /// Returns the entry for a path, if it is listed.
     fn at(path: PathBuf) -> Option<Self> {
         let name = path.file_name()?.to_str()?;
         let name = printable(Some(name).filter(|name| !name.starts_with('.'))?);
@@ -77,7 +86,7 @@ impl Entry {
         }
     }
 
-    /// Its description, or why it cannot be run.
+    /// Returns its description, or why it cannot be run.
     fn about(&self) -> String {
         match &self.kind {
             Kind::Preset(preset) => return preset.summary().to_owned(),
@@ -101,14 +110,14 @@ impl Entry {
     }
 }
 
-/// What is listed of a directory, in any order.
+/// Lists a directory, in any order.
 fn list(directory: &Path) -> std::io::Result<Vec<Entry>> {
     let entries = std::fs::read_dir(directory)?;
     let found = entries.map(|entry| Ok(Entry::at(entry?.path())));
     found.filter_map(Result::transpose).take(LONGEST).collect()
 }
 
-/// The scenarios and the directories in a directory, by name.
+/// Lists the scenarios and directories in a directory, by name.
 fn files(directory: &Path) -> Vec<Entry> {
     let mut found = list(directory).unwrap_or_else(|error| {
         vec![Entry {
@@ -128,7 +137,7 @@ fn files(directory: &Path) -> Vec<Entry> {
 }
 
 impl Library {
-    /// The list with the scenario on the screen selected, and the working directory.
+    /// Opens the list with the working directory, and selects the scenario on the screen.
     pub fn open(origin: &str) -> Self {
         let mut library = Self::default();
         library.enter(".".into());
@@ -144,7 +153,7 @@ impl Library {
         self.entries.extend(files(&directory));
     }
 
-    /// The entries that fit the filter.
+    /// Returns the entries that pass the filter.
     fn fitting(&self) -> Vec<&Entry> {
         let fits = |of: &&Entry| self.filter.fits(&format!("{} {}", of.name, of.title()));
         self.entries.iter().filter(fits).collect()

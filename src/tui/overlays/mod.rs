@@ -1,20 +1,12 @@
-//! Overlays, one per file: each has its own state, answers keys and draws itself. What they have in common is imported
-//! here; each of them begins with `use super::*`.
-
-use ratatui::layout::Constraint::{Fill, Length};
-use ratatui::prelude::*;
-use ratatui::widgets::Paragraph;
+//! Overlays, one per file. Each has its state, handles keys and draws itself.
 
 use super::canvas::Canvas;
-use super::command::{self, Command};
+use super::command::Command;
 use super::explorer::Explorer;
-use super::frame::Frame;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
 use super::map::live::Live;
-use super::settings::Setting;
-use crate::plot::theme::Role;
-use answer::{PAGE, select, typing, watch};
+use answer::watch;
 
 mod accuracy;
 mod answer;
@@ -35,20 +27,20 @@ pub(super) use sweep::OPENING;
 /// An overlay.
 #[derive(Debug)]
 pub enum Overlay {
-    /// The keys.
+    /// The help on keys.
     Help(Help),
-    /// The presets.
+    /// The presets and files.
     Library(Library),
     /// The checks and the refinement check, or a second page that explains each check.
     Accuracy {
-        /// Whether it is the second page.
+        /// Whether the second page is shown.
         explains: bool,
     },
-    /// What the focused panel shows.
+    /// An explanation of the focused panel.
     Explain,
     /// The command palette.
     Palette(Palette),
-    /// The parameters.
+    /// The list of parameters.
     Form(Form),
     /// A study, on the whole screen.
     Sweep(Live),
@@ -57,7 +49,7 @@ pub enum Overlay {
 }
 
 impl Overlay {
-    /// Answers a key.
+    /// Handles a key.
     pub fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
         match self {
             Self::Help(help) => help.press(key),
@@ -77,7 +69,7 @@ impl Overlay {
         }
     }
 
-    /// The line being typed, if there is one.
+    /// Returns the line being typed, if there is one.
     pub fn line(&mut self) -> Option<&mut LineEdit> {
         match self {
             Self::Palette(palette) => Some(&mut palette.line),
@@ -87,7 +79,7 @@ impl Overlay {
         }
     }
 
-    /// Draws it over the panels; a study has the whole screen.
+    /// Draws it over the panels; a study takes the whole screen.
     pub fn draw(&self, explorer: &Explorer, canvas: Canvas) {
         match self {
             Self::Help(help) => help.draw(canvas),

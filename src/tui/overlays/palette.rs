@@ -1,23 +1,34 @@
 //! The palette: every command by name, and every scenario key by `set KEY=VALUE`, with completion.
 
-use super::*;
-use crate::scenario::nearest::nearest;
-use crate::tui::command::{Act, COMMANDS, Row};
-use crate::tui::completion::{self, Completion};
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::Layout;
+use ratatui::text::{Line, Span};
 
-/// The line being typed, and which of its completions is selected.
+use crate::plot::theme::Role;
+use crate::scenario::nearest::nearest;
+use crate::tui::canvas::Canvas;
+use crate::tui::command::{Act, COMMANDS, Command, Row};
+use crate::tui::completion::{self, Completion};
+use crate::tui::explorer::Explorer;
+use crate::tui::frame::Frame;
+use crate::tui::keys::{Key, Named};
+use crate::tui::line::LineEdit;
+use crate::tui::overlays::answer::{Answer, select, typing};
+use crate::tui::settings::Setting;
+
+/// The line being typed, and the index of the selected completion.
 #[derive(Debug, Default)]
 pub struct Palette {
     pub(super) line: LineEdit,
     at: usize,
 }
 
-/// The completions, most likely first, each with the command that it is if that needs no argument.
+/// Returns the completions, most likely first, each with its command if that needs no argument.
 fn completions(typed: &str, frame: &Frame) -> Vec<(Completion, Option<Command>)> {
     let typed = typed.trim_start();
     let mut list = Vec::new();
     for row in COMMANDS {
-        // These make no sense by name: they move within lists.
+        // Commands that move within lists make no sense by name.
         if matches!(
             row.command,
             Command::Palette | Command::Accept | Command::Back
@@ -39,7 +50,7 @@ fn completions(typed: &str, frame: &Frame) -> Vec<(Completion, Option<Command>)>
         let completion = Completion::new(line, row.help).with_right(key);
         list.extend(rank(typed, row).map(|rank| (rank, completion, command)));
     }
-    // A key of the scenario is found without `set` as well.
+    // A key of the scenario is also found without `set`.
     if typed.len() >= 2 {
         let changes = completion::set(typed, frame).into_iter();
         list.extend(changes.map(|change| (3, change, None)));
@@ -54,7 +65,7 @@ fn completions(typed: &str, frame: &Frame) -> Vec<(Completion, Option<Command>)>
         .collect()
 }
 
-/// How well `typed` matches: at the start of a name, within it, or by its words in keys, name and help.
+/// Ranks how `typed` matches: at the start of a name, within it, or by words in keys, name and help.
 fn rank(typed: &str, row: &Row) -> Option<usize> {
     let typed = typed.trim_end().to_lowercase();
     let all = format!("{} {} {}", row.key_names().join(" "), row.name, row.help).to_lowercase();
@@ -67,7 +78,7 @@ fn rank(typed: &str, row: &Row) -> Option<usize> {
 }
 
 impl Palette {
-    /// The palette with the beginning of a line.
+    /// Opens the palette with the beginning of a line.
     pub fn begun(line: &str) -> Self {
         Self {
             line: LineEdit::new(line),
@@ -75,7 +86,7 @@ impl Palette {
         }
     }
 
-    /// The words of a setting, the present one selected.
+    /// Opens the palette with the choices of a setting, the present one selected.
     pub fn choosing(setting: &Setting) -> Self {
         let mut words = setting.words().unwrap_or_default().into_iter();
         let now = words.position(|word| setting.value.as_deref() == Some(word));
@@ -151,7 +162,7 @@ impl Palette {
         if found.is_empty() {
             return below_line.say("no such command", Role::Quiet);
         }
-        // Of values the key is seen above.
+        // Completions of a value omit the key, which is visible in the line above.
         let typed = self.line.text();
         let key = typed.rfind('=').map_or("", |at| &typed[..=at]);
         let name = |of: &Completion| of.line.strip_prefix(key).unwrap_or(&of.line).to_owned();

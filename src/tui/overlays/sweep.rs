@@ -1,18 +1,24 @@
-//! A study on the whole screen: its map, and the point that is opened from there.
+//! A study on the whole screen: its map, and the point that is opened from it.
 
-use super::*;
-use crate::tui::explorer::Next;
+use super::Overlay;
+use crate::plot::theme::Role;
+use crate::tui::canvas::Canvas;
+use crate::tui::command;
+use crate::tui::explorer::{Explorer, Next};
+use crate::tui::keys::{Key, Named};
 use crate::tui::map::draw;
+use crate::tui::map::live::Live;
+use crate::tui::overlays::answer::Answer;
 
-/// What is told until a point is open.
+/// The message until a point is open.
 pub const OPENING: &str = "opening the point ...";
 
-/// Answers a key; leaving ends the study, or the explorer that was opened for it.
+/// Handles a key. Leaving ends the study, or the explorer if it was opened for the study.
 pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
     match (key, command::of_key(key)) {
         (Key::Char('?'), _) => return Answer::Open(Overlay::MapKeys),
         (Key::Char('q'), _) if live.is_of_file() => explorer.next = Next::Leave,
-        // Nothing is open that it could close.
+        // There is nothing that Escape could close.
         (Key::Named(Named::Esc), _) if live.is_of_file() => {}
         (Key::Char('q') | Key::Named(Named::Esc), _) => {
             live.halt();
@@ -40,7 +46,7 @@ pub(super) fn draw_keys(mut canvas: Canvas) {
     inside.say(&lines.join("\n"), Role::Quiet);
 }
 
-/// Draws the study, and what the user is told.
+/// Draws the study, with a message for the user if there is one.
 pub(super) fn draw(live: &Live, told: Option<&str>, canvas: Canvas) {
     live.with(|view| draw::draw(view, told, canvas));
 }

@@ -1,45 +1,55 @@
-//! The words of the cross-section: the phase of the cycle in a plain sentence, what has worn, a and c, and
-//! what the colours mean. A small picture has the load and the scale of the stress alone.
+//! The text of the cross-section: the phase of the cycle in a plain sentence, what has worn, a and c, and the meaning
+//! of the colours. A small picture has only the load and the scale of the stress.
 
 use ratatui::buffer::Cell;
+use ratatui::layout::Constraint::{Length, Min};
+use ratatui::layout::{Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
 
 use super::cut::Section;
-use super::*;
+use crate::math::scan::largest;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Depth, Look, Role, Theme};
+use crate::plot::units::format_value;
+use crate::reading::Moment;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
-/// The size from which the picture has captions below it, and their rows.
+/// The minimum size of a picture with captions below it, and their rows.
 const ROOMY: [u16; 2] = [60, 16];
 const ROWS: u16 = 2;
 
-/// Below this share of the fastest motion of a cycle the indenter turns.
+/// Below this fraction of its fastest motion in a cycle, the indenter is said to turn round.
 const TURNS: f64 = 0.2;
 
-/// Below this share of a nothing sticks that anyone could see.
+/// Below this fraction of a, a zone is too small to see.
 const NOTHING: f64 = 0.02;
 
 /// The width of the longest phase, "The outer ring slips, the middle sticks: sliding right".
 const LONGEST: u16 = 54;
 
-/// The picture and the rows of its captions.
+/// Returns the areas of the picture and of its captions.
 pub fn beside(area: Rect) -> [Rect; 2] {
     let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
     let rows = ROWS * u16::from(is_roomy);
     Layout::vertical([Min(0), Length(rows)]).areas(area)
 }
 
-/// The speed of the indenter to the right, relative to the fastest of the last cycle; `None` where no motion is
-/// seen, as after a jump over cycles.
+/// Returns the speed of the indenter to the right, relative to the fastest in the last cycle; `None` if no motion is
+/// visible, as after a jump over cycles.
 fn speed(frame: &Frame) -> Option<f64> {
     let shifts = &frame.run.loops.last()?.shifts;
     let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
     let fastest = steps.clone().map(f64::abs).fold(0.0, f64::max);
-    // Rounding is no motion.
+    // Ignores motion due to rounding.
     let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
     let last = steps.next_back().filter(|_| is_seen)?;
     Some(last / fastest)
 }
 
-/// What the contact does at the moment, for someone who has never heard of fretting; the same in capitals, for
-/// large letters, and the colour that it has.
+/// Describes the present state of the contact for someone who has never heard of fretting, then in capitals for large
+/// letters, with the colour of the state.
 pub fn contact_state(moment: &Moment) -> (&'static str, &'static str, Role) {
     let a = moment.contact_radius;
     match moment.stick_radius.map(|stick| stick / a) {
@@ -54,7 +64,7 @@ pub fn contact_state(moment: &Moment) -> (&'static str, &'static str, Role) {
     }
 }
 
-/// The same with the motion.
+/// Describes the state and the motion.
 fn phase(moment: &Moment, speed: Option<f64>) -> String {
     let (what, _, role) = contact_state(moment);
     let is_in_contact = moment.contact_radius > 0.0 && moment.stick_radius.is_some();
@@ -68,10 +78,10 @@ fn phase(moment: &Moment, speed: Option<f64>) -> String {
     }
 }
 
-/// What has worn since the start.
+/// Describes what has worn since the start.
 fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
     let seen = &frame.observation;
-    let deepest = largest(&seen.wear);
+    let deepest = largest(seen.wear());
     if seen.law.is_none() {
         return "Nothing wears in this scenario: both bodies keep their shape.".into();
     }
@@ -84,23 +94,28 @@ fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
         format!(" (indenter {indenter}, half-space {half_space})")
     });
     let bodies = bodies.unwrap_or_default();
-    let a = value(seen.moment.contact_radius);
-    match sticking(&seen.moment) {
+    let (radius, c) = (seen.moment.contact_radius, sticking(&seen.moment));
+    let a = value(radius);
+    match c.map(&value) {
+        _ if radius <= 0.0 => format!("Worn {depth} deep{bodies}."),
         Some(c) => {
-            let ring = format!("in the ring from c ({}) to a ({a})", value(c));
-            format!("Worn {depth} deep{bodies} {ring}, nothing inside c.")
+            format!(
+                "Worn {depth} deep{bodies} in the ring from c ({c}) to a ({a}), nothing inside c."
+            )
         }
-        None => format!("Worn {depth} deep{bodies}; the contact (a {a}) slides as a whole."),
+        None => {
+            format!("Worn {depth} deep{bodies}; all of the contact (a {a}) slips in each cycle.")
+        }
     }
 }
 
-/// The permanent stick radius, m, where there is one to be seen.
+/// Returns the permanent stick radius, m, if it is visible.
 fn sticking(moment: &Moment) -> Option<f64> {
     let (a, c) = (moment.contact_radius, moment.permanent_stick_radius);
     c.filter(|c| *c > NOTHING * a && *c < (1.0 - NOTHING) * a)
 }
 
-/// The ink of words and lines on the bodies.
+/// Returns the ink of text and lines on the bodies.
 pub fn ink(theme: &Theme) -> Style {
     let color = match (theme.depth, theme.look) {
         (Depth::Sixteen, _) | (_, Look::Light) => Color::Black,
@@ -109,14 +124,14 @@ pub fn ink(theme: &Theme) -> Style {
     Style::new().fg(color)
 }
 
-/// The ground of a sign that is written over a block is what fills most of the cell.
+/// Sets the background of a character written over a block to the colour that fills most of the cell.
 pub fn take_ground(cell: &mut Cell) {
     if ("▅"..="█").contains(&cell.symbol()) && !cell.modifier.contains(Modifier::REVERSED) {
         cell.bg = cell.fg;
     }
 }
 
-/// Writes on what is drawn already: the ground stays.
+/// Writes over what is already drawn, keeping its background.
 fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     let (text, buffer) = (&*canvas.theme.printable(text), &mut *canvas.buffer);
     let style = match has_blocks(&canvas.theme) {
@@ -130,10 +145,10 @@ fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     buffer.set_stringn(x, y, text, usize::from(room), style);
 }
 
-/// Draws the words on the picture and below it.
+/// Draws the text on the picture and below it.
 pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     let (frame, area) = (section.of.frame, canvas.area);
-    // Nobody reads numbers ten times a second.
+    // Numbers change too fast to be read in every frame, so they come from the calm one.
     let seen = section.of.calm;
     let calm = &seen.observation.moment;
     let value = |value, unit| format_value(value, unit, 3);
@@ -147,7 +162,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     };
     let mut forces = format!("{load}F_z {}", value(calm.normal_force, "N"));
     if calm.stick_radius.is_some() {
-        // Rounding is no motion.
+        // Ignores motion due to rounding.
         let moved = calm.shift * f64::from(calm.shift.abs() > 1e-12 * calm.contact_radius);
         forces.push_str(&format!(", {shift}u_x {}", value(moved, "m")));
     }
@@ -156,7 +171,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
             on(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
-        // A wide picture has room for all that colours mean.
+        // A wide picture has room for the meaning of all colours.
         let mut key = match area.width >= ROOMY[0] {
             true => body_key(&canvas.theme),
             false => Line::default(),
@@ -170,7 +185,8 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         return canvas.at(place).show(scale);
     }
     let speed = speed(frame);
-    let said = phase(&frame.observation.moment, speed);
+    let geometry = frame.observation.geometry;
+    let said = geometry.named(&phase(&frame.observation.moment, speed));
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
     on(&mut canvas, start, area.y, &said);
@@ -183,7 +199,8 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     on(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
-    let worn = canvas.printable(&worn(seen, |depth| value(depth, "m")));
+    let worn = geometry.named(&worn(seen, |depth| value(depth, "m")));
+    let worn = canvas.printable(&worn);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
     let worn = match worn.rsplit_once(", ") {
@@ -197,7 +214,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     canvas.at(second).show(key);
 }
 
-/// c and a: a short line over the border of each, and its name.
+/// Draws c and a: a short line over each border, and its name.
 fn radii(section: &Section, canvas: &mut Canvas) {
     let moment = &section.of.calm.observation.moment;
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
@@ -213,7 +230,7 @@ fn radii(section: &Section, canvas: &mut Canvas) {
     }
 }
 
-/// What the colours of the bodies mean.
+/// Returns the meaning of the bodies' colours.
 fn body_key(theme: &Theme) -> Line<'static> {
     let [blocks, lines] = [has_blocks(theme), !theme.ascii()].map(usize::from);
     let parts = [
@@ -228,17 +245,17 @@ fn body_key(theme: &Theme) -> Line<'static> {
     spans.collect()
 }
 
-/// The scale of the stress in as many words as `width` cells have room for; empty without a stress.
+/// Returns the scale of the stress in as many words as fit into `width` cells; empty without a stress.
 fn stress_key(section: &Section, width: u16) -> Line<'static> {
     let (theme, stress) = (&section.theme, section.of.stress);
-    // Nothing is loaded yet where the scale is that of no stress.
+    // A scale of no more than 1 Pa means that nothing is loaded yet.
     let Some(bounds) = stress.bounds().filter(|bounds| bounds[1] > 1.0) else {
         return Line::default();
     };
     let name = format!(" {} ", stress.names()[1]);
     let ends = stress.ends().unwrap_or_default();
     let [low, high] = ends.map(|end| theme.printable(&end));
-    // With little room the number of the other end stands for both.
+    // If there is little room, the number at one end stands for both.
     let short = match bounds {
         [0.0, _] => "0 ",
         [low, high] if low == -high => "- ",

@@ -1,29 +1,36 @@
-//! Where the bodies of the cross-section lie: the heights of indenter and half-space along the motion, what is magnified,
-//! and where that is on the screen.
+//! Places the bodies of the cross-section: the heights of indenter and half-space along the motion, what is magnified,
+//! and where it is on the screen.
 
-use super::stress_map::Shades;
-use super::*;
+use ratatui::layout::Rect;
+
+use super::Shown;
+use super::stress_map::Shares;
 use crate::charts::magnification;
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::theme::Theme;
+use crate::plot::units::format_number;
 use crate::reading::Zone;
 use crate::simulation::drive::Control;
+use crate::tui::frame::Frame;
 
-/// The picture is this many times as wide as the domain: the sides of the bodies are seen.
+/// The picture is this many times as wide as the domain, so that the sides of the bodies are visible.
 const WIDER: f64 = 1.35;
 
-/// The amplitude of the motion takes up to this share of the picture's width, and no more columns than this: each is
-/// redrawn in the flanks.
+/// Maximum amplitude of the motion, as a fraction of the picture's width and in columns, because each column of the
+/// flanks is redrawn.
 const SWING: f64 = 0.025;
 const FARTHEST: f64 = 4.0;
 
-/// The wear takes up to this share of the picture's height, but is magnified at least so much: in true size what is lost
-/// has no room, where the bodies touch.
+/// Maximum height of the wear, as a fraction of the picture's height, and its minimum magnification: in true size the
+/// lost material has no room where the bodies touch.
 const WEAR: f64 = 0.4;
 const LEAST_WEAR: f64 = 2.0;
 
-/// Rows from which on the contact surface is drawn two half cells thick, and lines show what sticks.
+/// Minimum rows for a contact surface two half cells thick, and for lines that show what sticks.
 pub const LARGE: u16 = 14;
 
-/// What is at a place of the cut.
+/// What is at a point of the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Matter {
     Air,
@@ -35,18 +42,18 @@ pub enum Matter {
     HalfSpace,
 }
 
-/// Heights over the undeformed surface, m, at one place along the motion.
+/// Heights above the undeformed surface, m, at one place along the motion.
 pub struct Cut {
     indenter: f64,
     unworn: f64,
     pub surface: f64,
-    /// Where the half-space would end had it not worn.
+    /// The surface of the half-space as if it had not worn.
     unworn_surface: f64,
     zone: Zone,
 }
 
 impl Cut {
-    /// What is at height `z`, where the surface of contact is drawn `thick` (m).
+    /// Returns what is at height `z`, if the contact surface is drawn `thick` (m).
     pub fn matter(&self, z: f64, thick: f64) -> Matter {
         let is_open = self.zone == Zone::Open;
         match z {
@@ -61,8 +68,8 @@ impl Cut {
     }
 }
 
-/// The heights that the picture spans, m: all of the indenter's flank within the domain, and as much
-/// of the half-space.
+/// Returns the heights that the picture spans, m: the whole indenter's flank within the domain, and as much of the
+/// half-space.
 pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
     let depth = frame.observation.moment.depth;
     if frame.observation.depression.is_empty() {
@@ -76,9 +83,9 @@ pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
     Some([-depth.max(0.0) - 1.2 * flank, flank - depth])
 }
 
-/// A frame as a cut in an area: its lengths, m, and how much is magnified.
+/// A frame as a cut in an area: its lengths, m, and the magnifications.
 pub struct Section<'a> {
-    /// Of what, and the look of the terminal.
+    /// What to draw, and the look of the terminal.
     pub of: &'a Shown<'a>,
     pub theme: Theme,
     pub area: Rect,
@@ -87,26 +94,26 @@ pub struct Section<'a> {
     pub half: f64,
     /// The height of the upper edge.
     pub high: f64,
-    /// How many times the wear is drawn, in heights of the picture; and the motion, in its widths.
+    /// The magnification of the wear, in heights of the picture, and of the motion, in its widths.
     wear: f64,
     pub motion: f64,
-    /// The shift of the indenter as it is drawn, and how much higher both bodies are drawn: the indenter moves by
-    /// whole columns and rows, so that a small motion does not redraw everything with every frame.
+    /// The drawn shift of the indenter, and how far both bodies are lifted. The indenter moves by whole columns and
+    /// rows, so that a small motion does not redraw everything in every frame.
     pub shift: f64,
     lift: f64,
-    /// The height of the drawn surface of contact, and that from the lowest place of the indenter to the upper edge,
+    /// The drawn height of the contact surface, and the height from the lowest point of the indenter to the upper edge,
     /// m, on the scale of the surfaces.
     pub thick: f64,
     pub tall: f64,
-    pub stress: Option<Shades>,
+    pub stress: Option<Shares>,
 }
 
 impl<'a> Section<'a> {
-    /// The cut; `None` where there is nothing to draw.
+    /// Makes the cut; `None` if there is nothing to draw.
     pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
         let seen = &frame.observation;
-        let ([low, high], &edge) = (of.bounds?, seen.radii.last()?);
+        let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
         }
@@ -117,9 +124,9 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let deepest = largest(&seen.wear).max(frame.facts.expected_wear);
+        let deepest = largest(seen.wear()).max(frame.facts.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
-        let [columns, rows] = [area.width, 2 * area.height].map(usize::from);
+        let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
             of,
             theme: *theme,
@@ -134,35 +141,37 @@ impl<'a> Section<'a> {
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
-            stress: of.stress.samples(of.calm, columns, rows, width),
+            stress: of.drawn.shares(of.stress, of.calm, room, width),
         };
         section.tall = high - section.cut(0.0).surface;
         Some(section)
     }
 
-    /// The cut at `x`, where the wear is drawn magnified and the indenter shifted. Beyond the domain the
-    /// indenter goes on unworn, and the surface comes back as under a point load, in proportion to 1/r.
+    /// Returns the cut at `x`, with magnified wear and a shifted indenter. Beyond the domain the indenter continues
+    /// unworn, and the surface recovers in proportion to 1/r, as under a point load.
     pub fn cut(&self, x: f64) -> Cut {
         let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
-        let sunk = |r: f64| interpolate(&seen.radii, &seen.depression, r.min(edge));
+        let sunk = |r: f64| interpolate(seen.radii(), &seen.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
-        // Far from the contact nothing is lifted.
-        let lifted = match r - moment.contact_radius {
-            beyond if beyond > 0.0 => sunk(r) * back / sunk(moment.contact_radius).max(sunk(r)),
-            _ => 1.0,
+        // Far from the contact nothing is lifted, and nothing at all while the bodies are apart.
+        let deepest = sunk(moment.contact_radius).max(sunk(r));
+        let lifted = match r > moment.contact_radius {
+            true if deepest > 0.0 => sunk(r) * back / deepest,
+            true => 0.0,
+            false => 1.0,
         };
         let surface = self.lift * lifted - sunk(r) * back;
-        // Nothing of the half-space is worn unless the scenario says so.
+        // The half-space wears only if the scenario says so.
         let share = scenario.wear_share().unwrap_or(1.0);
         let wear = |r: f64| match r <= edge {
-            true => self.wear * interpolate(&seen.radii, &seen.wear, r),
+            true => self.wear * interpolate(seen.radii(), seen.wear(), r),
             false => 0.0,
         };
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
-        // Where it touches, the indenter stays on the surface; its flanks are shifted as a whole.
+        // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
         let along = (x - self.given_way(moment.contact_radius, r)).abs();
         let unworn = match (x - self.shift).abs() > rim {
             true => f64::INFINITY,
@@ -177,7 +186,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// How far the indenter is shifted at `r`: not where it touches, and as a whole some way from there.
+    /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
     fn given_way(&self, contact: f64, r: f64) -> f64 {
         let way = 4.0 * self.shift.abs();
         match r - contact {
@@ -187,7 +196,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A title with what is magnified, the wear first, as far as `room` cells suffice.
+    /// Returns a title with the magnifications, the wear's first, as far as `room` cells allow.
     pub fn title(&self, title: &str, room: usize) -> String {
         let heights = self.width / self.half;
         let factors = [
@@ -205,14 +214,14 @@ impl<'a> Section<'a> {
         title
     }
 
-    /// The column at `x`, m, where the picture has one.
+    /// Returns the column at `x`, m, if it is in the picture.
     pub fn column(&self, x: f64) -> Option<u16> {
         let at = (x / self.width + f64::from(self.area.width) / 2.0).floor();
         (at >= 0.0 && at < f64::from(self.area.width)).then(|| self.area.x + at as u16)
     }
 
-    /// The rows of the lower end of the indenter and of the surface of the half-space at `x`, m: the last whole
-    /// ones of what is above.
+    /// Returns the rows of the indenter's lower end and of the half-space's surface at `x`, m: the last whole rows
+    /// above them.
     pub fn rows_above(&self, x: f64) -> Option<[u16; 2]> {
         let cut = self.cut(x);
         let row = |z: f64| {
@@ -223,12 +232,12 @@ impl<'a> Section<'a> {
     }
 }
 
-/// The nearest multiple of a step.
+/// Returns the nearest multiple of a step.
 pub fn whole(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 
-/// The amplitude of u_x, m: the one that is prescribed, or that of the last cycle.
+/// Returns the amplitude of u_x, m: the prescribed one, or else the amplitude of the last cycle.
 fn amplitude(frame: &Frame) -> f64 {
     if let Some(Control::Displacement(shift)) = frame.facts.scenario.setup().drive.tangential() {
         return shift.amplitude();
@@ -241,6 +250,7 @@ fn amplitude(frame: &Frame) -> f64 {
 mod tests {
     use super::*;
     use crate::oracle::power_law::PowerLaw;
+    use crate::reading::Curves;
     use crate::scenario::Scenario;
     use crate::simulation::Simulation;
 
@@ -288,7 +298,7 @@ mod tests {
         let simulation = Simulation::new(setup).expect("a contact");
         let seen = simulation.observe(Curves::DEPRESSION);
         let a = PowerLaw::paraboloid(radius).contact_radius(1e-6);
-        for (&r, &sunk) in seen.radii.iter().zip(&seen.depression) {
+        for (&r, &sunk) in seen.radii().iter().zip(&seen.depression) {
             let exact = if r <= a {
                 1e-6 - r * r / (2.0 * radius)
             } else {

@@ -1,20 +1,14 @@
-//! Panels: the charts that a screen shows, and pictures of cells beside them, one per file. What these have in common is
-//! imported here; each of them begins with `use super::*`.
+//! Panels: the charts on the screen, and pictures made of characters, one per file.
 
-use ratatui::layout::Constraint::{Fill, Length, Min};
+use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::prelude::*;
 
 use super::canvas::Canvas;
 use super::frame::Frame;
-use crate::charts::{self, Recipe};
-use crate::math::grid::interpolate;
-use crate::math::scan::{self, largest};
-use crate::plot::colormap::ColorMap;
-use crate::plot::shades::{self, has_blocks};
-use crate::plot::theme::{Depth, Look, Role, Theme};
-use crate::plot::units::{format_number, format_value};
+use crate::charts::{self, About, Recipe};
+use crate::math::scan::{self};
+use crate::plot::theme::{Role, Theme};
 use crate::plot::{Chart, Curve, Plot, Scale};
-use crate::reading::{Curves, Moment};
 
 mod caption;
 pub mod compare;
@@ -25,26 +19,35 @@ mod section;
 mod stress_map;
 
 pub use caption::contact_state;
-pub use stress_map::StressMap;
+pub use stress_map::{Drawn, StressMap};
 
-/// A panel that no chart can be.
+/// What a panel shows.
+pub enum Content {
+    /// A chart.
+    Chart(&'static Recipe),
+    /// What no chart can be.
+    Picture(&'static Recipe<Picture>),
+}
+
+/// How a panel is made that no chart can be.
+#[derive(Clone, Copy)]
 pub struct Picture {
-    /// Its names and needs.
-    recipe: Recipe,
     /// Draws it below a rule with the title.
     pub draw: fn(&Shown, Canvas),
     /// The values that it must hold.
-    extent: fn(&Frame) -> Option<[f64; 2]>,
+    pub extent: fn(&Frame) -> Option<[f64; 2]>,
 }
 
-/// What a picture is drawn of.
+/// What a picture shows.
 pub struct Shown<'a> {
     /// The frame of the panel.
     pub frame: &'a Frame,
-    /// The frame of what changes more calmly: stresses and words.
+    /// The frame for what changes more calmly: stresses and text.
     pub calm: &'a Frame,
-    /// Which stress is shown.
+    /// The stress to show.
     pub stress: StressMap,
+    /// Its samples on the screen.
+    pub drawn: &'a Drawn,
     /// The values that its scale holds.
     pub bounds: Option<[f64; 2]>,
     /// The role of its title.
@@ -53,7 +56,7 @@ pub struct Shown<'a> {
 
 /// The panels in reading order; the first four fill a small screen.
 macro_rules! panels {
-    ($($(#[$mark:meta])? $what:literal $name:ident: $recipe:expr, $picture:expr;)*) => {
+    ($($(#[$mark:meta])? $what:literal $name:ident: $content:ident $recipe:expr;)*) => {
         /// The panels of the explorer.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
         pub enum Panel {
@@ -64,17 +67,10 @@ macro_rules! panels {
             /// All panels, in reading order.
             pub const ALL: [Self; [$($what),*].len()] = [$(Self::$name),*];
 
-            /// Everything that is declared of it.
-            pub fn recipe(self) -> &'static Recipe {
+            /// What it shows.
+            pub fn content(self) -> Content {
                 match self {
-                    $(Self::$name => &$recipe,)*
-                }
-            }
-
-            /// How it is drawn, if it is no chart.
-            pub fn picture(self) -> Option<&'static Picture> {
-                match self {
-                    $(Self::$name => $picture,)*
+                    $(Self::$name => Content::$content(&$recipe),)*
                 }
             }
         }
@@ -82,57 +78,59 @@ macro_rules! panels {
 }
 
 panels! {
-    #[default] "The 3D profile." Profile: charts::profile::RECIPE, None;
-    "p and τ." Stresses: charts::stresses::RECIPE, None;
-    "F_x over u_x." Loop: charts::fretting_loop::RECIPE, None;
-    "Radii over cycles." Radii: charts::radii::RECIPE, None;
-    "A cut through indenter and half-space." Section: section::PICTURE.recipe, Some(&section::PICTURE);
-    "The numbers of the moment." Numbers: numbers::PICTURE.recipe, Some(&numbers::PICTURE);
-    "The 1D profile." Springs: charts::springs::RECIPE, None;
-    "Worn depth over the radius." Depth: charts::depth::RECIPE, None;
-    "Wear volume over cycles." Volume: charts::volume::RECIPE, None;
-    "Wear volume per cycle, over cycles." Rate: charts::rate::RECIPE, None;
-    "Wear volume against friction work, over cycles." Residual: charts::residual::RECIPE, None;
-    "Time per step over cycles." Cost: charts::cost::RECIPE, None;
-    "The scar from above." Scar: scar::PICTURE.recipe, Some(&scar::PICTURE);
-    "The loops of earlier cycles." Log: charts::fretting_log::RECIPE, None;
-    "Normal load over displacement amplitude." Condition: charts::condition::RECIPE, None;
-    "Largest worn depth over cycles." ScarDepth: charts::scar_depth::RECIPE, None;
-    "The scar's radius and depth over friction work." ScarGrowth: charts::scar_growth::RECIPE, None;
+    #[default] "The 3D profile." Profile: Chart charts::profile::RECIPE;
+    "p and τ." Stresses: Chart charts::stresses::RECIPE;
+    "F_x over u_x." Loop: Chart charts::fretting_loop::RECIPE;
+    "Radii over cycles." Radii: Chart charts::radii::RECIPE;
+    "A cut through indenter and half-space." Section: Picture section::RECIPE;
+    "The numbers of the moment." Numbers: Picture numbers::RECIPE;
+    "The 1D profile." Springs: Chart charts::springs::RECIPE;
+    "Worn depth over the radius." Depth: Chart charts::depth::RECIPE;
+    "Wear volume over cycles." Volume: Chart charts::volume::RECIPE;
+    "Wear volume per cycle, over cycles." Rate: Chart charts::rate::RECIPE;
+    "Wear volume against friction work, over cycles." Residual: Chart charts::residual::RECIPE;
+    "Time per step over cycles." Cost: Chart charts::cost::RECIPE;
+    "The scar from above." Scar: Picture scar::RECIPE;
+    "The loops of earlier cycles." Log: Chart charts::fretting_log::RECIPE;
+    "Normal load over displacement amplitude." Condition: Chart charts::condition::RECIPE;
+    "Largest worn depth over cycles." ScarDepth: Chart charts::scar_depth::RECIPE;
+    "The scar's radius and depth over friction work." ScarGrowth: Chart charts::scar_growth::RECIPE;
 }
 
 impl Panel {
+    /// What is said of it.
+    pub fn recipe(self) -> &'static About {
+        match self.content() {
+            Content::Chart(recipe) => recipe,
+            Content::Picture(recipe) => recipe,
+        }
+    }
+
+    /// Its chart, if it shows one.
+    pub fn chart(self) -> Option<&'static Recipe> {
+        match self.content() {
+            Content::Chart(recipe) => Some(recipe),
+            Content::Picture(_) => None,
+        }
+    }
+
     /// The one with a title.
     pub fn titled(title: &str) -> Option<Self> {
         let mut panels = Self::ALL.into_iter();
         panels.find(|panel| panel.recipe().title == title)
     }
+}
 
-    /// The smallest and largest ordinate that it must hold: those of its chart, if it is one.
-    pub fn extent(self, frame: &Frame, chart: Option<&Chart>) -> Option<[f64; 2]> {
-        match self.picture() {
-            Some(picture) => (picture.extent)(frame),
-            None => extent(chart?, self.recipe().has_spikes),
-        }
-    }
-
-    /// The abscissa under a place of the screen, where the panel in `area` has its chart there.
-    pub fn abscissa_at(
-        self,
-        chart: &Chart,
-        theme: &Theme,
-        area: Rect,
-        at: Position,
-    ) -> Option<f64> {
-        // The first row is the title's.
-        let [_, inner] = Layout::vertical([Length(1), Fill(1)]).areas(area);
-        Plot::new(chart, theme).abscissa_at(inner, at)
-    }
+/// The abscissa under a place of the screen, where the panel in `area` has its chart there.
+pub fn abscissa_at(chart: &Chart, theme: &Theme, area: Rect, at: Position) -> Option<f64> {
+    // The first row is the title's.
+    let [_, inner] = Layout::vertical([Length(1), Fill(1)]).areas(area);
+    Plot::new(chart, theme).abscissa_at(inner, at)
 }
 
 /// The smallest and largest ordinate of a live chart: given ones, or those of the run's own curves and of other
 /// sources.
-fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
+pub(super) fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     if chart.y.bounds.is_some() {
         return chart.y.bounds;
     }
@@ -153,8 +151,8 @@ fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     }
 }
 
-/// How far the axis must reach for a curve, by the width that its values take on the abscissa: what stands above
-/// that in a narrow place is clipped, and marked in the plot.
+/// Returns how far the axis must reach for a curve, judging by the width that its values take on the abscissa: a higher
+/// value in a narrow place is clipped, and marked in the plot.
 pub fn spread_top(curve: &Curve) -> f64 {
     let xs = &curve.xs;
     let x = |k: usize| xs[k.min(xs.len() - 1)];
@@ -178,7 +176,8 @@ mod tests {
         values[50] = 1e6;
         let high = top(&radii, &values);
         assert!((10.0..20.0).contains(&high), "{high}");
-        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, half of them in its last thousandth.
+        // Nodes crowd where a stress is singular: 1/√(a² − r²) of a flat punch, with half of the nodes in the last
+        // thousandth.
         let outer = (1..100).map(|k| 1.0 - 1e-3 * 0.9_f64.powi(k));
         let radii: Vec<f64> = (0..100)
             .map(|k| 0.00999 * f64::from(k))
@@ -192,7 +191,7 @@ mod tests {
     #[test]
     fn every_panel_is_explained_in_a_box_of_a_small_screen() {
         for panel in Panel::ALL {
-            let Recipe { text, symbols, .. } = *panel.recipe();
+            let (text, symbols) = (panel.recipe().text, panel.recipe().symbols);
             assert!((50..=330).contains(&text.chars().count()), "{panel:?}");
             assert!(!text.contains("  ") && text.ends_with('.'), "{panel:?}");
             assert!((1..=5).contains(&symbols.len()), "{panel:?}");

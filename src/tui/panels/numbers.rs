@@ -1,35 +1,42 @@
 //! The numbers of the moment, most important first: a small panel shows fewer.
 
-use super::*;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use super::{Picture, Shown};
+use crate::charts::Recipe;
+use crate::plot::theme::Role;
+use crate::plot::units::{format_number, format_value};
 use crate::reading::CycleFigures;
 use crate::scenario::units::shown_in;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "numbers",
-        is_calm: true,
-        text: "The state in numbers, and what a fretting test reports for the last complete cycle. A, B and D \
-               are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
-               D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
-        symbols: &[
-            ("E_d", "energy lost to friction"),
-            ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
-            (
-                "slip ratio",
-                "mean slip of the contact divided by the amplitude",
-            ),
-            ("D, A, B", "sliding ratio and energy ratios of the loop"),
-            ("V/E_d", "wear volume divided by accumulated energy"),
-        ],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: |_| None,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "numbers",
+    is_calm: true,
+    text: "The state in numbers, and what a fretting test reports for the last complete cycle. A, B and D \
+           are ratios of the loop: at the border of gross slip an unworn sphere has A = 0.2, B = 0.77 and \
+           D = 0.26. k is wear per friction work; Archard's, per normal force and distance, is μ k.",
+    symbols: &[
+        ("E_d", "energy lost to friction"),
+        ("Q*/(μP)", "amplitude of F_x divided by the friction limit"),
+        (
+            "slip ratio",
+            "mean slip of the contact divided by the amplitude",
+        ),
+        ("D, A, B", "sliding ratio and energy ratios of the loop"),
+        ("V/E_d", "wear volume divided by accumulated energy"),
+    ],
+    ..Recipe::new(Picture {
+        draw,
+        extent: |_| None,
+    })
 };
 
 fn draw(shown: &Shown, mut canvas: Canvas) {
-    let mut canvas = canvas.titled(PICTURE.recipe.title, shown.role);
+    let mut canvas = canvas.titled(RECIPE.title, shown.role);
     let area = canvas.area;
     let columns = (area.width / 30).clamp(1, 2);
     let width = area.width / columns;
@@ -43,7 +50,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
         let name = shown.frame.observation.geometry.named(name);
         let [name, value] = [&name, &value].map(|text| canvas.printable(text));
-        // Rather than the value, the name is cut: its last words, and the symbol, tell most.
+        // The name is cut rather than the value: its last words and the symbol say the most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
         let mut name = name.as_str();
         while name.chars().count() > room
@@ -55,12 +62,12 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let name = Span::styled(name, canvas.style(Role::Quiet));
         canvas.at(cell).show(Line::from(vec![name, value.into()]));
     }
-    // In the rule: each row is needed.
+    // Writes into the rule, since every row is needed.
     let rule = Rect::new(area.x, area.y.saturating_sub(1), area.width, 1);
     canvas.at(rule).more(below);
 }
 
-/// All of them, one a line.
+/// Returns all of them, one per line.
 pub fn text(frame: &Frame) -> String {
     let moment = format!("cycle {}\n", frame.observation.moment.cycle);
     rows(frame).fold(moment, |text, (name, value)| {
@@ -68,7 +75,7 @@ pub fn text(frame: &Frame) -> String {
     })
 }
 
-/// The numbers that there are at the moment: names and values.
+/// Returns the names and values of the numbers that are known.
 fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
     let (facts, moment, figures) = (&frame.facts, &frame.observation.moment, &frame.figures);
     let figures = figures.as_ref();
@@ -82,7 +89,7 @@ fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
     let always = |number, unit| value(Some(number), unit);
     let plain = |value: Option<f64>, digits| Some(format_number(value?, digits));
     let with_unit = |number: Option<String>, unit| Some(format!("{} {unit}", number?));
-    // In the unit that the list of parameters has for it.
+    // In the same unit as in the list of parameters.
     let in_words = |value: Option<f64>, unit| {
         let (of, factor) = shown_in(unit)?;
         with_unit(plain(value.map(|value| value / factor), 4), of)

@@ -1,5 +1,5 @@
 //! The scar from above: a disc in half blocks; its left half shows stick and slip, its right half
-//! the worn depth in colours.
+//! the worn depth in colours. Of a line contact it shows a piece of the strip.
 //!
 //! ```text
 //!         ▄▄▄▄▄▄▄▄▄          left: stick in the middle, slip around it, open outside
@@ -9,34 +9,50 @@
 //!  |----| 50 µm   slip →   depth 0 [colours] 0.3 µm
 //! ```
 
-use super::*;
-use crate::plot::shades::paint_halves;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+use ratatui::text::Line;
+
+use super::{Picture, Shown};
+use crate::charts::Recipe;
+use crate::math::geometry::Geometry;
+use crate::math::grid::interpolate;
+use crate::math::scan::largest;
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades::{self, has_blocks, paint_halves};
 use crate::plot::step::Step;
-use crate::plot::theme::look_of;
+use crate::plot::theme::{Role, Theme, look_of};
+use crate::plot::units::format_value;
+use crate::reading::Curves;
+use crate::tui::canvas::Canvas;
+use crate::tui::frame::Frame;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "scar from above",
-        needs: Curves::PROFILE.union(Curves::SPRINGS),
-        text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
-               the right half the worn depth in colours. The arrow shows which way the indenter slips.",
-        symbols: &[("s ~ .", "stick, slip, open (without colours)")],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: depths,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "scar from above",
+    needs: Curves::PROFILE.union(Curves::SPRINGS),
+    text: "The contact from above. The left half shows where it sticks, slips and is open at this moment, \
+           the right half the worn depth in colours. The arrow shows which way the indenter slips.",
+    symbols: &[("s ~ .", "stick, slip, open (without colours)")],
+    ..Recipe::new(Picture {
+        draw,
+        extent: depths,
+    })
 };
 
-/// The width, cells, from which the legend fits in one line, and the height from which it gets two
-/// lines below that width.
+/// Minimum width, in cells, for a legend on one line, and minimum height for two lines below that width.
 const ONE_LINE: u16 = 64;
 const TWO_LINES: u16 = 10;
 
-/// The colour of the disc at `x` and `y` from its middle (m), and the sign that stands for it without colours; depths
-/// have those between 0 and `deepest`.
+/// Returns the colour of the disc at `x` and `y` from its centre (m), and the character that replaces it without
+/// colours. The colours of depths range from 0 to `deepest`.
 fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
-    let (seen, r) = (&frame.observation, x.hypot(y));
+    let seen = &frame.observation;
+    let r = if seen.geometry.is_line() {
+        x.abs()
+    } else {
+        x.hypot(y)
+    };
     if r > frame.run.edge() {
         return (None, ' ');
     }
@@ -44,23 +60,23 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
         let (role, sign) = look_of(seen.moment.zone_at(r));
         return (theme.style(role).fg, sign);
     }
-    let depth = interpolate(&seen.radii, &seen.wear, r);
-    let shade = shades::shade(depth, [0.0, deepest]);
-    let color = shades::color(theme, ColorMap::Sequential, shade);
-    (color, shades::SIGNS[shade])
+    let depth = interpolate(seen.radii(), seen.wear(), r);
+    let share = shades::share(depth, [0.0, deepest]);
+    let color = shades::color(theme, ColorMap::Sequential, share);
+    (color, shades::sign(shades::SIGNS, share))
 }
 
-/// The depths that the colours span, m.
+/// Returns the range of depths that the colours cover, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
-    let deepest = largest(&frame.observation.wear);
+    let deepest = largest(frame.observation.wear());
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
 fn draw(of: &Shown, mut canvas: Canvas) {
     let frame = of.frame;
-    let mut canvas = canvas.titled(PICTURE.recipe.title, of.role);
+    let mut canvas = canvas.titled(RECIPE.title, of.role);
     let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
-    let Some(&edge) = seen.radii.last().filter(|_| !seen.wear.is_empty()) else {
+    let Some(&edge) = seen.radii().last().filter(|_| !seen.wear().is_empty()) else {
         return;
     };
     if area.height < 4 || area.width < 12 {
@@ -68,13 +84,16 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
-    // Nothing has worn yet where there are no bounds.
+    // Without bounds, nothing has worn yet.
     let deepest = of
         .bounds
         .map_or(frame.facts.expected_wear, |bounds| bounds[1]);
     // Half a cell is about as high as a cell is wide.
-    let across = f64::from(disc.width.min(2 * disc.height));
-    let size = 2.0 * edge / across;
+    let across = match seen.geometry {
+        Geometry::Round => disc.width.min(2 * disc.height),
+        Geometry::Line { .. } => disc.width,
+    };
+    let size = 2.0 * edge / f64::from(across);
     for at in disc.positions() {
         let (column, row) = (f64::from(at.x - disc.x), f64::from(at.y - disc.y));
         let x = (column + 0.5 - f64::from(disc.width) / 2.0) * size;
@@ -91,21 +110,22 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     legend(frame, [size, deepest], canvas);
 }
 
-/// Where the sliding parts of the indenter move: with the traction that they exert.
+/// Returns the direction in which the sliding parts of the indenter move, which is the direction of the traction that
+/// they exert.
 fn slip_direction(frame: &Frame) -> Option<f64> {
     let seen = &frame.observation;
     let (a, stick) = (seen.moment.contact_radius, seen.moment.stick_radius?);
-    let mut outermost_first = seen.radii.iter().zip(&seen.tangential_load).rev();
+    let mut outermost_first = seen.radii().iter().zip(seen.tangential_load()).rev();
     let (_, load) = outermost_first.find(|(r, load)| **r < a && **load != 0.0)?;
     (stick < a).then(|| load.signum())
 }
 
-/// The lines of the legend.
+/// Returns the number of lines of the legend.
 fn legend_lines(area: Rect) -> u16 {
     1 + u16::from(area.width < ONE_LINE && area.height >= TWO_LINES)
 }
 
-/// The scale bar, the direction of slip, and the scale of the depth, as far as there is room.
+/// Draws the scale bar, the direction of slip, and the scale of the depth, as far as there is room.
 fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
     let value = |value| format_value(value, "m", 3);

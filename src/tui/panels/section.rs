@@ -1,6 +1,6 @@
-//! A cut through indenter and half-space: one body pressed into the other, with the stress under
-//! the contact. Zoomed it is the contact itself, large: the indenter follows its motion, and captions
-//! tell the phase of the cycle ([`super::caption`]).
+//! A cut through indenter and half-space: one body pressed into the other, with the stress below the contact. When
+//! zoomed, it shows the contact large: the indenter follows its motion, and captions describe the phase of the cycle
+//! ([`super::caption`]).
 //!
 //! ```text
 //!  ████████████████████████████████    indenter: heights exaggerated, shifted by its magnified motion
@@ -9,51 +9,55 @@
 //!  ░░░░░░░░░░▄▄▄▄▄▄▄▄▄▄▄▄▄▄░░░░░░░░    half-space: the stress inside, in true lengths
 //! ```
 //!
-//! Heights of the surfaces are exaggerated, each body's surface to an eighth of a cell. Below the surface
-//! lengths are true: a half cell is about as high as a column is wide, and both stand for the same length,
-//! so the stress lies under the contact as it does in the material. The motion is magnified too: short lines
-//! on both bodies stay in one where the contact sticks, and part where it slips. The flanks of the indenter
-//! move with it; between them the contact stays closed.
+//! Heights of the surfaces are exaggerated; each body's surface is drawn to an eighth of a cell. Below the surface
+//! lengths are true: half a cell is about as high as a column is wide, and both represent the same length, so the
+//! stress lies under the contact as it does in the material. The motion is magnified, too: short lines on both bodies
+//! stay aligned where the contact sticks, and separate where it slips. The flanks of the indenter move with it; between
+//! them the contact stays closed.
+
+use ratatui::style::{Color, Modifier, Style};
 
 use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
-use super::*;
-use crate::charts::U_X;
-use crate::plot::theme::look_of;
-use crate::reading::Zone;
+use super::{Picture, Shown, caption};
+use crate::charts::{Recipe, U_X};
+use crate::math::grid::interpolate;
+use crate::plot::shades::{self, has_blocks};
+use crate::plot::theme::{Role, look_of};
+use crate::reading::{Curves, Zone};
+use crate::tui::canvas::Canvas;
 
 /// The panel.
-pub static PICTURE: Picture = Picture {
-    recipe: Recipe {
-        title: "cross-section",
-        needs: Curves::PROFILE
-            .union(Curves::DEPRESSION)
-            .union(Curves::SPRINGS)
-            .union(Curves::SURFACE),
-        is_calm: true,
-        text: "A cut through both bodies: the indenter above, the half-space it deforms below. The title tells \
-               what is magnified. The contact surface is coloured by stick and slip; the short lines across it \
-               (V) stay in one where it sticks, and part where it slips.",
-        symbols: &[("F_z", "normal force"), U_X],
-        ..Recipe::new(|_, _| Err(""))
-    },
-    draw,
-    extent: heights,
+pub static RECIPE: Recipe<Picture> = Recipe {
+    title: "cross-section",
+    needs: Curves::PROFILE
+        .union(Curves::DEPRESSION)
+        .union(Curves::SPRINGS)
+        .union(Curves::SURFACE),
+    is_calm: true,
+    text: "A cut through both bodies: the indenter above, the half-space it deforms below. The title tells \
+           what is magnified. The contact surface is coloured by stick and slip; the short lines across it \
+           (V) stay in one where it sticks, and part where it slips.",
+    symbols: &[("F_z", "normal force"), U_X],
+    ..Recipe::new(Picture {
+        draw,
+        extent: heights,
+    })
 };
 
-/// Parts of a cell that a surface is drawn to.
+/// The number of parts of a cell to which a surface is drawn.
 const PARTS: usize = 8;
 
 /// Lower blocks, by the eighths of a cell that they fill.
 const LOWER: [char; PARTS + 1] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// Rows from which on these lines are two cells long on each body.
+/// Minimum rows for lines that are two cells long on each body.
 const LONG_LINES: u16 = 22;
 
-/// Greys of the indenter.
+/// The number of greys of the indenter.
 const SHADES_OF_BODY: f64 = 6.0;
 
 impl Matter {
-    /// Its colour, and a whole cell of it, in Unicode and in ASCII.
+    /// Returns its role, and a whole cell of it, in Unicode and in ASCII.
     fn look(self) -> (Role, [char; 2]) {
         match self {
             Self::Contact(zone) => (look_of(zone).0, [look_of(zone).1; 2]),
@@ -81,16 +85,16 @@ impl Section<'_> {
         }
     }
 
-    /// Lines on both bodies: those of the indenter move with it, those of the half-space with its surface.
+    /// Draws short lines on both bodies: on the indenter they move with it, on the half-space with its surface.
     fn lines(&self, canvas: &mut Canvas) {
         let (seen, area) = (&self.of.frame.observation, self.area);
-        if self.motion == 0.0 || seen.surface.is_empty() || !has_blocks(&self.theme) {
+        if self.motion == 0.0 || seen.surface().is_empty() || !has_blocks(&self.theme) {
             return;
         }
         let apart = (f64::from(area.width) / 14.0).max(5.0).floor() * self.width;
         let places = (-7..=7).map(|k| f64::from(k) * apart);
         for x in places.filter(|x| x.abs() < seen.moment.contact_radius) {
-            let surface = interpolate(&seen.radii, &seen.surface, x.abs());
+            let surface = interpolate(seen.radii(), seen.surface(), x.abs());
             let moved = whole(self.motion * surface, self.width);
             let Some([above, below]) = self.rows_above(x) else {
                 continue;
@@ -111,14 +115,14 @@ impl Section<'_> {
         }
     }
 
-    /// The cell whose upper edge is at height `top`.
+    /// Returns the cell whose upper edge is at height `top`.
     fn cell(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         if !has_blocks(&self.theme) {
             return self.plain(cut, column, top);
         }
         let part = |k: usize| top - (k as f64 + 0.5) * 2.0 * self.half / PARTS as f64;
         let matter: [Matter; PARTS] = std::array::from_fn(|k| cut.matter(part(k), self.thick));
-        // The two that have most of the cell, in their order.
+        // Keeps the two kinds of matter that fill most of the cell, in their order.
         let mut runs: Vec<&[Matter]> = matter.chunk_by(PartialEq::eq).collect();
         while runs.len() > 2 {
             let least = (0..runs.len()).min_by_key(|&k| runs[k].len());
@@ -131,7 +135,7 @@ impl Section<'_> {
             let count = lower.len() * PARTS / (lower.len() + upper.len());
             let block = LOWER[count.clamp(1, PARTS - 1)];
             return match ink(part(PARTS - 1), lower[0]) {
-                // Air has the colour of the screen, which nobody knows: the block is cut out of the other.
+                // Air has the screen's unknown background colour, so the block is drawn in reverse video.
                 None => (block, colors(above, None).add_modifier(Modifier::REVERSED)),
                 below => (block, colors(below, above)),
             };
@@ -140,7 +144,7 @@ impl Section<'_> {
             Matter::HalfSpace => {
                 let [upper, lower] = [0.5, 1.5].map(|at| ink(top - at * self.half, upper[0]));
                 match upper == lower && upper.is_some() {
-                    // A blank: a byte instead of three, and one colour to change.
+                    // A blank takes one byte instead of three, and changes only one colour.
                     true => (' ', colors(None, upper)),
                     false => ('▀', colors(upper, lower)),
                 }
@@ -154,12 +158,12 @@ impl Section<'_> {
         }
     }
 
-    /// The colour of what is at height `z`; `None` for air.
+    /// Returns the colour of what is at height `z`; `None` for air.
     fn ink(&self, cut: &Cut, column: usize, z: f64, matter: Matter) -> Option<Color> {
         let theme = &self.theme;
         match matter {
             Matter::Air => None,
-            // Greys, which no colour of the map is, brighter towards the contact.
+            // Greys, which no colour map contains, brighter towards the contact.
             Matter::Indenter => {
                 let depth = (self.high - z) / self.tall * SHADES_OF_BODY;
                 let depth = depth.clamp(0.0, SHADES_OF_BODY - 1.0) as u8;
@@ -167,13 +171,13 @@ impl Section<'_> {
                     .indexed([236 + depth, 254 - depth])
                     .or(Some(Color::Gray))
             }
-            // Where the indenter was, under the hatching.
+            // The colour under the hatching, where the indenter was.
             Matter::Worn => theme.indexed([58, 229]).or(Some(Color::Black)),
-            Matter::HalfSpace => match self.shade(cut, column, z) {
-                Some(shade) => shades::color(theme, self.of.stress.colors(), shade),
+            Matter::HalfSpace => match self.share(cut, column, z) {
+                Some(share) => shades::color(theme, self.of.stress.colors(), share),
                 None => theme.style(Role::Open).fg,
             },
-            // What slips glows.
+            // The slip zone glows.
             Matter::Contact(Zone::Slip) => {
                 let plain = theme.style(Role::Slip).fg?;
                 theme.indexed([208, 202]).or(Some(plain))
@@ -182,23 +186,23 @@ impl Section<'_> {
         }
     }
 
-    /// The shade of the stress at height `z`.
-    fn shade(&self, cut: &Cut, column: usize, z: f64) -> Option<usize> {
+    /// The share of its range that the stress has at height `z`.
+    fn share(&self, cut: &Cut, column: usize, z: f64) -> Option<f64> {
         let below = ((cut.surface - z) / self.half).max(0.0) as usize;
         Some(self.stress.as_ref()?(column, below))
     }
 
-    /// A cell without colour: the bodies as signs, one a cell in ASCII.
+    /// Returns a cell without colour: the bodies as characters, one per cell in ASCII.
     fn plain(&self, cut: &Cut, column: usize, top: f64) -> (char, Style) {
         let (theme, half) = (&self.theme, self.half);
         let [upper, lower] = [0.5, 1.5].map(|at| cut.matter(top - at * half, self.thick));
         let [is_contact, is_above] =
             [lower, upper].map(|matter| matches!(matter, Matter::Contact(_)));
         let shown = if is_contact { lower } else { upper };
-        if let (Matter::HalfSpace, Some(shade)) = (shown, self.shade(cut, column, top - half)) {
-            return (shades::SIGNS[shade], Style::new());
+        if let (Matter::HalfSpace, Some(share)) = (shown, self.share(cut, column, top - half)) {
+            return (shades::sign(shades::SIGNS, share), Style::new());
         }
-        // Letters tell what sticks from what slips: half blocks of one colour would not.
+        // Letters distinguish stick from slip; half blocks of one colour would not.
         if theme.ascii() || is_contact || is_above || upper == lower {
             let (role, signs) = shown.look();
             return (signs[usize::from(theme.ascii())], theme.style(role));
@@ -212,12 +216,12 @@ impl Section<'_> {
 
 fn draw(shown: &Shown, mut canvas: Canvas) {
     let room = usize::from(canvas.area.width.saturating_sub(2));
-    let inner = canvas.titled(PICTURE.recipe.title, shown.role).area;
+    let inner = canvas.titled(RECIPE.title, shown.role).area;
     let [picture, below] = caption::beside(inner);
     let Some(section) = Section::of(shown, &canvas.theme, picture) else {
         return;
     };
-    canvas.titled(&section.title(PICTURE.recipe.title, room), shown.role);
+    canvas.titled(&section.title(RECIPE.title, room), shown.role);
     let mut canvas = canvas.at(picture);
     section.bodies(&mut canvas);
     if picture.height >= LARGE {
@@ -226,7 +230,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
     caption::draw(&section, canvas, below);
 }
 
-/// A style of these colours, where there are some.
+/// Returns a style with these colours, if any.
 fn colors(fg: Option<Color>, bg: Option<Color>) -> Style {
     Style {
         fg,

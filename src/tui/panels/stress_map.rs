@@ -1,20 +1,27 @@
-//! The stresses inside the half-space as colours: which one is shown, in what range, and on which samples.
+//! The stresses inside the half-space as colours: which of them is shown, in what range, and at which points.
 
+use std::cell::RefCell;
+use std::iter::zip;
+use std::rc::Rc;
 use std::sync::Arc;
 
-use super::*;
+use crate::math::scan::{self};
+use crate::plot::colormap::ColorMap;
+use crate::plot::shades;
+use crate::plot::units::format_value;
 use crate::reading::fatigue::StressCycle;
 use crate::reading::subsurface::{SpringLoad, Stress};
+use crate::tui::frame::Frame;
 use crate::tui::held::Held;
 
-/// Places across and down that set the range of the colours, over this many contact radii.
+/// The number of points across and down that set the range of the colours, and their extent in contact radii.
 const PLACES: u32 = 14;
 const REACH: f64 = 1.2;
 
-/// Where a shown quantity comes from.
+/// The source of a shown quantity.
 #[derive(Debug, Clone, Copy)]
 enum Origin {
-    /// From a load, Pa; over a cycle its largest value.
+    /// From a load, Pa; over a cycle, the largest value.
     Moment(fn(&Stress) -> f64),
     /// From the loads of a whole cycle: the Smith–Watson–Topper stress amplitude.
     Cycle,
@@ -22,7 +29,7 @@ enum Origin {
     Nowhere,
 }
 
-/// What the half-space can show, in the order in which a key leads to it: a name, one for little room, the colours.
+/// The quantities that the half-space can show, in the order of the key: a name, a short name, and the colours.
 #[rustfmt::skip]
 const QUANTITIES: [([&str; 2], ColorMap, Origin); 6] = [
     (["von Mises stress", "von Mises"], ColorMap::Sequential, Origin::Moment(Stress::von_mises)),
@@ -36,7 +43,7 @@ const QUANTITIES: [([&str; 2], ColorMap, Origin); 6] = [
 /// Values at (r, z) and at (−r, z), Pa.
 type Values = Box<dyn Fn(f64, f64) -> [f64; 2]>;
 
-/// The largest value under several loads.
+/// Returns the largest value under several loads.
 fn values_of(loads: Vec<Arc<SpringLoad>>, of: fn(&Stress) -> f64) -> Values {
     Box::new(move |r, z| {
         let each = loads.iter().map(|load| load.mirrored(r, z));
@@ -49,13 +56,13 @@ fn values_of(loads: Vec<Arc<SpringLoad>>, of: fn(&Stress) -> f64) -> Values {
 /// What the half-space shows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StressMap {
-    /// Which of the quantities.
+    /// The index of the shown quantity.
     shown: usize,
-    /// Its largest value in the last cycle instead of the present one.
+    /// Whether to show its largest value in the last cycle instead of the present one.
     over_cycle: bool,
-    /// The range of the colours, Pa; `None` where nothing is shown.
+    /// The range of the colours, Pa; `None` if nothing is shown.
     held: Option<Held>,
-    /// Whether a stress was below or above that range since it was last judged.
+    /// Whether stresses were below or above that range since it was last checked.
     beyond: [bool; 2],
 }
 
@@ -66,23 +73,23 @@ impl StressMap {
         self.forget_range();
     }
 
-    /// Shows the largest stress of a cycle, or that of the moment.
+    /// Toggles between the largest stress of a cycle and the present stress.
     pub fn toggle_cycle(&mut self) {
         self.over_cycle ^= true;
         self.forget_range();
     }
 
-    /// Another stress or another run is to come.
+    /// Drops the range before another stress or another run is shown.
     pub fn forget_range(&mut self) {
         self.held = None;
     }
 
-    /// The range of the colours, Pa; `None` where nothing is shown.
+    /// Returns the range of the colours, Pa; `None` if nothing is shown.
     pub fn bounds(self) -> Option<[f64; 2]> {
         Some(self.colors().range(self.held?.bounds))
     }
 
-    /// The ends of the range in words, marked where stresses lie beyond them.
+    /// Returns the ends of the range as text, marked if stresses lie beyond them.
     pub fn ends(self) -> Option<[String; 2]> {
         let [low, high] = self.bounds()?.map(|end| format_value(end, "Pa", 3));
         let mark = |is_beyond, sign: &str, end| match is_beyond {
@@ -93,10 +100,10 @@ impl StressMap {
         Some([mark(below, "≤", low), mark(above, "≥", high)])
     }
 
-    /// The colours follow the stress as the scales of the plots follow their data.
+    /// Updates the range of the colours, which follows the stress as the scales of plots follow their data.
     pub fn follow(&mut self, frame: &Frame) {
         let (cycle, before) = (frame.observation.moment.cycle, self.held);
-        // Without contact, the range is that of the contact before.
+        // Without contact, the range stays the same.
         let Some(([low, high], range)) = self.extent(frame) else {
             return;
         };
@@ -111,12 +118,12 @@ impl StressMap {
         }
     }
 
-    /// Its colours.
+    /// Returns its colours.
     pub fn colors(self) -> ColorMap {
         QUANTITIES[self.shown].1
     }
 
-    /// The title of the map, and one for little room.
+    /// Returns the title of the map, and a shorter one for little room.
     pub fn names(self) -> [String; 2] {
         let (names, _, origin) = QUANTITIES[self.shown];
         let of_cycle = match self.over_cycle && !matches!(origin, Origin::Cycle) {
@@ -126,13 +133,16 @@ impl StressMap {
         [0, 1].map(|k| format!("{}{}", names[k], of_cycle[k]))
     }
 
-    /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
-    fn values(self, frame: &Frame) -> Option<Values> {
-        let (_, _, origin) = QUANTITIES[self.shown];
-        let is_of_cycle = self.over_cycle || matches!(origin, Origin::Cycle);
+    /// The loads whose stresses are shown.
+    fn loads(self, frame: &Frame) -> Vec<Arc<SpringLoad>> {
+        let is_of_cycle = self.over_cycle || matches!(QUANTITIES[self.shown].2, Origin::Cycle);
         let earlier = frame.cycle_loads.iter().filter(|_| is_of_cycle);
-        let loads: Vec<Arc<SpringLoad>> = earlier.chain(&frame.load).cloned().collect();
-        match origin {
+        earlier.chain(&frame.load).cloned().collect()
+    }
+
+    /// Returns the values of the map at (r, z) and at (−r, z), Pa; `None` without contact or without a map.
+    fn values(self, loads: Vec<Arc<SpringLoad>>) -> Option<Values> {
+        match QUANTITIES[self.shown].2 {
             _ if loads.is_empty() => None,
             Origin::Moment(of) => Some(values_of(loads, of)),
             Origin::Cycle => {
@@ -143,13 +153,13 @@ impl StressMap {
         }
     }
 
-    /// The smallest and the largest stress, Pa, and the range that the colours must have: what is larger in a small part
-    /// of the picture, under an edge or at a border of stick, does not count.
+    /// Returns the smallest and the largest stress, Pa, and the range that the colours must cover. Larger values in a
+    /// small part of the picture, under an edge or at a border of stick, do not count.
     fn extent(self, frame: &Frame) -> Option<([f64; 2], [f64; 2])> {
         let load = frame.load.as_deref()?;
         let (values, mut largest) = match QUANTITIES[self.shown].2 {
             Origin::Nowhere => return None,
-            Origin::Cycle => (self.values(frame)?, 0.0),
+            Origin::Cycle => (self.values(self.loads(frame))?, 0.0),
             Origin::Moment(of) => (
                 values_of(vec![frame.load.clone()?], of),
                 load.largest(of).value,
@@ -163,7 +173,7 @@ impl StressMap {
         largest = seen.iter().copied().fold(largest, f64::max);
         let sizes = seen.iter().map(|value| [value.abs(), 1.0]);
         let top = scan::robust_top(sizes.chain([[largest, 0.1]]));
-        // Nothing is in tension, or no cycle has been seen yet.
+        // Nothing is in tension, or there has been no complete cycle yet.
         let low = match self.colors() {
             ColorMap::Diverging => -top,
             ColorMap::Sequential => 0.0,
@@ -171,25 +181,81 @@ impl StressMap {
         (top > 0.0).then_some(([lowest, largest], [low, top]))
     }
 
-    /// Returns the shades on samples: `columns` over x symmetrical about the axis, `rows` downwards from the surface,
-    /// both `size` apart (m). `None` without contact, and where no stress is shown.
-    pub fn samples(self, frame: &Frame, columns: usize, rows: usize, size: f64) -> Option<Shades> {
-        let of = self.values(frame).filter(|_| columns > 0)?;
+    /// Returns shares of the range on samples: `columns` over x symmetrical about the axis, `rows` downwards from the
+    /// surface, both `size` apart (m). `None` without contact, and where no stress is shown.
+    fn samples(
+        self,
+        loads: Vec<Arc<SpringLoad>>,
+        [columns, rows]: [usize; 2],
+        size: f64,
+    ) -> Option<Vec<f64>> {
+        let of = self.values(loads).filter(|_| columns > 0)?;
         let range = self.bounds()?;
-        let mut shades = vec![0; columns * rows];
-        for (row, shades) in shades.chunks_mut(columns).enumerate() {
+        let mut shares = vec![0.0; columns * rows];
+        for (row, shares) in shares.chunks_mut(columns).enumerate() {
             let z = (row as f64 + 0.5) * size;
             for column in columns / 2..columns {
                 let r = (column as f64 + 0.5 - columns as f64 / 2.0) * size;
-                let [right, left] = of(r, z).map(|value| shades::shade(value, range));
-                (shades[column], shades[columns - 1 - column]) = (right, left);
+                let [right, left] = of(r, z).map(|value| shades::share(value, range));
+                (shares[column], shares[columns - 1 - column]) = (right, left);
             }
         }
+        Some(shares)
+    }
+}
+
+/// The samples that were drawn last: they are computed again only for another stress, load or size.
+#[derive(Debug, Default)]
+pub struct Drawn(RefCell<Option<(Key, Rc<[f64]>)>>);
+
+/// What samples depend on.
+#[derive(Debug)]
+struct Key {
+    map: StressMap,
+    loads: Vec<Arc<SpringLoad>>,
+    room: [usize; 2],
+    size: f64,
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        let [ours, theirs] =
+            [self, other].map(|key| (key.map, key.room, key.size, key.loads.len()));
+        ours == theirs && zip(&self.loads, &other.loads).all(|(a, b)| Arc::ptr_eq(a, b))
+    }
+}
+
+impl Drawn {
+    /// Returns the shares of the range that `map` has in a frame, in `[columns, rows]` of samples `size` apart (m). `None`
+    /// without contact, and where no stress is shown.
+    pub fn shares(
+        &self,
+        map: StressMap,
+        frame: &Frame,
+        room: [usize; 2],
+        size: f64,
+    ) -> Option<Shares> {
+        let loads = map.loads(frame);
+        let key = Key {
+            map,
+            loads,
+            room,
+            size,
+        };
+        let mut drawn = self.0.borrow_mut();
+        if drawn.as_ref().is_none_or(|(known, _)| *known != key) {
+            *drawn = None;
+            let shares = map.samples(key.loads.clone(), room, size)?;
+            *drawn = Some((key, shares.into()));
+        }
+        let (_, shares) = drawn.as_ref()?;
+        let (shares, [columns, rows]) = (Rc::clone(shares), room);
         Some(Box::new(move |column, below| {
-            shades[below.min(rows - 1) * columns + column]
+            shares[below.min(rows - 1) * columns + column]
         }))
     }
 }
 
-/// The shade of a stress in a column, this many samples below the surface; the last row continues downwards.
-pub type Shades = Box<dyn Fn(usize, usize) -> usize>;
+/// The share of the range that a stress has in a column, this many samples below the surface; the last row continues
+/// downwards.
+pub type Shares = Box<dyn Fn(usize, usize) -> f64>;

@@ -1,24 +1,28 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
-use super::*;
+use super::Worker;
 use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
+use crate::panics::locked;
 use crate::scenario::Scenario;
 use crate::scenario::schema::{Kind, find};
-use crate::scenario::session::Session;
+use crate::scenario::session::{Session, SessionError};
+use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
+use crate::tui::beside::Twin;
+use crate::tui::event::Event;
+use crate::tui::frame::{Activity, Facts};
+use crate::tui::ghosts::Source;
+use crate::tui::trend::Recorded;
 
-/// Factor by which each key press refines cells and steps.
+/// Factor by which each key press refines or coarsens cells and steps.
 const STRIDE: f64 = 1.5;
 
-/// Minimum number of cells reached by the key.
+/// Minimum number of cells that the key can reach.
 const COARSEST: usize = 8;
 
-/// Laws that keys step through.
-const LAWS: [&str; 2] = ["archard", "power"];
-
 impl Worker {
-    /// Changes the transform method by this many places, that of the comparison if there is one.
+    /// Steps by this many places through the transform methods, of the comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
         if let Some(comparison) = &self.comparison {
             return self.compare(places, comparison.from);
@@ -31,19 +35,23 @@ impl Worker {
                 .notice("a line contact has the method product only");
         }
         let method = shifted(methods, setup.method, places);
-        self.change("numerics.method", method.name());
+        self.edit(|spec| spec.numerics.method = Some(method));
     }
 
-    /// Changes the wear law by this many places.
+    /// Steps by this many places through the wear laws.
     pub fn change_law(&mut self, places: isize) {
         let told = "this scenario has no wear, so it has no wear law to change";
         match self.run.simulation().setup().wear {
             None => self.screen.notice(told),
-            Some(now) => self.change("wear.law", shifted(&LAWS, now.name(), places)),
+            Some(_) => self.edit(|spec| {
+                if let Some(wear) = &mut spec.wear {
+                    wear.law = wear.law.map(|now| shifted(&Law::ALL, now, places));
+                }
+            }),
         }
     }
 
-    /// Refines or coarsens cells and steps together, by `STRIDE` for each place.
+    /// Refines or coarsens cells and steps together, by `STRIDE` per place.
     pub fn refine(&mut self, places: isize) {
         let scenario = self.run.session.scenario();
         let now = Level::of(scenario);
@@ -55,20 +63,32 @@ impl Worker {
             let told = format!("N = {}: this is the {end} level", now.points);
             return self.screen.notice(&told);
         }
-        let mut changes = next.keys();
-        changes.retain(|(key, _)| *key != "numerics.integrator");
         let Level { points, steps, .. } = next;
         let done = format!("N = {points}, {steps} steps per cycle; a estimates the error");
-        self.change_all(&changes, &done);
+        self.change_by(|run| {
+            run.edit(|spec| next.set(&mut spec.numerics))?;
+            Ok(done)
+        });
     }
 
-    /// Changes a key from here on; further `, KEY=VALUE` change at the same time.
+    /// Changes parts of the scenario from here on.
+    fn edit(&mut self, edit: impl FnOnce(&mut Spec)) {
+        self.change_by(|run| {
+            let edits = run.edit(edit)?.into_iter();
+            let keys = edits.map(|(key, value)| format!("{key} = {}", value.trim_matches('"')));
+            Ok(at_cycle(run, &keys.collect::<Vec<_>>().join(", ")))
+        });
+    }
+
+    /// Changes a key from here on; further `, KEY=VALUE` in `value` change at the same time.
     pub fn change(&mut self, key: &str, value: &str) {
-        let done = format!("{key} = {value} at cycle {:.2}", self.run.cycle());
-        self.change_all(&assignments(key, value), &done);
+        self.change_by(|run| {
+            run.change_all(&assignments(key, value))?;
+            Ok(at_cycle(run, &format!("{key} = {value}")))
+        });
     }
 
-    /// Changes a key from here on; the run as it was before the first such change goes on as a ghost.
+    /// Changes a key from here on. Before the first such change, a copy of the run is kept, which continues as a ghost.
     pub(in crate::tui) fn change_beside(&mut self, key: &str, value: &str) {
         let before = self.before.is_none().then(|| self.run.session.clone());
         let made = self.run.session.changes().len();
@@ -83,13 +103,13 @@ impl Worker {
         self.before = None;
     }
 
-    /// Changes keys from here on, and tells the user what was `done`.
-    fn change_all(&mut self, changes: &[(impl AsRef<str>, impl AsRef<str>)], done: &str) {
+    /// Has `change` change the run from here on, and tells the user what it has done.
+    fn change_by(&mut self, change: impl FnOnce(&mut Session) -> Result<String, SessionError>) {
         self.keep();
-        let changed = self.run.session.change_all(changes);
-        if self.screen.or_notice(changed).is_none() {
+        let changed = change(&mut self.run.session);
+        let Some(done) = self.screen.or_notice(changed) else {
             return;
-        }
+        };
         let branched = self.branch();
         self.renew();
         if matches!(self.activity, Activity::Stopped(_)) {
@@ -99,13 +119,13 @@ impl Worker {
         self.screen.notice(&format!("{done}{branched}"));
     }
 
-    /// The scenario is another one than before: so are what is known of it and what tells its error.
+    /// Updates the facts and the twin after a change of the scenario.
     pub(super) fn renew(&mut self) {
         self.facts = Facts::of(&self.run.session);
         self.twin = Twin::of(&self.run.session);
     }
 
-    /// The scenario as it was loaded, from its beginning; the run up to here can be gone back to.
+    /// Restarts the scenario as it was loaded; the user can go back to the run so far.
     pub fn restart(&mut self) {
         let cycle = self.past.line(&self.run).cycle();
         self.load(self.run.session.loaded().clone());
@@ -115,7 +135,7 @@ impl Worker {
         }
     }
 
-    /// Another scenario, from its beginning; returns whether that can be run.
+    /// Starts another scenario; returns whether it can be run.
     pub fn load(&mut self, scenario: Scenario) -> bool {
         let resolved = refinement::resolve_soon(&scenario);
         let Some(resolved) = self.screen.or_notice(resolved) else {
@@ -129,7 +149,7 @@ impl Worker {
         begun.is_some()
     }
 
-    /// Loads a point of a study, whose map then gives way to it.
+    /// Loads a point of a study and closes the study's map.
     pub fn open_point(&mut self, scenario: Scenario) {
         if self.load(scenario) {
             self.publish();
@@ -137,7 +157,7 @@ impl Worker {
         }
     }
 
-    /// Another run takes the place of this one: one that begins, or goes on from a state that was read.
+    /// Replaces this run by another one, new or read from a file.
     pub fn replace_run(&mut self, run: Recorded) {
         self.keep();
         let left = &self.past.line(&self.run).session;
@@ -151,6 +171,11 @@ impl Worker {
             self.activity = Activity::Paused;
         }
     }
+}
+
+/// What was `done`, and when.
+fn at_cycle(run: &Session, done: &str) -> String {
+    format!("{done} at cycle {:.2}", run.simulation().cycle())
 }
 
 /// The keys and values of `KEY` and `VALUE, KEY=VALUE, ...`; words that a key knows stand in quotes.

@@ -1,15 +1,19 @@
-//! What accompanies the run: a comparison, ghosts over the plots, and the twin that tells its error.
+//! Companions of the run: a comparison, ghosts over the plots, and the twin that estimates its error.
 
-use super::*;
+use std::time::Duration;
+
+use super::Worker;
+use crate::scenario::columns::Naming;
 use crate::studies::refinement::Difference;
-use crate::tui::beside::{Beside, From, name_of};
-use crate::tui::ghosts::MOST;
+use crate::tui::beside::{Beside, ComparisonRun, From, name_of};
+use crate::tui::frame::Activity;
+use crate::tui::ghosts::{MOST, Source};
 
-/// How long each catches up before the worker looks for orders again.
+/// How long each of them catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 
 impl Worker {
-    /// The runs beside it that are seen.
+    /// Returns the visible companions.
     fn seen(&mut self) -> impl Iterator<Item = &mut Beside> {
         let ghosts = self.ghosts.iter_mut().chain(&mut self.before);
         let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
@@ -17,21 +21,21 @@ impl Worker {
         comparison.map(|run| &mut run.beside).chain(ghosts)
     }
 
-    /// Lets what is seen come nearer to the run.
+    /// Lets the visible companions catch up with the run.
     pub(super) fn follow(&mut self) {
         let cycle = self.run.cycle();
         self.seen()
             .for_each(|beside| beside.follow(cycle, cycle, CATCH_UP));
     }
 
-    /// Lets the twin come nearer to the run.
+    /// Lets the twin catch up with the run.
     pub(super) fn follow_with_twin(&mut self, budget: Duration) {
         if let Some(twin) = &mut self.twin {
             twin.follow_for(self.run.cycle(), budget);
         }
     }
 
-    /// Whether anything is not yet where the run is; a run does not wait for its twin.
+    /// Whether any companion lags behind; a running run does not wait for its twin.
     pub(super) fn is_awaited(&mut self) -> bool {
         let cycle = self.run.cycle();
         let twin = self.twin.as_ref();
@@ -40,7 +44,7 @@ impl Worker {
         twin_lags || self.seen().any(|beside| beside.lags(cycle))
     }
 
-    /// Lets what runs beside come nearer to the run for a moment.
+    /// Lets all companions catch up for a moment.
     pub(super) fn catch_up(&mut self) {
         self.follow();
         self.follow_with_twin(CATCH_UP);
@@ -49,7 +53,7 @@ impl Worker {
         }
     }
 
-    /// Has the twin tell the errors of the present moment.
+    /// Makes the twin estimate the errors of the present moment.
     pub fn estimate_errors(&mut self) {
         let twin = self.twin.as_mut();
         if let Some(twin) = twin.filter(|_| self.past.present().is_none()) {
@@ -57,10 +61,10 @@ impl Worker {
         }
     }
 
-    /// The cycle up to which the errors of the run are known, and what they are; else why they are not.
+    /// Returns the cycle up to which the run's errors are known, with the errors, or why they are unknown.
     pub(super) fn errors(&self) -> Result<(f64, Difference), String> {
         match &self.twin {
-            // The twin has looked at the present.
+            // The twin has compared with the present, not with the past.
             _ if self.past.present().is_some() => Err("of the present: ] leads there".into()),
             Some(twin) => twin.told(self.run.cycle()),
             None => Err("this run is too coarse to be halved".into()),
@@ -89,15 +93,18 @@ impl Worker {
         }
     }
 
-    /// Lays the present state over the panels.
+    /// Freezes the present state as a ghost.
     pub fn freeze(&mut self) {
         self.add_ghost(Source::frozen(&self.run));
     }
 
-    /// Lays the curves of a file, a directory or a scenario over the panels.
+    /// Overlays the curves of a file, a directory or a scenario.
     pub fn overlay(&mut self, given: &str) {
         let reach = self.run.simulation().setup().grid.radius();
-        if let Some(ghost) = self.screen.or_notice(Source::load(given, reach)) {
+        if let Some(ghost) = self
+            .screen
+            .or_notice(Source::load(given, &Naming::default(), reach))
+        {
             self.add_ghost(ghost);
         }
     }
@@ -112,7 +119,7 @@ impl Worker {
         self.ghosts.push(ghost);
     }
 
-    /// Takes all of them away.
+    /// Removes all ghosts.
     pub fn drop_ghosts(&mut self) {
         if std::mem::take(&mut self.ghosts).is_empty() {
             let told = "there is no ghost; g freezes this state, :overlay FILE takes a file";

@@ -1,14 +1,17 @@
-//! What the user asks for beside the run: files, and a study.
+//! What the user asks for beside the run: files and studies.
 
-use super::*;
+use std::path::Path;
+
+use super::Worker;
 use crate::scenario::Scenario;
+use crate::tui::event::Event;
 use crate::tui::explorer::Copied;
 use crate::tui::map::live::Live;
 use crate::tui::map::range::Range;
 use crate::tui::{figure, snapshot};
 
 impl Worker {
-    /// Starts a study around the present scenario, up to the present cycle.
+    /// Starts a study of the present scenario, up to the present cycle.
     pub fn sweep(&self, range: &Range) {
         let cycles = match self.run.cycle() {
             0.0 => self.run.session.loaded().run().cycles.unwrap_or(1.0),
@@ -32,7 +35,7 @@ impl Worker {
         self.screen.written("snapshot", written);
     }
 
-    /// Gives the screen what repeats the run, for the clipboard.
+    /// Sends the screen a text that repeats the run, for the clipboard.
     pub(in crate::tui) fn copy(&self, what: Copied) {
         let session = &self.run.session;
         let scenario = session.as_run(Vec::new()).to_toml();
@@ -43,7 +46,7 @@ impl Worker {
         self.screen.send(Event::Copied(text, told));
     }
 
-    /// The command that repeats the run; a run that no options tell of comes with its whole scenario.
+    /// Returns the command that repeats the run. If options cannot describe the run, it includes the whole scenario.
     fn run_command(&self, scenario: String) -> String {
         let (session, cycle) = (&self.run.session, self.run.cycle());
         let loaded = session.loaded();
@@ -57,7 +60,7 @@ impl Worker {
         }
     }
 
-    /// Draws a figure of the state into a file, its data beside it.
+    /// Draws a figure of the state into a file, and writes its data to a second one.
     pub fn write_figure(&self, path: &Path) {
         let written = figure::write(&self.run, path);
         self.screen.written("figure", written.map(|()| path));

@@ -1,13 +1,11 @@
-//! The worker: a thread that owns the simulation, handles orders between steps and publishes
-//! frames.
+//! The worker: a thread that owns the simulation, handles orders between steps and publishes frames.
 //!
-//! It steps no further ahead than the pace allows, and publishes a frame only after the previous
-//! one has been taken, so that a slow terminal does not slow the simulation.
+//! It steps no further ahead than the pace allows, and publishes a frame only after the previous one has been taken, so
+//! that a slow terminal does not slow the simulation down.
 //!
-//! Its orders are grouped by subject, one file each; these begin with `use super::*`.
+//! The orders are grouped by subject, one file each.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
@@ -37,18 +35,18 @@ mod travel;
 pub(super) use thread::WorkerThread;
 pub(super) use travel::ends_cycle;
 
-/// The notice when a failed run is asked to continue.
+/// The notice when the user asks a failed run to continue.
 const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
 
-/// What the worker is to do next.
+/// An order to the worker.
 pub type Order = Box<dyn FnOnce(&mut Worker) + Send>;
 
-/// The way to the worker. One that has ended has reported it already.
+/// The channel to the worker. A worker that has ended has already reported it.
 #[derive(Clone)]
 pub struct Orders(Sender<Order>);
 
 impl Orders {
-    /// A way to a worker that is to [`serve`](Worker::serve) its other end.
+    /// Makes a channel, whose other end a worker must [`serve`](Worker::serve).
     pub fn channel() -> (Self, Receiver<Order>) {
         let (orders, to_worker) = channel();
         (Self(orders), to_worker)
@@ -59,7 +57,7 @@ impl Orders {
         let _ = self.0.send(Box::new(order));
     }
 
-    /// Waits until all earlier orders are carried out; returns the frame then, and `None` if the worker has ended.
+    /// Waits until all earlier orders are done; returns the frame then, or `None` if the worker has ended.
     pub fn frame(&self) -> Option<Arc<Frame>> {
         let (reply, answer) = channel();
         self.send(move |worker| {
@@ -69,40 +67,40 @@ impl Orders {
     }
 }
 
-/// The worker's side.
+/// The state of the worker.
 pub struct Worker {
     run: Recorded,
-    /// What is known of its scenario.
+    /// Facts about the scenario.
     facts: Arc<Facts>,
     past: Past,
     kept_at: Instant,
-    /// The cycles of the snapshots of this run.
+    /// The cycles of this run's snapshots.
     snapshots: Vec<f64>,
     cycle_loads: CycleLoads,
     comparison: Option<ComparisonRun>,
-    /// What lies over the plots.
+    /// The ghosts over the plots.
     pub(super) ghosts: Vec<Source>,
-    /// The coarser run that tells the errors of this one.
+    /// The coarser run that estimates the errors of this one.
     twin: Option<Twin>,
     activity: Activity,
-    /// The cycle that the run is on its way to at full speed, to pause there.
+    /// The cycle to which the run goes at full speed, to pause there.
     stop_at: Option<f64>,
-    /// The run as it was before the first change in the list of parameters, while that is open.
+    /// A copy of the run from before the first change in the list of parameters, while the list is open.
     before: Option<Source>,
-    /// Whether the user has been told that the planned end is reached.
+    /// Whether the user knows that the planned end is reached.
     told_of_end: bool,
     clock: Clock,
-    /// What frames hold.
+    /// The curves in frames.
     pub(super) curves: Curves,
     screen: Outlet,
-    /// Shared with whoever ends the program while a step takes long.
+    /// Shared with the thread that ends the program during a long step.
     autosave: Arc<Mutex<ScreenAutosave>>,
-    /// Set when orders that take long are to be cut short.
+    /// Set to interrupt long orders.
     halt: Arc<AtomicBool>,
 }
 
 impl Worker {
-    /// A worker on a run that publishes at most every `interval`.
+    /// Makes a worker on a run. It publishes at most every `interval`.
     pub fn new(
         run: impl Into<Recorded>,
         events: Sender<Event>,
@@ -139,11 +137,11 @@ impl Worker {
         }
     }
 
-    /// [`serve`](Self::serve), and saves the session regularly and at the end, even after a panic;
-    /// returns the message for the user.
+    /// Runs [`serve`](Self::serve), saving the session regularly and at the end, even after a panic; returns the
+    /// message for the user.
     fn run_with_checkpoints(mut self, orders: &Receiver<Order>) -> Option<String> {
         let served = catch_unwind(AssertUnwindSafe(|| self.serve(orders)));
-        // The interrupted step has left half a state.
+        // After a panic, the interrupted step has left an inconsistent state, so the copy is saved.
         let session = served.is_ok().then(|| &self.past.line(&self.run).session);
         locked(&self.autosave).finish(session)
     }
@@ -161,7 +159,7 @@ impl Worker {
             match orders.recv_timeout(wait) {
                 Err(RecvTimeoutError::Disconnected) => return,
                 Ok(order) => {
-                    // If many orders are waiting, not every one is shown.
+                    // If many orders are waiting, not every one gets a frame.
                     for order in std::iter::once(order).chain(orders.try_iter()) {
                         order(self);
                         if self.is_over() {
@@ -182,7 +180,7 @@ impl Worker {
         }
     }
 
-    /// Saves the session when due.
+    /// Saves the session if due.
     fn checkpoint_if_due(&mut self) {
         let session = &self.past.line(&self.run).session;
         if let Some(word) = locked(&self.autosave).save_if_due(session) {
@@ -190,7 +188,7 @@ impl Worker {
         }
     }
 
-    /// Takes one step, paused.
+    /// Takes one step and pauses.
     pub fn step_once(&mut self) {
         self.step_by_hand(|_, _| true);
     }

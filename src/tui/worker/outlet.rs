@@ -1,18 +1,23 @@
-//! What the worker tells the screen: frames of the present state, and notices.
+//! What the worker sends to the screen: frames of the present state, and notices.
 
 use std::fmt::Display;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use std::time::{Duration, Instant};
 
-use super::*;
-use crate::charts::{Live, Run};
+use super::Worker;
+use crate::charts::{Live, Medium, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::reading::subsurface::Stress;
-use crate::reading::{CycleFigures, Observation};
-use crate::tui::beside::COMPARED;
-use crate::tui::frame::Slot;
+use crate::reading::{Curves, CycleFigures, Observation};
+use crate::tui::beside::{COMPARED, ComparisonRun};
+use crate::tui::event::Event;
+use crate::tui::frame::{Activity, Facts, Frame, Slot};
 use crate::tui::line::one_line;
 
-/// Frames go into a slot, at most one an interval; all else is an event.
+/// Sends frames through a slot, at most one per interval, and everything else as events.
 pub(super) struct Outlet {
     slot: Arc<Slot>,
     pub events: Sender<Event>,
@@ -35,7 +40,7 @@ impl Outlet {
         self.is_due_after(self.interval)
     }
 
-    /// Whether it is due where one lasts for `interval`.
+    /// Whether the next frame is due if each lasts for `interval`.
     pub fn is_due_after(&self, interval: Duration) -> bool {
         self.shown.elapsed() >= interval
     }
@@ -47,12 +52,12 @@ impl Outlet {
         }
     }
 
-    /// Tells the user something.
+    /// Shows the user a notice.
     pub fn notice(&self, text: &str) {
         self.send(Event::Notice(one_line(text)));
     }
 
-    /// What there is, or else a notice of why there is nothing.
+    /// Returns the value, or shows the error as a notice.
     pub fn or_notice<T>(&self, result: Result<T, impl Display>) -> Option<T> {
         let told = |error| self.notice(&format!("{error}"));
         result.map_err(told).ok()
@@ -66,20 +71,20 @@ impl Outlet {
         }
     }
 
-    /// A screen that is gone needs no word.
+    /// Sends an event; if the screen is gone, it is dropped.
     pub fn send(&self, event: Event) {
         let _ = self.events.send(event);
     }
 }
 
 impl Worker {
-    /// Shows the present state.
+    /// Publishes the present state.
     pub(super) fn publish(&mut self) {
         let frame = self.frame();
         self.screen.show(frame);
     }
 
-    /// The present frame, when all that runs beside has come to it.
+    /// Returns the present frame after all companions have caught up.
     pub(super) fn settled_frame(&mut self) -> Arc<Frame> {
         while (self.is_awaited() || self.stop_at.is_some()) && !self.is_over() {
             match self.stop_at {
@@ -90,9 +95,9 @@ impl Worker {
         Arc::new(self.frame())
     }
 
-    /// The present frame.
+    /// Returns the present frame.
     pub fn frame(&mut self) -> Frame {
-        // The pressure may pass the hardness in any step, and has not yet in an earlier state.
+        // The pressure may exceed the hardness in any step, and may not have done so yet in an earlier state.
         if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
             self.facts = Facts::of(&self.run.session);
         }
@@ -101,7 +106,7 @@ impl Worker {
             Some(_) => self.curves | COMPARED,
             None => self.curves,
         };
-        let observation = simulation.observe(curves);
+        let observation = Arc::new(simulation.observe(curves));
         let load = self.curves.contains(Curves::SPRINGS).then(|| {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
@@ -134,10 +139,15 @@ impl Worker {
         }
     }
 
-    /// What charts are made of: what is `seen` of the present moment, the past, and `curves` of other sources.
-    fn charted(&self, seen: &Observation, figures: Option<&CycleFigures>, curves: Curves) -> Run {
+    /// Returns the data for charts: `seen` at the present moment, the past, and `curves` of the ghosts.
+    fn charted(
+        &self,
+        seen: &Arc<Observation>,
+        figures: Option<&CycleFigures>,
+        curves: Curves,
+    ) -> Run {
         let (facts, trend) = (&self.facts, &self.run.trend);
-        let (moment, load) = (seen.moment, &seen.normal_load);
+        let load = seen.normal_load();
         let setup = self.run.simulation().setup();
         let material = &setup.material;
         let ghosts = self.ghosts.iter().chain(&self.before);
@@ -145,9 +155,9 @@ impl Worker {
             ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
             theory: Some(Arc::clone(&facts.theory)),
             indenter: Some(setup.indenter.clone()),
+            medium: Medium::Screen,
             live: Some(Live {
-                moment,
-                wears: seen.law.is_some(),
+                seen: Arc::clone(seen),
                 friction: material.friction(),
                 planned_cycles: facts.scenario.run().cycles,
                 expected_wear: facts.expected_wear,

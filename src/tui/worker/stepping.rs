@@ -1,25 +1,30 @@
-//! Stepping: as far as the pace allows while it runs, or by hand.
+//! Stepping: as far as the pace allows while running, or by hand.
+
+use std::time::{Duration, Instant};
 
 use super::travel::ends_cycle;
-use super::*;
+use super::{BROKEN_DOWN, Worker};
+use crate::panics::locked;
+use crate::reading::Curves;
+use crate::tui::frame::Activity;
 
 /// How long the worker steps before it looks for orders again.
 const STINT: Duration = Duration::from_millis(4);
 
-/// How long the run's twin steps after each stint: about a quarter of the work is its.
+/// How long the run's twin steps after each stint; it gets about a quarter of the time.
 const TWIN_STINT: Duration = Duration::from_millis(2);
 
 /// Minimum time between stored states, so that storing them takes no noticeable time.
 const APART: Duration = Duration::from_millis(50);
 
-/// A run too slow for a frame at each cycle shows one at least this often.
+/// A run too slow to show every cycle shows a frame at least this often.
 const AT_LEAST: Duration = Duration::from_secs(1);
 
-/// Cycles that a jump beyond the planned end may cover at least.
+/// Minimum number of cycles that a jump beyond the planned end may cover.
 const SHORTEST_PLAN: f64 = 1000.0;
 
 impl Worker {
-    /// Runs, or pauses.
+    /// Runs or pauses.
     pub fn run_or_pause(&mut self) {
         self.stop_at = None;
         match self.activity {
@@ -34,7 +39,7 @@ impl Worker {
         }
     }
 
-    /// Takes frames at one phase of the motion from now on, or as they come.
+    /// Toggles between frames at a fixed phase of the motion and frames at any phase.
     pub fn hold_or_release_phase(&mut self) {
         self.clock.holds_phase ^= true;
         self.screen.notice(if self.clock.holds_phase {
@@ -44,7 +49,7 @@ impl Worker {
         });
     }
 
-    /// How long to wait for orders before the next step or checkpoint is due: without end if none is.
+    /// Returns how long to wait for orders before the next step or checkpoint is due; the maximum if none is.
     pub(super) fn until_next_step(&self) -> Duration {
         if self.activity == Activity::Running {
             let ahead = match self.stop_at {
@@ -57,7 +62,7 @@ impl Worker {
         wait.unwrap_or(Duration::MAX)
     }
 
-    /// Steps while the pace allows it, for no longer than orders may wait.
+    /// Steps while the pace allows, but no longer than orders may wait.
     pub(super) fn step_for_a_stint(&mut self) {
         let start = Instant::now();
         while self.activity == Activity::Running && start.elapsed() < STINT {
@@ -109,7 +114,7 @@ impl Worker {
         let (ends_cycle, is_end) = (ends_cycle(before, cycle), self.has_reached_end(before));
         let twin = self.twin.as_mut();
         if let Some(twin) = twin.filter(|_| ends_cycle || is_end) {
-            // Steps by hand are few, and each is looked at.
+            // Manual steps are few, so the twin compares after each of them.
             twin.look_at(&self.run.session, is_end || !is_running);
         }
         self.follow();
@@ -128,9 +133,9 @@ impl Worker {
         }
     }
 
-    /// The cycle at which the next step or jump ends at the latest: the planned end, and beyond it as far
-    /// again. Where nothing wears any more, a jump would otherwise go so far that no comparison run by direct
-    /// steps could follow.
+    /// Returns the cycle that the next step or jump must not pass: the planned end or, beyond it, the same distance
+    /// again. Otherwise, once nothing wears any more, a jump would go so far that no comparison run by direct steps
+    /// could follow.
     fn goal(&self) -> f64 {
         let simulation = self.run.simulation();
         let now = simulation.cycle();
@@ -150,7 +155,7 @@ impl Worker {
         end.is_some_and(|end| before < end && simulation.cycle() >= end)
     }
 
-    /// Pauses and steps until `done`, which is given the cycles before and now, is true.
+    /// Pauses and steps until `done`, called with the cycles before and now, returns true.
     pub(in crate::tui) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
         if matches!(self.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);

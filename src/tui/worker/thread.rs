@@ -1,28 +1,33 @@
-//! The worker's thread: how it begins and ends, and what it has saved then.
+//! The worker's thread: starting it, ending it, and what it has saved.
 
-use std::sync::TryLockError;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, TryLockError};
 use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result};
 
-use super::*;
+use super::{Order, Orders, Worker};
+use crate::tui::autosave::ScreenAutosave;
+use crate::tui::event::Event;
 
-/// How long the worker may take to finish its step on exit.
+/// Maximum time for the worker to finish its step on exit.
 const LAST_STEP: Duration = Duration::from_millis(500);
 
-/// How long a checkpoint being written may take on exit.
+/// Maximum time for a checkpoint being written on exit.
 const SAVING_TIME: Duration = Duration::from_secs(5);
 
-/// A worker that runs.
+/// A running worker.
 pub(in crate::tui) struct WorkerThread {
     orders: Orders,
     halt: Arc<AtomicBool>,
     autosave: Arc<Mutex<ScreenAutosave>>,
-    /// Its final message about what it has saved.
+    /// Its final message about what it saved.
     saved: Receiver<Option<String>>,
 }
 
-/// Reports its end, however it ends.
+/// Reports the end of the thread, however it ends.
 struct EndReport(Sender<Event>);
 
 impl Drop for EndReport {
@@ -32,7 +37,7 @@ impl Drop for EndReport {
 }
 
 impl WorkerThread {
-    /// Starts `worker`, whose `orders` come at `inbox`, and which has its session saved.
+    /// Starts `worker`, which receives its `orders` at `inbox` and whose session is saved automatically.
     pub fn start(
         mut worker: Worker,
         orders: Orders,
@@ -64,8 +69,8 @@ impl WorkerThread {
         self.orders.send(Worker::quit);
     }
 
-    /// Where the session is saved. A worker in the middle of a long step is not waited for: its most recent copy is
-    /// saved instead.
+    /// Returns where the session is saved. Does not wait for a worker in the middle of a long step, but saves its most
+    /// recent copy.
     pub fn saved(&self) -> Option<String> {
         match self.saved.recv_timeout(LAST_STEP) {
             Ok(told) => return told,
@@ -75,7 +80,7 @@ impl WorkerThread {
         match self.autosave.try_lock() {
             Ok(mut autosave) => autosave.finish(None),
             Err(TryLockError::Poisoned(autosave)) => autosave.into_inner().finish(None),
-            // It is being saved, which may take a while on a slow disk.
+            // The session is being saved, which may take a while on a slow disk.
             Err(TryLockError::WouldBlock) => self.saved.recv_timeout(SAVING_TIME).ok().flatten(),
         }
     }

@@ -1,8 +1,13 @@
 //! Time travel: back to earlier states, and on from there.
 
-use super::*;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::{BROKEN_DOWN, Worker};
+use crate::panics::locked;
 use crate::scenario::Change;
-use crate::tui::undo::Kept;
+use crate::tui::frame::{Activity, Facts};
+use crate::tui::undo::{Kept, Past};
 
 impl Worker {
     /// Stores the present state.
@@ -11,8 +16,8 @@ impl Worker {
         self.kept_at = Instant::now();
     }
 
-    /// Continues from the state on the screen, if it is in the past. The way back leads to the run that
-    /// it leaves; returns the notice about that.
+    /// Continues from the state on the screen, if it is in the past. The user can go back to the run that it leaves;
+    /// returns the notice about that.
     pub(super) fn branch(&mut self) -> Option<String> {
         let left = self.past.branch()?;
         let (cycle, end) = (self.run.cycle(), left.end.run.cycle());
@@ -24,7 +29,7 @@ impl Worker {
         ))
     }
 
-    /// Shows another stored state, paused, or says why there is none.
+    /// Shows another stored state and pauses, or says why there is none.
     pub(in crate::tui) fn travel(
         &mut self,
         way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>,
@@ -43,8 +48,8 @@ impl Worker {
 }
 
 impl Worker {
-    /// Shows the run at `cycle`: a past state is stepped to from the one that is stored before it, and the present run
-    /// goes on to a later one at full speed.
+    /// Shows the run at `cycle`. It steps to a past cycle from the stored state before it, and runs to a future one at
+    /// full speed.
     pub(in crate::tui) fn go_to(&mut self, cycle: f64) {
         let end = self.past.line(&self.run).cycle();
         if cycle <= end {
@@ -62,7 +67,7 @@ impl Worker {
         self.screen.notice(&told);
     }
 
-    /// Steps from the state of the past on the screen to `cycle`: the same steps and changes as those of the run.
+    /// Steps from the past state on the screen to `cycle`, with the same steps and changes as the run.
     fn step_within_past(&mut self, cycle: f64) {
         let (mut run, before) = (self.run.clone(), self.run.cycle());
         let made = run.session.changes().len();
@@ -95,7 +100,7 @@ impl Worker {
         }
     }
 
-    /// The next of the cycles that the scenario writes states of, or the one before, from what is on the screen.
+    /// Goes to the next or the previous cycle at which the scenario writes a state.
     pub(in crate::tui) fn go_to_planned(&mut self, forward: bool) {
         let (now, plan) = (self.run.cycle(), self.run.session.loaded().run());
         let planned = plan.snapshot_at.iter().chain(&plan.cycles).copied();

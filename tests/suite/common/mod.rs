@@ -9,13 +9,13 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
+use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::geometry::Geometry;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
-use mdr_tui::oracle::dual_oscillation::{DualOscillation, Frequencies};
 use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::plot::Marker;

@@ -407,6 +407,8 @@ fn collect(
     });
     thread::spawn(move || {
         let mut bytes = [0; 4096];
+        // When the line has carried what was read: on a busy machine, sleeping alone would make it slower than it is.
+        let mut carried = Instant::now();
         loop {
             let Line {
                 rate,
@@ -442,7 +444,9 @@ fn collect(
             }
             drop(output);
             if let Some(rate) = rate {
-                thread::sleep(Duration::from_secs_f64(count as f64 / f64::from(rate)));
+                let took = Duration::from_secs_f64(count as f64 / f64::from(rate));
+                carried = carried.max(Instant::now() - Duration::from_millis(200)) + took;
+                thread::sleep(carried.saturating_duration_since(Instant::now()));
             }
         }
     })

@@ -1,45 +1,45 @@
-//! Sums over all kinks on one side of every row, in O(N).
+//! Sums all kinks on one side of every row, in O(N).
 //!
 //! # Formula
 //!
 //! ```text
 //! out_j = Σ_{k before j} J_k K(v_jk),   K(v) = Σ_m a_m v^(μ_m) away from v = 1
-//! S_m ← (S_m + J_{j−1}) (t_{j−1}/t_j)^μ_m,   out_j = Σ_m a_m S_m + Σ of the nearest J by weights of their own
+//! S_m ← (S_m + J_{j−1}) (t_{j−1}/t_j)^μ_m,   out_j = Σ_m a_m S_m + Σ weight × J over the nearest rows
 //! ```
 //!
-//! "Before" is nearer to the origin, or farther out: the order in which the radii are given. The weights of the nearest
-//! rows are exact less what the powers give. A row adds nothing of its own kink: what is zero so far stays zero.
+//! "Before" means nearer to the origin or farther out, depending on the order of the radii. The weights of the nearest
+//! rows are the exact kernel minus what the powers give. A row never adds its own kink: leading zeros stay zero.
 //!
-//! The last digits differ between CPUs with and without fused multiply-add; on one machine they are always the same.
+//! The last digits differ between CPUs with and without fused multiply-add, but never between runs on one machine.
 
 use super::powers::{LANES, MOST_GROUPS, Powers};
 use crate::math::vector::{Fusing, with_widest};
 
-/// A row's nearest rows are at most this many.
+/// Maximum number of nearest rows.
 pub(super) const REACH: usize = 8;
 
-/// Rows that are taken at a time, all that belongs to them in the innermost cache.
+/// Rows processed together, so that their data fit in the innermost cache.
 pub(super) const BLOCK: usize = 64;
 
-/// The operator. Memory: K + 8 numbers a row for K powers.
+/// The operator. Memory: K + 8 numbers per row for K powers.
 #[derive(Debug, PartialEq)]
 pub(super) struct Causal {
-    /// a of every power.
+    /// Factors a of the powers.
     factors: Vec<[f64; LANES]>,
-    /// (t_{j−1}/t_j)^μ of every row and power.
+    /// Decays (t_{j−1}/t_j)^μ per row and power.
     decays: Vec<[f64; LANES]>,
-    /// Weights of the nearest rows before each, the farthest first.
+    /// Weights of the nearest rows before each row, the farthest first.
     near: Vec<[f64; REACH]>,
 }
 
-/// How far apart two radii are: ln of the ratio of their squares; infinite if one is 0.
+/// Returns the distance between two radii: ln of the ratio of their squares; infinite if one is 0.
 pub(super) fn apart(one: f64, other: f64) -> f64 {
     let (inner, outer) = (one.min(other), one.max(other));
     2.0 * ((outer - inner) / inner).ln_1p()
 }
 
 impl Causal {
-    /// For rows at `radii`, in rising or in falling order, with weights of their own where the `powers` do not reach.
+    /// Plans the sums for rows at `radii`, rising or falling, with separate weights where the `powers` do not reach.
     pub fn new(radii: &[f64], powers: &Powers) -> Self {
         let decay = |step: f64, exponent: f64| match exponent {
             0.0 => 1.0,
@@ -78,7 +78,7 @@ impl Causal {
         }
     }
 
-    /// A pass over the rows.
+    /// Starts a pass over the rows.
     pub fn pass(&self) -> Pass<'_> {
         Pass {
             operator: self,
@@ -93,18 +93,18 @@ impl Causal {
 /// A pass over the rows of an operator, block by block.
 pub(super) struct Pass<'a> {
     operator: &'a Causal,
-    /// The row that comes next.
+    /// Next row.
     first: usize,
     /// S of every power.
     powers: [[f64; LANES]; MOST_GROUPS],
-    /// The jumps of the last rows, and those of the present block.
+    /// Jumps of the last rows and of the present block.
     window: [f64; REACH + BLOCK],
-    /// Whether there was no jump yet.
+    /// True until the first jump.
     is_idle: bool,
 }
 
 impl Pass<'_> {
-    /// Replaces the jumps in the next `rows` by their sums: a whole [`BLOCK`], or what is left.
+    /// Replaces the jumps in the next `rows` with their sums. `rows` is a whole [`BLOCK`] or the remainder.
     pub fn sum(&mut self, rows: &mut [f64]) {
         self.is_idle &= rows.iter().all(|&jump| jump == 0.0);
         self.window.copy_within(BLOCK.., 0);
@@ -116,7 +116,7 @@ impl Pass<'_> {
         self.first += rows.len();
     }
 
-    /// The number of groups is fixed at compile time, so that the powers stay in registers.
+    /// Fixes the number of groups at compile time, so that the powers stay in registers.
     fn sum_by_groups(&mut self, rows: &mut [f64]) {
         macro_rules! by_groups {
             ($($groups:literal),*) => {

@@ -3,36 +3,37 @@
 //!
 //! # Formula
 //!
-//! A profile that is linear in t = x² between nodes is a sum of kinks J_k (t − t_k)₊, J_k the jump of its
-//! slope, and the image of a kink is a closed form (see [`kink`](super::kink)): a factor of the row times a function
-//! of the ratio v of the two t alone. Away from v = 1 that function is a sum Σ a_m v^(μ_m) to the
-//! tolerance; and a power is carried from row to row by one multiplication:
+//! A profile that is linear in t = x² between nodes is a sum of kinks J_k (t − t_k)₊, where J_k is the jump of its
+//! slope. The image of a kink is a closed form (see [`kink`](super::kink)): a factor of the row times a function of the
+//! ratio v of the two t. Away from v = 1, a sum Σ a_m v^(μ_m) approximates that function to the tolerance, and one
+//! multiplication carries each power from row to row:
 //!
 //! ```text
 //! g_j = f_0 + t_j Σ_m a_m S_m,   S_m = Σ_{k<j} J_k (t_k/t_j)^(μ_m)
-//! w_j = u_0 + t_j Σ_m a_m S_m    with powers of its own
+//! w_j = u_0 + t_j Σ_m a_m S_m    with other powers
 //! p_j = (1/π) Σ_m a_m S_m,       S_m = Σ_{k>j} J_k x_k (t_j/t_k)^(μ_m)
 //! ```
 //!
-//! each with the nearest nodes (at most 8) put right by weights of their own, exact less what the
-//! powers give. The worn depth outside its border is the same in z = √(r² − c²), whose kinks are z (z − z_k)₊:
+//! The nearest nodes (at most 8) get extra weights, the exact kernel minus what the powers give. The worn depth outside
+//! its border has the same form in z = √(r² − c²), with the kinks z (z − z_k)₊:
 //!
 //! ```text
 //! g_j = g(δ within c) + x_j { (π/2) F_1 + Z_j Σ_m a_m S_m }
 //! ```
 //!
-//! The kernels depend on ratios only, so the form is independent of scale, grading and position on
-//! the grid; the number of powers grows like ln N.
+//! The kernels depend on ratios only, so scale, grading and position on the grid do not matter; the number of powers
+//! grows like ln N.
 //!
-//! - **Accuracy**: the tolerance bounds the relative error of the kernel (for w: the error in units of its
-//!   largest value), so that of a result in units of the same sum with all signs made alike. Rounding
-//!   adds about 1e-15 N^½ of that. The tests hold every operator to it.
-//! - **Cost**: K multiply-adds twice and 8 more a node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up.
-//! - **Memory**: O(N): K + 8 numbers a node for each operator.
-//! - **Causality**: strict, as that of the dense form: what is zero up to a node stays zero up to it, and no row looks
+//! - **Accuracy**: the tolerance bounds the relative error of the kernel (for w: the error relative to its largest
+//!   value), and so the error of a result relative to the same sum of absolute values. Rounding adds about 1e-15 N^½
+//!   of that sum. The tests hold every operator to it.
+//! - **Cost**: 2K + 8 multiply-adds per node, K = 12 … 28 from N = 100 to 100 000; O(N) to set up.
+//! - **Memory**: O(N): K + 8 numbers per node and operator.
+//! - **Causality**: strict, as in the dense form: what is zero up to a node stays zero up to it, and no row reads its
+//!   own kink.
 //!   at its own kink.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
-//! - **Known failure**: none; below some hundred nodes the dense form is faster.
+//! - **Known failure**: none; below a few hundred nodes the dense form is faster.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
@@ -50,19 +51,20 @@ use causal::{BLOCK, Causal, REACH, apart};
 pub(super) use powers::{ARC, ROOT};
 use powers::{Kernel, Powers, WORN, fit};
 
-/// The error of a kernel that a run asks for.
+/// Tolerance of the kernels in a run.
 pub const TOLERANCE: f64 = 1e-8;
 
-/// What it takes where cells are too narrow for that, the best first.
+/// Tolerances to try in turn where cells are too narrow for the first.
 pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 
-/// The powers for rows at `radii`, with a kernel to a relative `tolerance`: all but the nearest neighbours are theirs.
-/// None if that is out of reach, below about 1e-12 on ordinary grids, and more on grids with very narrow cells.
+/// Fits the powers for rows at `radii` to a relative `tolerance` of the kernel;
+/// they cover all but the nearest neighbours. `None` if that is out of reach:
+/// below about 1e-12 on ordinary grids, earlier on grids with very narrow cells.
 pub(super) fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
     let pairs = pairs.filter(|(inner, _)| **inner > 0.0);
     let least = pairs.map(|(&a, &b)| apart(a, b)).fold(1.0, f64::min);
-    // The neighbours at that distance are far.
+    // Neighbours at exactly this distance count as far.
     fit(kernel, least * (1.0 - 1e-9), tolerance)
 }
 
@@ -74,8 +76,8 @@ fn inverse_widths(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Writes the jumps of slope of the first `values`, with the `inverse` widths of their cells: they are flat before and
-/// behind them.
+/// Writes the slope jumps of the first `values`, given the `inverse` widths of their cells. The values are flat before
+/// and behind them.
 fn write_jumps(values: &[f64], inverse: &[f64], jumps: &mut [f64]) {
     let (within, behind) = jumps.split_at_mut(inverse.len().min(jumps.len() - 1));
     vectorized(
@@ -97,13 +99,13 @@ fn write_jumps(values: &[f64], inverse: &[f64], jumps: &mut [f64]) {
 #[derive(Debug)]
 pub(super) struct Outwards {
     squares: Vec<f64>,
-    /// 1/Δt of the cells in which the values are not flat.
+    /// 1/Δt of the cells in which the values vary.
     inverse: Vec<f64>,
     sums: Causal,
 }
 
 impl Outwards {
-    /// Plans it for values that are flat behind the first `cells`.
+    /// Plans the transform of values that are flat behind the first `cells`.
     pub fn new(grid: &RadialGrid, cells: usize, powers: &Powers) -> Self {
         Self {
             squares: grid.squares().to_vec(),
@@ -160,7 +162,7 @@ impl Transform for Inwards {
             return first;
         }
         let (p, nodes) = (&mut p[first..], &self.nodes[first..]);
-        // The first of these rows does not ask for its own jump.
+        // The first of these rows does not use its own jump.
         write_jumps(&q[first..], &self.inverse[first..], p);
         let mut pass = self.sums.pass();
         for (rows, nodes) in p.rchunks_mut(BLOCK).zip(nodes.rchunks(BLOCK)) {
@@ -201,7 +203,7 @@ pub(super) struct Worn {
 }
 
 impl Worn {
-    /// Plans it with the `roots` of Eq. (1), and powers of its own to the `tolerance`; none if that is out of reach.
+    /// Plans it with the `roots` of Eq. (1) and separate powers to the `tolerance`; `None` if that is out of reach.
     pub fn new(grid: &RadialGrid, border: usize, roots: &Powers, tolerance: f64) -> Option<Self> {
         let x = &grid.nodes()[border..];
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
@@ -219,7 +221,7 @@ impl Worn {
 impl Transform for Worn {
     fn apply_from(&self, _: usize, depth: &[f64], g: &mut [f64]) -> usize {
         self.inner.apply_from(0, depth, g);
-        // F = (δ − δ_c)/z; at the border it is that of the next node: flat in the first cell.
+        // F = (δ − δ_c)/z; at the border it takes the next node's value: flat in the first cell.
         let beyond = &depth[self.border..];
         let share = |i: usize| (beyond[i] - beyond[0]) / self.z[i];
         let slope = |i: usize| match self.inverse_z.get(i) {
@@ -239,7 +241,7 @@ impl Transform for Worn {
             }
             pass.sum(sums);
             for ((row, sum), i) in rows.iter_mut().zip(sums).zip(first..) {
-                // Nothing at the border itself.
+                // The border itself gets nothing.
                 if i > 0 {
                     *row += self.x[i] * (start + self.z[i] * *sum);
                 }

@@ -1,8 +1,8 @@
-//! The kernels as sums of powers, fitted when a plan is made.
+//! Fits sums of powers to the kernels when a plan is made.
 //!
 //! # Formula
 //!
-//! Seen from row j, all that the transforms ask of a kink at t_k = x_k² is the ratio v = t_k/t_j (v = t_j/t_k for the
+//! Seen from row j, the transforms need only the ratio v = t_k/t_j of a kink at t_k = x_k² (v = t_j/t_k for the
 //! stress). The image of a kink (see [`super::kink`](super::super::kink)), as a function of v or of s = √v, is
 //!
 //! ```text
@@ -11,58 +11,59 @@
 //! worn depth        2 √(1 − v) − s acos s                     = 2 − (π/2) s − Σ_{n≥2} c_n vⁿ
 //! ```
 //!
-//! with c_n > 0. Away from v = 1 it is smooth in ln v, so that for v ≤ exp(−y_min) a sum Σ a_m v^(μ_m) stands for it.
+//! with c_n > 0. Away from v = 1 it is smooth in ln v, so a sum Σ a_m v^(μ_m) can replace it for v ≤ exp(−y_min).
 //!
 //! # Exponents
 //!
-//! The two before the sum are its own. With v = e^(−y) the rest is the impulse response of a symmetric system,
-//! b′ exp(−y diag μ) b with b = √c, and balanced truncation gives the few modes that matter for y ≥ y_min (B. C. Moore
-//! (1981), IEEE Trans. Autom. Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its Gramian
+//! The two terms before the sum keep their exponents. With v = e^(−y) the rest is the impulse
+//! response of a symmetric system, b′ exp(−y diag μ) b with b = √c, and balanced truncation
+//! gives the few modes that matter for y ≥ y_min (B. C. Moore (1981), IEEE Trans. Autom.
+//! Control 26, 17–32, doi 10.1109/TAC.1981.1102568): with the eigenvectors V of its Gramian
 //!
 //! ```text
 //! P_ik = b_i b_k/(μ_i + μ_k),   b_i² = c_i exp(−μ_i y_min),
 //! ```
 //!
-//! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(μ) V. They need no more of c_n
-//! than that it falls as n^(−3/2); that of the displacement falls faster, and takes as few. Terms far out in the series
-//! are gathered in bunches beforehand. The a_m are then those of least squares over ln v of the image itself. K exponents
-//! leave an error near that of the best ones, exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale,
-//! Nonlinear and Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3), with no table and no search.
+//! taken from the largest eigenvalue on, the new exponents are the eigenvalues of V′ diag(μ) V. This only needs c_n to
+//! fall as n^(−3/2) or faster; for the displacement it falls faster, and takes as few exponents. Terms far out in the
+//! series are bunched beforehand. The a_m are then fitted by least squares over ln v to the image itself. The error of
+//! K exponents is near the best possible, exp(−π²K/ln(8/y_min)) (D. Braess, W. Hackbusch (2009), in Multiscale,
+//! Nonlinear and Adaptive Approximation, Springer, doi 10.1007/978-3-642-03413-8_3), without a table or a search.
 
 use std::f64::consts::FRAC_2_PI;
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// Exponents come in groups of this many: one vector register.
+/// Exponents per group: one vector register.
 pub(super) const LANES: usize = 4;
 
-/// The most groups: enough for 1e-12 at N = 1e5.
+/// Maximum number of groups: enough for 1e-12 at N = 1e5.
 pub(super) const MOST_GROUPS: usize = 14;
 
-/// Sample points of the fit over ln v, a number a unit of its logarithm.
+/// Sample points of the fit per unit of ln(−ln v).
 const SAMPLES: f64 = 32.0;
 
-/// ln v beyond which every power but v⁰ has died.
+/// −ln v beyond which every power but v⁰ has died out.
 const FARTHEST: f64 = 60.0;
 
-/// Two kinks that make a cell nearly cancel, their errors less so: the cells of smooth data, of jumps and of noise are
-/// held to the tolerance by kinks that are this many times better.
+/// Safety factor on the tolerance of a kink. The two kinks of a cell nearly cancel, their errors less so; with this
+/// factor the cells of smooth data, jumps and noise meet the tolerance.
 const RESERVE: f64 = 32.0;
 
-/// Terms of the series far out are gathered in bunches of this part of their number.
+/// Width of a bunch of far terms, relative to the exponent at which it begins.
 const BUNCH: f64 = 0.07;
 
-/// Terms whose exponent times y_min is beyond this are left out.
+/// Drops terms whose exponent times y_min exceeds this.
 const LAST: f64 = 30.0;
 
 /// A kernel to be fitted.
 #[derive(Debug, Clone, Copy)]
 pub(in super::super) struct Kernel {
-    /// The image of a kink, of s = √v and c = √(1 − v): both at hand without cancellation.
+    /// Image of a kink as a function of s = √v and c = √(1 − v); taking both avoids cancellation.
     pub kink: fn(f64, f64) -> f64,
-    /// The second exponent of its series, after 0.
+    /// Second exponent of its series; the first is 0.
     second: f64,
-    /// The third, from which on they go up in ones.
+    /// Third exponent; the following ones rise in steps of 1.
     third: f64,
 }
 
@@ -90,19 +91,19 @@ pub(super) const WORN: Kernel = Kernel {
 /// Σ a_m v^(μ_m).
 #[derive(Debug, Clone)]
 pub(in super::super) struct Powers {
-    /// The kernel that they stand for.
+    /// Kernel that they approximate.
     pub kernel: Kernel,
-    /// They do so for v ≤ exp(−this).
+    /// They approximate it for v ≤ exp(−`nearest`).
     pub nearest: f64,
-    /// μ, a multiple of [`LANES`] of them.
+    /// Exponents μ, a multiple of [`LANES`] in number.
     pub exponents: Vec<f64>,
-    /// a of each.
+    /// Factor a of each power.
     pub factors: Vec<f64>,
 }
 
-/// The fewest powers that hold `kernel` to `tolerance` for v ≤ exp(−`nearest`).
+/// Fits the fewest powers that hold `kernel` to `tolerance` for v ≤ exp(−`nearest`).
 ///
-/// None if [`MOST_GROUPS`] do not suffice.
+/// `None` if [`MOST_GROUPS`] do not suffice.
 pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers> {
     let range = (FARTHEST / nearest).ln();
     let last = (SAMPLES * range).ceil();
@@ -129,7 +130,7 @@ pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers
     })
 }
 
-/// V′ diag(μ) V of all modes, the weightiest first.
+/// Returns V′ diag(μ) V of all modes, the weightiest first.
 fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
     // μ and b of every bunch of terms.
     let mut terms: Vec<(f64, f64)> = Vec::new();
@@ -152,7 +153,7 @@ fn balanced(kernel: Kernel, nearest: f64) -> DMatrix<f64> {
     modes.tr_mul(&(DMatrix::from_diagonal(&exponents) * &modes))
 }
 
-/// The exponents of the first `number` modes; `None` if there are fewer modes.
+/// Returns the exponents of the first `number` modes; `None` if there are fewer modes.
 fn truncated(balanced: &DMatrix<f64>, number: usize) -> Option<Vec<f64>> {
     (number <= balanced.nrows()).then(|| {
         let block = balanced.view((0, 0), (number, number)).into_owned();
@@ -180,14 +181,14 @@ mod tests {
                     let powers = fit(kernel, nearest, tolerance)
                         .unwrap_or_else(|| panic!("no fit to {tolerance:e} at {nearest}"));
                     assert!(powers.exponents.len() <= MOST_GROUPS * LANES);
-                    // The kinks, which the densities add up to, at places of their own.
+                    // Checks the kinks, which the densities add up to, between the samples of the fit.
                     for i in 0..400 {
                         let y = nearest * 1.02_f64.powi(i);
                         let (s, c) = ((-0.5 * y).exp(), (-(-y).exp_m1()).sqrt());
                         let pairs = powers.exponents.iter().zip(&powers.factors);
                         let sum: f64 = pairs.map(|(mu, a)| a * (-mu * y).exp()).sum();
                         let error = sum - (kernel.kink)(s, c);
-                        // ∫₀¹ of the kernel's scale is at most 2.
+                        // ∫₀¹ of the kernel, at most 2, scales the error.
                         assert!(
                             error.abs() <= 2.0 * tolerance + 1e-14,
                             "{kernel:?} {y}: {error:e}"

@@ -1,4 +1,4 @@
-//! Every operator of the fast form against the dense one, which is computed weight by weight.
+//! Compares every operator of the fast form with the dense one, which is computed weight by weight.
 
 use nalgebra::DMatrix;
 
@@ -44,7 +44,7 @@ fn data(grid: &RadialGrid) -> Vec<Vec<f64>> {
     ]
 }
 
-/// Σ|Δ values| up to every node: the same cells with all signs made alike.
+/// Returns Σ|Δ values| up to every node: the same sum with all terms positive.
 fn variation(values: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
@@ -56,7 +56,7 @@ fn variation(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Compares on dirty buffers; `scale` is what the tolerance refers to, row by row.
+/// Compares the two on dirty buffers; `scale` is what the tolerance refers to, row by row.
 fn hold(
     name: &str,
     dense: &DMatrix<f64>,
@@ -103,7 +103,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
                 let last = all[grid.cells()];
                 let falling: Vec<f64> = all.iter().map(|v| last - v).collect();
                 let scale: Vec<f64> = apply(&p, &falling).iter().map(|p| 2.0 * p).collect();
-                // Stress has the unit of the load by length: make it one of the data.
+                // Stress has the unit of the load per length; convert it to the unit of the data.
                 let l = grid.radius();
                 let scaled: Vec<f64> = scale.iter().map(|scale| scale * l).collect();
                 hold("p", &(&p * l), &values, tolerance, &scaled, &|q, p| {
@@ -119,7 +119,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
 fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
     for grid in LADDER.into_iter().flat_map(grids) {
         let Some(border) = grid.border() else {
-            // Without one, the worn depth is transformed like any profile.
+            // Without a border the worn depth is transformed like any profile.
             let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
             for values in data(&grid) {
                 let mut images = [vec![f64::NAN; grid.len()], vec![f64::NAN; grid.len()]];
@@ -133,7 +133,7 @@ fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
         for tolerance in TOLERANCES {
             let fast = AbelPlan::fast(&grid, tolerance).expect("a plan");
             for values in data(&grid) {
-                // The variation within, and beyond the border that of F.
+                // The scale is the variation inside the border, and the variation of F beyond it.
                 let mut all = variation(&values[..=border]);
                 let z: Vec<f64> = nodes[border..]
                     .iter()
@@ -155,7 +155,7 @@ fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
     }
 }
 
-/// What happens outside reaches nothing inside, to the last bit.
+/// Data outside a node leave results inside it exactly unchanged.
 #[test]
 fn causality_is_strict() {
     let zeros_before = |first: usize, nodes: usize| -> Vec<f64> {
@@ -186,12 +186,12 @@ fn causality_is_strict() {
     }
 }
 
-/// Up to the node that is asked for, the stress is that of the whole, to the last bit; what lies further in is left.
+/// From the requested node on, part of the stress equals the whole, bit for bit; nodes further in stay untouched.
 #[test]
 fn a_part_of_the_stress_is_that_of_the_whole() {
     for grid in grids(200) {
         let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
-        // With a jump at the end, and with nothing on the outer nodes.
+        // Once with a jump at the end, once with zeros on the outer nodes.
         for ends in [200, 120] {
             let load: Vec<f64> = (0..grid.len())
                 .map(|k| {
@@ -228,7 +228,7 @@ fn a_constant_and_not_a_number_are_passed_on() {
     assert!(out[..50].iter().all(|&g| g == 0.0) && out[50..].iter().all(|g| g.is_nan()));
 }
 
-/// 1e5 nodes are planned and applied; a paraboloid is exact.
+/// Plans and applies 1e5 nodes; a paraboloid is exact.
 #[test]
 fn large_grids_are_no_trouble() {
     let grid = RadialGrid::uniform(100_000, 1.0).expect("a grid");
@@ -247,7 +247,7 @@ fn large_grids_are_no_trouble() {
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
 
-/// Rows of noise, each against its own sum of closed forms.
+/// Compares rows of noise with their sums of closed forms.
 #[test]
 fn large_grids_keep_the_tolerance_node_by_node() {
     let cells = 40_000;
@@ -257,7 +257,7 @@ fn large_grids_keep_the_tolerance_node_by_node() {
         let (x, t) = (grid.nodes(), grid.squares());
         let fast = AbelPlan::fast(&grid, TOLERANCE).expect("a plan");
         let noise = data(&grid).pop().expect("data");
-        // No cusp at the tip, and no jump at the end.
+        // Avoids a cusp at the tip and a jump at the end.
         let values: Vec<f64> = (0..=cells)
             .map(|j| if j < 3 || j == cells { 0.0 } else { noise[j] })
             .collect();
@@ -297,7 +297,7 @@ fn large_grids_keep_the_tolerance_node_by_node() {
     }
 }
 
-/// Hertz and Cattaneo with the edge and the stick border between nodes, by [`kink`](super::super::kink).
+/// Hertz and Cattaneo with the edge and the stick border between nodes, corrected by [`kink`](super::super::kink).
 #[test]
 fn kinks_between_nodes_are_as_exact_as_the_tolerance() {
     use super::super::kink::{add_to_stress, polyline};

@@ -1,24 +1,24 @@
 //! The permanent stick radius under normal and tangential oscillation, by Melan's theorem.
 //!
 //! Sources: Melan (1936); Barber, Davies & Hills (2011) for frictional shakedown; Popov (2014) and
-//! Dimaki et al. (2014) for fretting; the motion is (14). The spring at x settles without slip if some
-//! constant offset of it stays within ±μq_z for all times: max_t[κu_x − (d − g)] ≤ κu* ≤
-//! min_t[κu_x + (d − g)], which both depths of the range satisfy up to
-//! g₀(c) = ½{min_t[d + κu_x] + min_t[d − κu_x]}, d = d₀ + Δd sin(ω₁t + φ_z), u_x = Δu sin(ω₂t + φ_x):
+//! Dimaki et al. (2014) for fretting; the motion is (14). The spring at x shakes down without slip if some constant
+//! offset keeps it within ±μq_z at all times: max_t[κu_x − (d − g)] ≤ κu* ≤ min_t[κu_x + (d − g)]. Both bounds are
+//! compatible up to the depth g₀(c) = ½{min_t[d + κu_x] + min_t[d − κu_x]}, d = d₀ + Δd sin(ω₁t + φ_z), u_x = Δu
+//! sin(ω₂t + φ_x):
 //! - equal frequencies, φ = φ_x − φ_z: d₀ − ½[√(Δd²+κ²Δu²+2κΔdΔu cos φ) + √(Δd²+κ²Δu²−2κΔdΔu cos φ)];
 //! - incommensurate: d₀ − Δd − κΔu;
 //! - any rational ratio: dense sampling of one common period, each dip refined by golden section.
 //!
-//! A constant offset of u_x shifts both minima against each other and cancels. ≤ 0 means that
-//! no point sticks for good (loss of contact included).
+//! A constant offset of u_x shifts both minima in opposite directions and cancels. A value ≤ 0 means that no point
+//! sticks permanently (this includes loss of contact).
 
-use super::special::positive_part;
+use mdr_tui::oracle::special::positive_part;
 use std::f64::consts::TAU;
 
 /// The ratio of the two frequencies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frequencies {
-    /// ω₂ = ω₁: in closed form.
+    /// ω₂ = ω₁, in closed form.
     Equal,
     /// ω₂/ω₁ = tangential/normal, both at least 1; costs about 100·(tangential + normal) sines.
     Rational {
@@ -27,7 +27,7 @@ pub enum Frequencies {
         /// Multiple of the common base frequency in the normal motion.
         normal: u32,
     },
-    /// ω₂/ω₁ irrational: every pair of phases comes up.
+    /// ω₂/ω₁ irrational: every pair of phases occurs.
     Incommensurate,
 }
 
@@ -74,8 +74,8 @@ impl DualOscillation {
         self.depth + self.normal_amplitude.abs()
     }
 
-    /// g₀(c), m: the depth of the permanent stick edge; ≤ 0 (down to −∞) if nothing sticks for
-    /// good. NaN for a rational ratio with a zero in it.
+    /// g₀(c), m: the depth of the permanent stick edge; ≤ 0 (down to −∞) if nothing sticks permanently. NaN for a
+    /// rational ratio that contains a zero.
     pub fn stick_depth(&self) -> f64 {
         let (swing, reach) = (self.normal_amplitude, self.reach());
         if reach.is_infinite() {
@@ -119,7 +119,7 @@ fn divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { divisor(b, a % b) }
 }
 
-/// The least value of a function of period 2π.
+/// Returns the minimum of a function of period 2π.
 fn lowest(f: impl Fn(f64) -> f64, samples: u64) -> f64 {
     let step = TAU / samples as f64;
     let mut least = f64::INFINITY;
@@ -132,11 +132,11 @@ fn lowest(f: impl Fn(f64) -> f64, samples: u64) -> f64 {
         }
         (left, here) = (here, right);
     }
-    // No dip at all: the function is not finite.
+    // No dip found: the function is not finite.
     if least.is_finite() { least } else { f64::NAN }
 }
 
-/// The least value on [low, high] of a function with one dip there, by golden section.
+/// Returns the minimum on [low, high] of a function with one dip there, by golden section.
 fn golden(f: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let section = 0.5 * (5f64.sqrt() - 1.0);
     let mut inner = [high - section * (high - low), low + section * (high - low)];
@@ -179,7 +179,7 @@ mod tests {
         Frequencies::Rational { tangential, normal }
     }
 
-    /// The largest g whose spring does not slip in the last of `periods` common periods.
+    /// Returns the largest g whose spring does not slip in the last of `periods` common periods.
     fn stick_depth_by_stepping(m: &DualOscillation, ratio: (f64, f64), periods: u32) -> f64 {
         let steps = 6000 * periods;
         let slips = |g: f64| {
@@ -264,7 +264,7 @@ mod tests {
         near(floor, 1.0 - 0.1 - 0.1 * 14.0 / 1.7, 1e-15, "floor");
         for (p, q) in [(3u32, 2u32), (17, 12), (99, 70), (577, 408)] {
             let gap = fig3(rational(p, q)).stick_depth() - floor;
-            // The phases miss their worst pair by π/q at most: a cosine's loss of half its square.
+            // The phases miss their worst pair by at most π/q, which costs a cosine half the square of that.
             let most = 0.5 * (0.1 + 0.1 * 14.0 / 1.7) * (PI / f64::from(q)).powi(2);
             assert!(gap > -1e-15 && gap < most, "{p}:{q} {gap:e} {most:e}");
         }

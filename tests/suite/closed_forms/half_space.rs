@@ -19,7 +19,7 @@ pub fn hertz_on_axis(z: f64, poisson: f64) -> [f64; 2] {
     [-(1.0 + poisson) * (1.0 - arc) + 0.5 * near, -near]
 }
 
-/// σ_r = −σ_θ on the surface at r ≥ 1, outside of a Hertz contact.
+/// σ_r = −σ_θ on the surface at r ≥ 1, outside a Hertz contact.
 pub fn hertz_outside(r: f64, poisson: f64) -> f64 {
     (1.0 - 2.0 * poisson) / (3.0 * r * r)
 }
@@ -34,8 +34,8 @@ pub fn sliding_inside(x: f64, poisson: f64) -> f64 {
     -PI * (4.0 + poisson) / 8.0 * x
 }
 
-/// `[σ_xx, σ_yy, σ_zz, σ_xz]` at (x, z), z > 0, under the tractions p(r) and τ(r) on the disc r ≤ 1 by
-/// adding up point forces; precise where z is not small against 1/`rings`.
+/// Returns `[σ_xx, σ_yy, σ_zz, σ_xz]` at (x, z), z > 0, under the tractions p(r) and τ(r) on the disc r ≤ 1 by adding
+/// up point forces; accurate unless z is small compared with 1/`rings`.
 pub fn by_point_forces(
     [x, z]: [f64; 2],
     poisson: f64,
@@ -63,7 +63,7 @@ pub fn by_point_forces(
     sum
 }
 
-/// `[σ_xx, σ_yy, σ_zz, σ_xz]` of a unit force into the half-space, at a distance from it.
+/// Returns `[σ_xx, σ_yy, σ_zz, σ_xz]` of a unit force into the half-space, at the given offset from it.
 fn boussinesq([x, y, z]: [f64; 3], poisson: f64) -> [f64; 4] {
     let flat = x * x + y * y;
     let rho = (flat + z * z).sqrt();
@@ -81,7 +81,7 @@ fn boussinesq([x, y, z]: [f64; 3], poisson: f64) -> [f64; 4] {
     ]
 }
 
-/// `[σ_xx, σ_yy, σ_zz, σ_xz]` of a unit force along x on the surface, at a distance from it.
+/// Returns `[σ_xx, σ_yy, σ_zz, σ_xz]` of a unit force along x on the surface, at the given offset from it.
 fn cerruti([x, y, z]: [f64; 3], poisson: f64) -> [f64; 4] {
     let rho = (x * x + y * y + z * z).sqrt();
     let (cube, sum) = (rho.powi(3), rho + z);

@@ -1,4 +1,4 @@
-//! Analytic pairs of the three transforms, each given by its input and its image.
+//! Analytic pairs of the three transforms: each an input and its image.
 //!
 //! Sources: Popov & Heß (2015), chs. 3 and 7; Bracewell (2000), table of Abel transforms; Li et al.
 //! (2019) for the equations:
@@ -6,12 +6,13 @@
 //! - (2) u → w(r) = (2/π) ∫₀ʳ u(x)/√(r²−x²) dx, the inverse of (1),
 //! - (3) q → p(r) = −(1/π) ∫ᵣ^∞ q′(x)/√(x²−r²) dx, with q(a⁻)/(π√(a²−r²)) for a jump at a.
 //!
-//! Names: `g_of_…`, `w_of_…`, `p_of_…` with the input's name. Lengths in m; inputs have the unit said,
-//! (1) and (2) keep it, (3) divides it by m. Radii are non-negative; parameters positive.
-//! [`super::pair_catalogue`] lists them, ready for a conformance suite.
+//! Functions are named `g_of_…`, `w_of_…`, `p_of_…` after the input. Lengths in m; inputs have the unit in parentheses,
+//! which (1) and (2) keep and (3) divides by m. Radii are non-negative, parameters positive. [`super::pair_catalogue`]
+//! lists the pairs, ready for a conformance suite.
 
-use super::power_law::{displacement_integral, pressure_integral};
-use super::special::{angle_beyond, bessel_i0_scaled, dawson, erf, kappa, leg};
+use super::special::{bessel_i0_scaled, dawson, erf};
+use mdr_tui::oracle::power_law::{displacement_integral, pressure_integral};
+use mdr_tui::oracle::special::{angle_beyond, kappa, leg};
 use std::f64::consts::PI;
 
 // (1) ------------------------------------------------------------------------------------------
@@ -59,8 +60,8 @@ pub fn w_of_cut_line(a: f64, r: f64) -> f64 {
     2.0 / PI * (a * displacement_integral(0.0, end, r) - displacement_integral(1.0, end, r))
 }
 
-/// (2) of u = max(a² − x², 0) (m²): w = a² − r²/2 up to a, beyond
-/// (1/π)[(2a²−r²) asin(a/r) + a√(r²−a²)]; the Hertzian displacement but for 1/R.
+/// (2) of u = max(a² − x², 0) (m²): w = a² − r²/2 up to a, beyond (1/π)[(2a²−r²) asin(a/r) + a√(r²−a²)]; the Hertzian
+/// displacement without the factor 1/R.
 pub fn w_of_cut_parabola(a: f64, r: f64) -> f64 {
     if r <= a {
         return a * a - 0.5 * r * r;
@@ -73,8 +74,8 @@ pub fn w_of_ramp(b: f64, r: f64) -> f64 {
     2.0 / PI * (leg(r, b) - b * angle_beyond(b, r))
 }
 
-/// (2) of u = max(x² − b², 0) (m²): w = (1/π)[(r²−2b²) acos(b/r) + b√(r²−b²)] beyond b; the slip of
-/// the paraboloid but for λ/R.
+/// (2) of u = max(x² − b², 0) (m²): w = (1/π)[(r²−2b²) acos(b/r) + b√(r²−b²)] beyond b; the slip of the paraboloid
+/// without the factor λ/R.
 pub fn w_of_square_ramp(b: f64, r: f64) -> f64 {
     if r <= b {
         return 0.0;
@@ -123,8 +124,8 @@ pub fn p_of_cut_gauss(a: f64, sigma: f64, r: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::quadrature::integrate;
     use super::*;
+    use mdr_tui::oracle::quadrature::integrate;
     use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
     fn close(value: f64, exact: f64, relative: f64, what: &str) {

@@ -1,9 +1,9 @@
 //! The analytic pairs as a table: one dimensionless instance each, for a conformance suite.
 //!
-//! Lengths in units of the break point (a or b = 1) where there is one. A suite samples [`Pair::source`] on
-//! 0 … `domain`, transforms, and compares with [`Pair::image`]. `kinks` are the places where the source or
-//! its even continuation loses smoothness, the sort that decides the observed order; 0 in it means
-//! an odd power at the axis. The image at `singular` is infinite and must be left out.
+//! Lengths are in units of the break point (a or b = 1) if there is one. A suite samples [`Pair::source`] on 0 …
+//! `domain`, transforms it, and compares with [`Pair::image`]. `kinks` lists where the source or its even continuation
+//! loses smoothness, which decides the observed order; a 0 stands for an odd power at the axis. The image is infinite
+//! at `singular`, which must be left out.
 
 use super::abel_pairs::*;
 
@@ -18,14 +18,14 @@ pub enum Transform {
     LoadToStress,
 }
 
-/// What goes in, a function of x.
+/// A source as a function of x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Source {
     /// xⁿ.
     Power(f64),
     /// e^(−x²/σ²), σ = [`SIGMA`].
     Gauss,
-    /// 1 less that.
+    /// 1 minus the Gaussian.
     Dimple,
     /// x − 1 beyond 1.
     Ramp,
@@ -42,20 +42,20 @@ enum Source {
 use Source::{CutDifference, CutGauss, CutPower, Dimple, Gauss, Power, Ramp, SquareRamp};
 use Transform::{LineToSurface, LoadToStress, ProfileToMdr};
 
-/// σ of the bells.
+/// σ of the Gaussians.
 const SIGMA: f64 = 0.5;
 
 /// One source and its exact image, dimensionless.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
-    /// A short name, unique among those of a transform.
+    /// Short name, unique per transform.
     pub name: &'static str,
-    /// Which transform.
+    /// The transform.
     pub transform: Transform,
     source: Source,
     /// Where to sample: 0 … domain; a (3) source vanishes beyond (below 1e-16 for a Gaussian).
     pub domain: f64,
-    /// Places of lost smoothness of the source, ascending.
+    /// Places where the source loses smoothness, ascending.
     pub kinks: &'static [f64],
     /// Where the image is infinite, if anywhere.
     pub singular: Option<f64>,
@@ -87,7 +87,7 @@ const fn pair(name: &'static str, transform: Transform, source: Source) -> Pair 
     }
 }
 
-/// Every pair.
+/// All pairs.
 pub const PAIRS: &[Pair] = &[
     pair("cone", ProfileToMdr, Power(1.0)),
     pair("paraboloid", ProfileToMdr, Power(2.0)),
@@ -119,7 +119,7 @@ pub const PAIRS: &[Pair] = &[
 ];
 
 impl Pair {
-    /// What goes in at x.
+    /// Returns the source at x.
     pub fn source(&self, x: f64) -> f64 {
         let bell = |x: f64| (-(x / SIGMA).powi(2)).exp();
         match self.source {
@@ -135,7 +135,7 @@ impl Pair {
         }
     }
 
-    /// What must come out at x; NaN for a source whose image has no closed form here.
+    /// Returns the exact image at x; NaN for a source without a closed form here.
     pub fn image(&self, x: f64) -> f64 {
         match (self.transform, self.source) {
             (ProfileToMdr, Power(n)) => g_of_power(n, x),
@@ -160,16 +160,16 @@ impl Pair {
 
 #[cfg(test)]
 mod tests {
-    use super::super::quadrature::integrate;
     use super::*;
+    use mdr_tui::oracle::quadrature::integrate;
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    /// (2) of any function, x = r sin t, broken at the kinks.
+    /// Applies (2) to any function, with x = r sin t, split at the kinks.
     fn surface(u: impl Fn(f64) -> f64, kinks: &[f64], r: f64) -> f64 {
         let mut edges = vec![0.0];
         edges.extend(kinks.iter().map(|k| (k / r).min(1.0).asin()));
         edges.push(FRAC_PI_2);
-        // t = edge + s² takes a root just past a kink away.
+        // t = edge + s² removes a root just past a kink.
         let part = |e: &[f64]| {
             let f = |s: f64| 2.0 * s * u(r * (e[0] + s * s).sin());
             integrate(f, 0.0, (e[1] - e[0]).max(0.0).sqrt())
@@ -177,7 +177,7 @@ mod tests {
         2.0 / PI * edges.windows(2).map(part).sum::<f64>()
     }
 
-    /// q back from p: q(x) = 2∫ₓᵃ r p(r)/√(r²−x²) dr, with r² = x² + s² sin² t, s² = a² − x².
+    /// Inverts p to q: q(x) = 2∫ₓᵃ r p(r)/√(r²−x²) dr, with r² = x² + s² sin² t, s² = a² − x².
     fn load(p: impl Fn(f64) -> f64, a: f64, x: f64) -> f64 {
         let s = ((a - x) * (a + x)).sqrt();
         let f = |t: f64| p(x.hypot(s * t.sin())) * s * t.cos();

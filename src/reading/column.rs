@@ -1,0 +1,218 @@
+//! The columns of all tables: name, symbol and meaning of each, once for files, memory, axes and messages.
+
+use serde::{Deserialize, Serialize};
+
+/// The units that end a column's name, as they end it and as they are written. Columns of other files are converted to
+/// them.
+pub const UNITS: [(&str, &str); 9] = [
+    ("m3_per_J", "m³/J"),
+    ("N_per_m", "N/m"),
+    ("m3", "m³"),
+    ("m", "m"),
+    ("N", "N"),
+    ("J", "J"),
+    ("Pa", "Pa"),
+    ("s", "s"),
+    ("kg", "kg"),
+];
+
+/// The unit that ends the name of a column.
+pub fn unit_of(name: &str) -> &'static str {
+    let ends_with = |unit: &str| name.strip_suffix(unit)?.strip_suffix('_');
+    let found = UNITS.iter().find(|(unit, _)| ends_with(unit).is_some());
+    found.map_or("", |(_, unit)| unit)
+}
+
+/// Makes the enum, its table, and a list of the columns of each group.
+macro_rules! columns {
+    ($($(#[$doc:meta])* $list:ident { $($column:ident $name:literal $symbol:literal $meaning:literal;)* })*) => {
+        /// A column of a table.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum Column { $($(#[doc = $meaning] #[serde(rename = $name)] $column,)*)* }
+
+        /// Name, symbol and meaning of each.
+        const TABLE: &[(&str, &str, &str)] = &[$($(($name, $symbol, $meaning),)*)*];
+
+        impl Column {
+            /// All of them.
+            pub const ALL: &[Self] = &[$($(Self::$column,)*)*];
+            $($(#[$doc])* pub const $list: [Self; [$(Self::$column),*].len()] = [$(Self::$column),*];)*
+        }
+    };
+}
+
+columns! {
+    /// The columns of `history.csv`, in order.
+    HISTORY {
+        Cycle "cycle" "" "cycles since the start";
+        Time "time_s" "t" "time";
+        Indentation "u_z_m" "d" "indentation depth d";
+        Shift "u_x_m" "u_x" "tangential displacement";
+        NormalForce "F_z_N" "F_z" "normal force";
+        TangentialForce "F_x_N" "F_x" "tangential force";
+        ContactRadius "contact_radius_m" "a" "contact radius a";
+        StickRadius "stick_radius_m" "c" "stick radius c at this moment";
+        PermanentStickRadius "permanent_stick_radius_m" "c" "smallest stick radius of the last period";
+        WearVolume "wear_volume_m3" "V" "worn volume V";
+        DissipatedEnergy "dissipated_energy_J" "E_d" "friction work E_d";
+        EnergyResidual "energy_residual" "" "1 - V/(k E_d)";
+        MaxPressure "max_pressure_Pa" "p" "largest pressure";
+        PeriodEnergyResidual "period_energy_residual" "" "1 - V/(k E_d) of the last period";
+        ForceResidual "force_residual" "" "1 - (integral of p)/F_z";
+        Steps "steps" "" "steps taken";
+        Transforms "transforms" "" "transforms computed";
+        EvaluatedCycles "evaluated_cycles" "" "cycles stepped in full for jumps";
+        RejectedJumps "rejected_jumps" "" "jumps rejected for their error";
+        StabilityMargin "stability_margin" "" "largest stable stiffness divided by the stiffness of the last step";
+        Parts "parts" "" "sub-steps of stiff steps";
+        EnergyPerCycle "energy_per_cycle_J" "" "friction work of a cycle";
+        ForceRatio "force_ratio" "" "Q*/(mu P)";
+        SlipRatio "slip_ratio" "" "1 - Q*/(2 G* a U)";
+        SlidingRatio "sliding_ratio" "D" "D = delta_0/U";
+        EnergyRatio "energy_ratio" "A" "A = E_d/(4 Q* U)";
+        EnergyRatioB "energy_ratio_B" "B" "B = E_d/(4 Q* delta_0)";
+        Regime "regime" "" "stick, partial, gross or open";
+        WearPerEnergy "wear_per_energy_m3_per_J" "" "V/E_d";
+        RigDisplacement "rig_displacement_m" "" "displacement of the rig's actuator";
+        ScarDepth "scar_depth_m" "depth" "largest worn depth";
+        ScarRadius "scar_radius_m" "radius" "outer radius of the wear scar";
+    }
+    /// Further scalars that studies and histories can record.
+    FURTHER {
+        ForceAmplitude "F_x_amplitude_N" "Q*" "half the range of F_x in a cycle";
+        ShiftAmplitude "u_x_amplitude_m" "U" "half the range of u_x in a cycle";
+        MeanNormalForce "mean_F_z_N" "P" "mean normal force of a cycle";
+        Swt "swt_Pa" "SWT" "largest Smith-Watson-Topper stress";
+        SwtX "swt_x_m" "x" "place of the largest SWT along the motion";
+        SwtZ "swt_z_m" "z" "depth of the largest SWT";
+        SwtRatio "swt_ratio" "" "SWT over the fatigue limit";
+        Crossland "crossland_Pa" "" "largest Crossland stress";
+        CrosslandX "crossland_x_m" "x" "place of the largest Crossland stress along the motion";
+        CrosslandZ "crossland_z_m" "z" "depth of the largest Crossland stress";
+        CrosslandRatio "crossland_ratio" "" "Crossland over the shear fatigue limit";
+    }
+    /// Estimated errors, in the order of headers, each with what it is relative to.
+    ERRORS {
+        WornDepthError "estimated_error" "" "error of the new wear, rms over the scar, relative to its largest depth";
+        DeepestError "estimated_error_deepest" "" "error of the largest new wear, relative to it";
+        VolumeError "estimated_error_volume" "" "error of the new worn volume, relative to it";
+        EnergyError "estimated_error_energy" ""
+            "error of the friction work, relative to it or to 0.001 of 4 mu F_z U per cycle";
+        ForceError "estimated_error_force" "" "largest error of F_x over the last period, relative to mu F_z";
+        LoopError "estimated_error_loop" ""
+            "error of the last loop's area, relative to it or to 0.001 of 4 mu F_z U";
+        PressureError "estimated_error_pressure" ""
+            "largest error of p farther than 0.05 a from the axis, the stick border and the contact's edge, \
+             relative to the largest p there";
+        ContactRadiusError "estimated_error_contact_radius" "" "error of a, relative to it";
+        StickRadiusError "estimated_error_stick_radius" ""
+            "larger error of c, of the moment and permanent, relative to a";
+    }
+    /// The columns of `state.csv`, with the tangential displacement of the surface.
+    STATE {
+        Radius "r_m" "r" "radius";
+        Unworn "f0_m" "f₀" "profile, unworn";
+        Profile "f_m" "f" "profile";
+        Profile1d "g_m" "g" "1D profile";
+        Compression "u_z_1d_m" "u_z" "compression of the springs";
+        NormalLoad "q_z_N_per_m" "q_z" "normal line load of the springs";
+        TangentialLoad "q_x_N_per_m" "q_x" "tangential line load of the springs";
+        Pressure "p_Pa" "p" "pressure";
+        Shear "tau_Pa" "τ" "shear stress";
+        SpringShift "u_x_1d_m" "u_x" "tangential displacement of the springs";
+        Wear "wear_m" "worn" "worn depth";
+        Zone "zone" "" "stick, slip or open";
+        WearIndenter "wear_indenter_m" "worn" "worn depth of the indenter";
+        WearHalfSpace "wear_half_space_m" "worn" "worn depth of the half-space";
+    }
+    /// The columns of `field.csv`, with the SWT parameter.
+    FIELD {
+        X "x_m" "x" "place along the motion";
+        Z "z_m" "z" "depth";
+        StressXx "sigma_xx_Pa" "σ_xx" "normal stress along the motion";
+        StressYy "sigma_yy_Pa" "σ_yy" "normal stress across the motion";
+        StressZz "sigma_zz_Pa" "σ_zz" "normal stress in depth";
+        StressXz "sigma_xz_Pa" "σ_xz" "shear stress in the plane of motion";
+        VonMises "von_mises_Pa" "σ" "von Mises stress";
+        MaxPrincipal "max_principal_Pa" "σ max" "largest principal stress";
+        ShearAmplitude "shear_amplitude_Pa" "" "Crossland's shear amplitude";
+        MaxHydrostatic "max_hydrostatic_Pa" "" "largest hydrostatic stress of a cycle";
+    }
+    /// What the explorer alone records.
+    EXPLORER {
+        StepCost "step_cost_s" "t" "time per step";
+        WearRate "wear_rate_m3" "" "volume that is worn in a cycle";
+    }
+    /// What is measured, beside the above.
+    MEASURED {
+        LoopShift "u_m" "u_x" "displacement";
+        LoopForce "F_N" "F_x" "force";
+        Y "y_m" "y" "place across the motion";
+        Distance "distance_m" "s" "sliding distance";
+        Energy "energy_J" "E_d" "friction work";
+        Depth "depth_m" "depth" "largest worn depth";
+        Approach "approach_m" "approach" "approach of the bodies";
+        Mass "mass_kg" "m" "worn mass";
+        StandardError "error" "" "standard error of the ordinate";
+    }
+}
+
+impl Column {
+    /// The name in files; ends with the unit, if there is one.
+    pub const fn name(self) -> &'static str {
+        TABLE[self as usize].0
+    }
+
+    /// The symbol, where it has one.
+    pub const fn symbol(self) -> &'static str {
+        TABLE[self as usize].1
+    }
+
+    /// What it is, in one line.
+    pub const fn meaning(self) -> &'static str {
+        TABLE[self as usize].2
+    }
+
+    /// The unit as it is written.
+    pub fn unit(self) -> &'static str {
+        unit_of(self.name())
+    }
+
+    /// The name without the unit.
+    pub fn quantity(self) -> &'static str {
+        let with_unit = self.name().rsplit_once('_');
+        with_unit.map_or(self.name(), |(quantity, _)| quantity)
+    }
+
+    /// The column of this name.
+    pub fn find(name: &str) -> Option<Self> {
+        let mut all = Self::ALL.iter().copied();
+        all.find(|column| column.name() == name)
+    }
+}
+
+impl AsRef<str> for Column {
+    fn as_ref(&self) -> &str {
+        self.name()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_column_stands_once_and_says_what_it_is() {
+        for &column in Column::ALL {
+            assert!(!column.meaning().is_empty(), "{column:?}");
+            assert_eq!(
+                Column::find(column.name()),
+                Some(column),
+                "{column:?} twice"
+            );
+        }
+        assert_eq!(Column::NormalLoad.unit(), "N/m");
+        assert_eq!(Column::WearPerEnergy.unit(), "m³/J");
+        assert_eq!(Column::SwtRatio.unit(), "");
+    }
+}

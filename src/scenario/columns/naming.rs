@@ -1,0 +1,84 @@
+//! What a user says of the columns of a file whose lines do not say it: `--fields r=2,wear=3 --units um,nm`.
+
+use std::str::FromStr;
+
+use super::{Columns, Refusal, names};
+
+/// What a user says of the columns of a file whose lines do not say it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Naming {
+    /// Quantities and where they stand.
+    pub fields: Vec<Field>,
+    /// The units of these fields in their order, or else of the columns of the file.
+    pub units: Vec<String>,
+}
+
+/// A quantity and its column, as in `r=2`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Field {
+    /// The quantity, as `r`.
+    quantity: String,
+    /// The column's number, from 1, or its name in the file.
+    column: String,
+}
+
+impl FromStr for Field {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text
+            .split_once('=')
+            .map(|(quantity, column)| (quantity.trim(), column.trim()));
+        let (quantity, column) = parts
+            .filter(|(quantity, column)| !quantity.is_empty() && !column.is_empty())
+            .ok_or("a field is a quantity and the number of its column, e.g. r=2,wear=3")?;
+        Ok(Self {
+            quantity: quantity.to_owned(),
+            column: column.to_owned(),
+        })
+    }
+}
+
+impl Columns {
+    /// Names columns as the user does.
+    pub(super) fn take(&mut self, naming: &Naming) -> Result<(), Refusal> {
+        let is_known = |unit: &str| names::is_unit(unit) || ["-", "1", "cycles"].contains(&unit);
+        if let Some(unit) = naming.units.iter().find(|unit| !is_known(unit)) {
+            let rule = "is not a unit such as um, nm, N, mm^3";
+            return Err(Refusal::of_value("--units", unit, rule));
+        }
+        if naming.fields.is_empty() {
+            let named = self.own.iter_mut().zip(&self.names);
+            for ((own, name), unit) in named.zip(&naming.units) {
+                *own = names::in_own_unit(name, unit);
+            }
+        }
+        for (k, Field { quantity, column }) in naming.fields.iter().enumerate() {
+            let by_number = column
+                .parse()
+                .ok()
+                .filter(|number| (1..=self.own.len()).contains(number));
+            let by_name = || self.names.iter().position(|name| name == column);
+            let Some(at) = by_number.map(|number: usize| number - 1).or_else(by_name) else {
+                let (count, named) = (self.own.len(), self.named());
+                return Err(self.refuse(format!(
+                    "--fields {quantity}={column}: has {count} columns, {named}"
+                )));
+            };
+            // A unit that stands in the file holds unless another is given.
+            let (in_file, ratio) = &self.own[at];
+            let in_file = in_file.rsplit_once('_').map_or("", |(_, unit)| unit);
+            let named = match naming.units.get(k) {
+                Some(unit) => names::in_own_unit(quantity, unit),
+                None if names::is_unit(in_file) => (format!("{quantity}_{in_file}"), *ratio),
+                None => names::in_own_unit(quantity, ""),
+            };
+            // Another column of this name gives way.
+            for (own, _) in self.own.iter_mut().filter(|(own, _)| *own == named.0) {
+                own.insert(0, '_');
+            }
+            self.own[at] = named;
+        }
+        Ok(())
+    }
+}

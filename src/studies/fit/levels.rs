@@ -1,0 +1,105 @@
+//! The levels of numerics of a fit: a coarse one for the search, finer ones at the minimum.
+//!
+//! A finer level is run once at the minimum so far, which tells how far it moves the keys. While that is much beside their
+//! errors, the search goes on there. The finest level is run that once only: what it adds to the level before is added
+//! to all runs of that one, and these are fitted again (manifold mapping: D. Echeverría, P. W. Hemker, 2005, Comput.
+//! Methods Appl. Math. 5, 107–136). The derivatives are those of the level before, and of no coarser one than the second:
+//! a border of slip between few cells moves in steps.
+
+use anyhow::Result;
+
+use super::errors::Errors;
+use super::search::{Found, Search};
+use super::solver::Free;
+use crate::scenario::Scenario;
+use crate::studies::refinement::Level;
+
+/// Cells, steps and tolerance of jumps (in units of the depth) of the search, where the scenario leaves them open.
+const COARSE: (usize, u32, f64) = (40, 16, 3e-5);
+
+/// How much finer each level is in cells and in steps: no whole number, or both would see the same moments and radii.
+const FINER: f64 = 1.6;
+
+/// How much smaller its tolerance of jumps is: they err by the third power of their length.
+const LESS_TOLERANT: f64 = 4.0;
+
+/// The error that is left on a level, relative to what it has moved the keys by, and that of the level before it, if errors
+/// fall with the first to second power of the steps.
+const LEFT: f64 = 1.0;
+const BEFORE: f64 = 2.2;
+
+/// An error is small that is less than this part of the statistical one.
+const SMALL: f64 = 0.3;
+
+/// The most levels, and the most cells times steps of one that is followed by a finer one though the accuracy is met.
+const MOST_LEVELS: usize = 5;
+const MOST_WORK: f64 = 5e5;
+
+/// The scenario on the level of the search: its own where it names one.
+pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
+    if scenario.accuracy().is_none() {
+        return Ok(scenario.clone());
+    }
+    let (points, steps, tolerance) = COARSE;
+    let jumps = match scenario.value("numerics.integrator") {
+        Some(_) => Level::of(scenario).tolerance.is_some(),
+        None => scenario.setup().drive.repeats_after().is_some(),
+    };
+    let level = Level::new(points, steps, jumps.then_some(tolerance));
+    Ok(level.of_scenario(scenario)?)
+}
+
+/// Moves a minimum to finer levels. Returns its uncertainty and the numerical errors of the keys; none where no finer
+/// level could be run. A level that the scenario names is kept, and a finer one only tells its error.
+///
+/// # Errors
+/// If the scenario does not allow a finer level.
+pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, Option<Vec<f64>>)> {
+    let accuracy = search.fit.scenario.accuracy();
+    let mut errors = search.uncertainty(found);
+    let mut numerical = None;
+    for round in 0..MOST_LEVELS {
+        let level = Level::of(&search.scenario);
+        let level = Level {
+            tolerance: level.tolerance.map(|tolerance| tolerance / LESS_TOLERANT),
+            ..level.scaled(FINER, FINER)
+        };
+        let scenario = level.of_scenario(&search.scenario)?;
+        let Ok((changes, steps)) = search.changes_on(&scenario, found) else {
+            break;
+        };
+        let moved = errors.newton_step(&search.in_errors(&changes));
+        let moved = |factor: f64| moved.iter().map(|moved| factor * moved.abs()).collect();
+        let Some(accuracy) = accuracy else {
+            return Ok((errors, Some(moved(BEFORE))));
+        };
+        let left: Vec<f64> = moved(LEFT);
+        let is_less = |(i, free): (usize, &Free)| {
+            let met = accuracy * free.size(found.theta[i]);
+            [left[i] <= SMALL * errors.of(i), left[i] <= met]
+        };
+        let keys = search.fit.free.iter().enumerate().map(is_less);
+        let [is_small, is_met] =
+            keys.fold([true; 2], |all, one| [all[0] & one[0], all[1] & one[1]]);
+        let is_costly = steps as f64 * level.points as f64 > MOST_WORK;
+        numerical = Some(left);
+        let is_last = round > 0 && (is_small || is_met && is_costly);
+        let before = search.clone();
+        match is_last {
+            true => search.correct(&changes),
+            false => search.move_to(scenario),
+        }
+        let better = search.descend(&found.theta).ok();
+        let better = better.map(|found| (search.uncertainty(&found), found));
+        // What the end of the time has cut off tells nothing.
+        let Some(better) = better.filter(|_| search.is_in_time()) else {
+            *search = before;
+            break;
+        };
+        (errors, *found) = better;
+        if is_last {
+            break;
+        }
+    }
+    Ok((errors, numerical))
+}

@@ -198,14 +198,11 @@ impl<'a> Search<'a> {
         {
             let weigh = |values: &[f64]| self.weighed(set, &self.errors[place.clone()], values);
             let (at, values) = nuisance.solve(set, response, &weigh);
-            let size = residuals(set, &values)
-                .iter()
-                .map(|left| left * left)
-                .sum::<f64>();
+            let size = self.spread(&residuals(set, &values));
             let weighed = weigh(&values);
             objective += match &set.errors {
                 Some(_) => weighed.iter().map(|z| z * z).sum::<f64>(),
-                None => set.values.len() as f64 * size.max(f64::MIN_POSITIVE).ln(),
+                None => 2.0 * set.values.len() as f64 * size.max(f64::MIN_POSITIVE).ln(),
             };
             z.extend(deviations(set, &self.errors[place.clone()], &values));
             all_weighed.extend(weighed);
@@ -346,6 +343,16 @@ impl<'a> Search<'a> {
         Errors::new(&found.z, &derivatives, &estimated, self.fit.options.robust)
     }
 
+    /// The size of residuals; by their median if outliers count less.
+    fn spread(&self, left: &[f64]) -> f64 {
+        if !self.fit.options.robust {
+            return rms(left);
+        }
+        let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        OF_MEDIAN * sizes[sizes.len() / 2]
+    }
+
     /// The points of each data set among all points.
     pub fn places(&self) -> impl Iterator<Item = (&'a Measured, Range<usize>)> + use<'a> {
         self.fit.data.iter().scan(0, |end, set| {
@@ -388,14 +395,7 @@ impl<'a> Search<'a> {
             let points = set.values.len();
             let spent: f64 = leverages[place.clone()].iter().sum();
             let left = residuals(set, simulated);
-            let size = if self.fit.options.robust {
-                let mut sizes: Vec<f64> = left.iter().map(|left| left.abs()).collect();
-                sizes.sort_by(f64::total_cmp);
-                OF_MEDIAN * sizes[points / 2]
-            } else {
-                rms(&left)
-            };
-            let size = size * (points as f64 / freedom(points, spent)).sqrt();
+            let size = self.spread(&left) * (points as f64 / freedom(points, spent)).sqrt();
             let least = (LEAST_ERROR * rms(&set.values)).max(f64::MIN_POSITIVE);
             self.errors[place].fill(size.max(least));
         }

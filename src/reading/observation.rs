@@ -344,9 +344,11 @@ impl Simulation {
             depression: asks(Curves::DEPRESSION)
                 .then(depression)
                 .unwrap_or_default(),
-            zones: asks(Curves::ZONES)
-                .then(|| self.zones())
-                .unwrap_or_default(),
+            zones: if asks(Curves::ZONES) {
+                self.zones()
+            } else {
+                Vec::new()
+            },
         }
     }
 

@@ -94,7 +94,7 @@ impl Rig {
         let contact = self.contact;
         let yields = if has_rig { 1.0 / self.stiffness } else { 0.0 };
         let [level, shift] = [0.3, 0.3].map(|most| self.random.between(-most, most));
-        let points = (0..120).map(|i| (TAU * f64::from(i) / 120.0, i < 30 || i >= 90));
+        let points = (0..120).map(|i| (TAU * f64::from(i) / 120.0, !(30..90).contains(&i)));
         let rows = points.map(|(t, is_rising)| {
             let u = contact.amplitude * t.sin();
             let branch = if is_rising {

@@ -219,9 +219,9 @@ fn a_stiff_scar_is_jumped_as_well() {
         setup = jumping(&setup, tolerance);
         let run = run_setup(setup.clone(), 2000.0);
         let [rms, _] = difference(&fine, &run).map(|error| error / 1e-6);
-        holds(&format!("rms at {tolerance}"), rms, tolerance);
+        holds(format!("rms at {tolerance}"), rms, tolerance);
         let volume = (run.wear_volume() / fine.wear_volume() - 1.0).abs();
-        holds(&format!("volume at {tolerance}"), volume, 3.0 * tolerance);
+        holds(format!("volume at {tolerance}"), volume, 3.0 * tolerance);
     }
 }
 

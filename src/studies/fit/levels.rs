@@ -86,7 +86,7 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         let is_last = round > 0 && (is_small || is_met && is_costly);
         let before = search.clone();
         match is_last {
-            true => search.correct(&changes),
+            true => search.correct(&changes, scenario),
             false => search.move_to(scenario),
         }
         let better = search.descend(&found.theta).ok();

@@ -30,6 +30,7 @@ pub(super) fn add_intervals(search: &Search, found: &Found, fitted: &mut Fitted)
     if vague.is_empty() {
         return;
     }
+    let search = &search.on_finest();
     let Ok((theta, least)) = search.least_squares(&found.theta, None) else {
         return;
     };

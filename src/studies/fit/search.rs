@@ -57,8 +57,9 @@ pub(super) struct Search<'a> {
     /// Smallest number of steps of a run.
     fewest_steps: Cell<u64>,
     remembered: RefCell<Vec<(Vec<u64>, Responses)>>,
-    /// What a finer run adds to the values of each data set.
+    /// What the finest run adds to the values of each data set, and its level.
     corrections: Vec<Vec<f64>>,
+    finest: Option<Scenario>,
 }
 
 /// A minimum.
@@ -95,6 +96,7 @@ impl<'a> Search<'a> {
             fewest_steps: Cell::new(u64::MAX),
             remembered: RefCell::default(),
             corrections: fit.data.iter().map(|set| vec![0.0; set.at.len()]).collect(),
+            finest: None,
         }
     }
 
@@ -116,8 +118,9 @@ impl<'a> Search<'a> {
         Ok((values.zip(&found.simulated).map(change).collect(), steps))
     }
 
-    /// Adds `changes` to the values of all runs, those of a finer level at a minimum.
-    pub fn correct(&mut self, changes: &[Vec<f64>]) {
+    /// Adds `changes` to the values of all runs, those on the `finest` level at a minimum.
+    pub fn correct(&mut self, changes: &[Vec<f64>], finest: Scenario) {
+        self.finest = Some(finest);
         for (correction, changes) in self.corrections.iter_mut().zip(changes) {
             correction
                 .iter_mut()
@@ -130,6 +133,16 @@ impl<'a> Search<'a> {
     /// Whether its time is not over.
     pub fn is_in_time(&self) -> bool {
         (self.in_time)()
+    }
+
+    /// The same search with all runs on the finest level: far from the minimum, corrections do not hold.
+    pub fn on_finest(&self) -> Self {
+        let mut search = self.clone();
+        if let Some(finest) = search.finest.take() {
+            search.move_to(finest);
+            search.corrections.iter_mut().for_each(|one| one.fill(0.0));
+        }
+        search
     }
 
     /// Goes on with the level of `scenario`.

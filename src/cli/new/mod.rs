@@ -4,6 +4,7 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::time::Duration;
 use std::{process, thread};
 
 use anyhow::{Context, Result};
@@ -107,6 +108,9 @@ fn check_room() -> Result<(), Refusal> {
     ))
 }
 
+/// A question that is being asked waits for a key within this time.
+const SETTLES: Duration = Duration::from_millis(20);
+
 /// Takes each answer from its option, from the user, or from its default.
 struct Interview {
     /// The options, by name.
@@ -129,6 +133,9 @@ impl Interview {
                 modes.restore();
                 drop(Cursor);
                 complain("interrupted; nothing was written");
+                // A question that was just being asked may have switched to raw mode after the first restore.
+                thread::sleep(SETTLES);
+                modes.restore();
                 process::exit(FAILED.into());
             }
         });

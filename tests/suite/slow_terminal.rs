@@ -82,7 +82,7 @@ fn a_terminal_far_away_shows_the_whole_screen_and_keys() {
         (9600.0, 0.3, 1),
         (9600.0, 0.05, 2),
         (1200.0, 1.0, 1),
-        (600.0, 0.1, 0),
+        (2400.0, 0.1, 0),
     ];
     let far = lines.map(|(rate, round_trip, size)| {
         thread::spawn(move || {

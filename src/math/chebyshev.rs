@@ -43,7 +43,7 @@ pub fn stages_for(stiffness: f64) -> usize {
     MOST
 }
 
-/// How stiff a step of so many stages may be, a hair below where it needs one more.
+/// Returns the largest stiffness of a step with this number of stages, just below where it needs one more.
 pub fn reach(stages: usize) -> f64 {
     let (mut one, mut two) = ([W0, 1.0, 0.0], [1.0, 0.0, 0.0]);
     for _ in FEWEST_STAGES..=stages {

@@ -60,7 +60,7 @@ impl Operators {
     }
 }
 
-/// Every so many nodes one is worn at the same time: where the next one is, its answer has died down.
+/// Distance, in nodes, between nodes that are probed at the same time: each response has died down at the next one.
 const PROBES: usize = 24;
 
 impl Operators {

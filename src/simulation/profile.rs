@@ -129,9 +129,11 @@ fn end_of_scar(
     };
     let depths = [last - 1, last].map(&wear);
     let mut end = line(depths);
-    for _ in 0..even.map_or(0, |_| ROUNDS) {
-        let curve = EdgeCurve::new(even.unwrap_or_default(), end);
-        end = line([0, 1].map(|k| depths[k] + curve.at(t[last - 1 + k])));
+    if let Some(height) = even {
+        for _ in 0..ROUNDS {
+            let curve = EdgeCurve::new(height, end);
+            end = line([0, 1].map(|k| depths[k] + curve.at(t[last - 1 + k])));
+        }
     }
     Some((last, end))
 }

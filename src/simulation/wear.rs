@@ -97,8 +97,8 @@ impl Increment {
         );
     }
 
-    /// Corrects wear that goes with the n-th power of the slip rate, n being `exponent`, for what is no even slip over the
-    /// whole step: by the factor `uneven` everywhere, and by φ^(1−n) where a spring slips for a share φ of the step alone,
+    /// Corrects wear by the n-th power of the slip rate, n = `exponent`, for slip that is uneven within the step: by the
+    /// factor `uneven` everywhere, and by φ^(1−n) where a spring slips only for a share φ of the step,
     /// φ = Δs/(ΔU ∓ (μ/G*) Δq). Without that, steps are of first order.
     pub fn slip_in_less_time(
         &mut self,

@@ -25,7 +25,7 @@ const OF_MEDIAN: f64 = 1.4826;
 /// A scar without so much of its points beyond its edge shows no baseline.
 const BASELINE: f64 = 0.08;
 
-/// A run ends at so many times the steps of the shortest one, but not before [`ENOUGH_STEPS`]: a coefficient of wear that is
+/// A run is aborted after this multiple of the steps of the shortest one, but not before [`ENOUGH_STEPS`]: a coefficient of wear that is
 /// far too large costs a hundred times as much, and is no minimum.
 const MOST_STEPS: u64 = 20;
 const ENOUGH_STEPS: u64 = 10_000;

@@ -87,7 +87,11 @@ fn fit_each(options: &args::Fit, scenario: &Scenario, data: Vec<Measured>) -> Re
     // A file that cannot be fitted gets a row, too.
     let row = |(name, outcome): &(String, Result<(Fitted, u64)>)| match outcome {
         Ok((fitted, _)) => {
-            let values = fitted.values.iter().map(value).collect::<Vec<_>>();
+            let values = fitted
+                .values
+                .iter()
+                .map(|one| value(one, fitted.has_converged));
+            let values = values.collect::<Vec<_>>();
             [name.clone(), values.join("  "), fitted.remarks.join("; ")]
         }
         Err(error) => [name.clone(), "not fitted".to_owned(), format!("{error:#}")],
@@ -123,6 +127,7 @@ struct Told<'a> {
     keys: BTreeMap<&'a str, &'a Value>,
     data: &'a [SetResult],
     remarks: &'a [String],
+    has_converged: bool,
     runs: u64,
 }
 
@@ -136,6 +141,7 @@ impl<'a> Told<'a> {
             keys: keys.collect(),
             data: &fitted.sets,
             remarks: &fitted.remarks,
+            has_converged: fitted.has_converged,
             runs,
         }
     }
@@ -179,7 +185,7 @@ fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
 }
 
 /// Formats a fitted value with its errors.
-fn value(one: &Value) -> String {
+fn value(one: &Value, has_converged: bool) -> String {
     let (value, unit) = (one.value, one.unit);
     // A wear coefficient also says what it is per.
     let (unit, per) = match unit {
@@ -187,13 +193,15 @@ fn value(one: &Value) -> String {
         "m^3/(N*m)" => ("m^3/(N*m)", " per load and distance"),
         unit => (unit, ""),
     };
-    // A remark tells the limit on the one side.
-    let error = match one.stderr.filter(|_| !one.is_open()) {
-        Some(error) => {
+    let error = match (one.stderr, one.interval) {
+        (_, Some([Some(low), None])) => return format!("≥ {low:.3e} {unit}{per}"),
+        (_, Some([None, Some(high)])) => return format!("≤ {high:.3e} {unit}{per}"),
+        (Some(error), _) => {
             let share = 100.0 * (error / value).abs();
             format!("± {error:.2e} {unit} ({share:.2} %)")
         }
-        None => format!("{unit} (not determined)"),
+        (None, _) if !has_converged => format!("{unit} (not converged)"),
+        (None, _) => format!("{unit} (not determined)"),
     };
     // Converts k to mm³/(N·m), the unit of a pin test, and an amplitude to µm.
     let read = match reading(value, one.unit, true) {
@@ -209,7 +217,8 @@ fn report(fit: &Fit, fitted: &Fitted) -> String {
     let width = fitted.values.iter().map(|value| value.key.len()).max();
     let width = width.unwrap_or(0);
     for one in &fitted.values {
-        lines.push(format!("{:width$}  {}", one.key, value(one)));
+        let value = value(one, fitted.has_converged);
+        lines.push(format!("{:width$}  {value}", one.key));
         if let (Some(numerical), false) = (one.numerical_error, one.is_open()) {
             let share = 100.0 * (numerical / one.value).abs();
             lines.push(format!(

@@ -15,13 +15,13 @@ use crate::scenario::Scenario;
 use crate::studies::refinement::Level;
 
 /// Cells, steps and tolerance of jumps (in units of the depth) of the search, where the scenario leaves them open.
-const COARSE: (usize, u32, f64) = (40, 16, 3e-5);
+const COARSE: (usize, u32, f64) = (40, 16, 3e-4);
 
 /// How much finer each level is in cells and in steps: no whole number, or both would see the same moments and radii.
 const FINER: f64 = 1.6;
 
-/// How much smaller its tolerance of jumps is: they err by the third power of their length.
-const LESS_TOLERANT: f64 = 4.0;
+/// How much smaller its tolerance of jumps is: their errors add up to its power of two thirds.
+const LESS_TOLERANT: f64 = 2.0;
 
 /// The error that is left on a level, relative to what it has moved the keys by, and that of the level before it, if errors
 /// fall with the first to second power of the steps.
@@ -56,7 +56,7 @@ pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
 /// If the scenario does not allow a finer level.
 pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, Option<Vec<f64>>)> {
     let accuracy = search.fit.scenario.accuracy();
-    let mut errors = search.uncertainty(found);
+    let mut errors = search.uncertainty(found, &[]);
     let mut numerical = None;
     for round in 0..MOST_LEVELS {
         let level = Level::of(&search.scenario);
@@ -76,7 +76,9 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         let left: Vec<f64> = moved(LEFT);
         let is_less = |(i, free): (usize, &Free)| {
             let met = accuracy * free.size(found.theta[i]);
-            [left[i] <= SMALL * errors.of(i), left[i] <= met]
+            // What the data do not determine needs no finer level.
+            let error = errors.of(i);
+            [error == 0.0 || left[i] <= SMALL * error, left[i] <= met]
         };
         let keys = search.fit.free.iter().enumerate().map(is_less);
         let [is_small, is_met] =
@@ -86,11 +88,11 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         let is_last = round > 0 && (is_small || is_met && is_costly);
         let before = search.clone();
         match is_last {
-            true => search.correct(&changes, scenario),
+            true => search.correct(&changes),
             false => search.move_to(scenario),
         }
         let better = search.descend(&found.theta).ok();
-        let better = better.map(|found| (search.uncertainty(&found), found));
+        let better = better.map(|found| (search.uncertainty(&found, &[]), found));
         // What the end of the time has cut off tells nothing.
         let Some(better) = better.filter(|_| search.is_in_time()) else {
             *search = before;

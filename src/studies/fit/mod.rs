@@ -43,6 +43,7 @@ mod model;
 mod nuisance;
 mod profile;
 mod report;
+mod scar;
 mod search;
 mod solver;
 mod starts;
@@ -180,19 +181,25 @@ impl Fit {
                 best = found.map(|found| (search.clone(), found));
             }
         }
-        let (mut search, mut found) = best?;
+        let (mut search, mut found) = match (best, search.best_so_far()) {
+            (Err(_), Some(found)) if !in_time() => (search, found),
+            (best, _) => best?,
+        };
         if search.drop_vague(&found) {
-            found = search.descend(&found.theta)?;
+            found = search.descend(&found.theta).unwrap_or(found);
         }
-        let errors = levels::refine(&mut search, &mut found)?;
+        let (mut errors, numerical) = levels::refine(&mut search, &mut found)?;
+        let intervals = profile::intervals(&search, &found, &errors);
+        // A key without an end on one side has no error that others could share.
+        let is_open = |i: &usize| intervals[*i].is_some_and(|ends| ends.contains(&None));
+        let open: Vec<usize> = (0..intervals.len()).filter(is_open).collect();
+        if !open.is_empty() {
+            errors = search.uncertainty(&found, &open);
+        }
         let scenario = self.at(&self.scenario, &found.theta)?;
-        let mut fitted = Fitted::new(&search, &found, &errors, scenario);
-        profile::add_intervals(&search, &found, &mut fitted);
+        let mut fitted = Fitted::new(&search, &found, (&errors, numerical), &intervals, scenario);
         if !in_time() {
-            let budget = self.options.budget.unwrap_or_default();
-            fitted.remarks.push(format!(
-                "the search ended after {budget} s (--budget): this is the best so far"
-            ));
+            fitted.cut_off(self.options.budget.unwrap_or_default());
         }
         Ok(fitted)
     }

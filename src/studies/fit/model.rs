@@ -1,7 +1,7 @@
 //! Evaluates the scenario at each point of the data.
 
+use super::scar::WornDepth;
 use crate::contact::indenter::Indenter;
-use crate::math::grid::RadialGrid;
 use crate::math::scan::{largest, value_at};
 use crate::reading::Column;
 use crate::scenario::Scenario;
@@ -21,8 +21,8 @@ pub(super) struct Response {
 
 #[derive(Debug, Clone)]
 enum Course {
-    /// What has worn at the nodes, m, and the unworn shape where the profile was measured.
-    Scar(RadialGrid, Vec<f64>, Option<Indenter>),
+    /// What has worn, and the unworn shape where the profile was measured.
+    Scar(WornDepth, Option<Indenter>),
     /// One finely stepped cycle.
     Loop(Strokes),
     /// The value at each point of a history.
@@ -34,15 +34,9 @@ impl Response {
     /// by `tilt` per unit of the abscissa.
     pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
         let plain = |i: usize, x: f64| match &self.course {
-            Course::Scar(grid, worn, unworn) => {
+            Course::Scar(worn, unworn) => {
                 let r = (x - shift).abs();
-                // Nothing wears outside the grid.
-                let depth = if r <= grid.radius() {
-                    grid.interpolate(worn, r)
-                } else {
-                    0.0
-                };
-                unworn.as_ref().map_or(0.0, |unworn| unworn.profile(r)) + depth
+                unworn.as_ref().map_or(0.0, |unworn| unworn.profile(r)) + worn.at(r)
             }
             Course::Loop(strokes) => strokes.force(x - shift, set.rising[i]),
             Course::History(values) => values[i],
@@ -55,14 +49,10 @@ impl Response {
 
     /// Returns the share of a scar's points where nothing has worn.
     pub fn unworn_share(&self, set: &Measured, shift: f64) -> f64 {
-        let Course::Scar(grid, worn, _) = &self.course else {
+        let Course::Scar(worn, _) = &self.course else {
             return 0.0;
         };
-        let least = 0.01 * largest(worn);
-        let is_unworn = |x: &&f64| {
-            let r = (**x - shift).abs();
-            r > grid.radius() || grid.interpolate(worn, r) <= least
-        };
+        let is_unworn = |x: &&f64| worn.is_unworn((**x - shift).abs());
         set.at.iter().filter(is_unworn).count() as f64 / set.at.len() as f64
     }
 }
@@ -116,8 +106,8 @@ pub(super) fn simulate(
             (response, axes) if axes.over_r() => {
                 let setup = simulation.setup();
                 let unworn = (axes == Axes::PROFILE).then(|| setup.indenter.clone());
-                *response =
-                    Course::Scar(setup.grid.clone(), simulation.worn_depth().to_vec(), unworn);
+                let worn = WornDepth::new(setup.grid.clone(), simulation.worn_depth().to_vec());
+                *response = Course::Scar(worn, unworn);
             }
             (Course::History(values), axes) if axes.x == Column::Energy => {
                 let column = |k: usize| course.iter().map(|row| row[k]).collect::<Vec<f64>>();

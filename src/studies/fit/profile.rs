@@ -2,102 +2,103 @@
 //! is at least so much, and nothing more.
 //!
 //! The other keys follow at their best, and the interval ends where Σz² has risen by 2²: S. S. Wilks (1938), Ann. Math.
-//! Stat. 9, 60–62.
+//! Stat. 9, 60–62. All runs are on the level on which the data were fitted, since what finer runs add near the minimum
+//! does not hold far from it.
 
-use super::report::Fitted;
+use super::errors::Errors;
 use super::search::{Found, Search};
 
-/// Keys whose logarithm has a larger standard error get an interval.
-const VAGUE: f64 = 0.15;
+/// Keys whose logarithm has a larger standard error get an interval, unless it ends near two standard errors on both
+/// sides, to this part.
+const VAGUE: f64 = 0.05;
+const SYMMETRIC: f64 = 0.25;
 
 /// Σz² rises by the square of this, in units of the variance of z, at two standard errors.
 const RISE: f64 = 2.0;
 
 /// The first step away from the minimum, in e-folds: further ones double it, to the end of the range.
-const FIRST: f64 = 0.2;
+const FIRST: f64 = 0.3;
 
 /// An end is known to so much, in e-folds, and better where the root of the rise is straight.
-const KNOWN: f64 = 0.2;
+const KNOWN: f64 = 0.06;
 
-/// Adds the intervals of keys that need them.
-pub(super) fn add_intervals(search: &Search, found: &Found, fitted: &mut Fitted) {
-    let vague = |i: &usize| {
-        let (value, free) = (&fitted.values[*i], &search.fit.free[*i]);
-        let is_vague = |error: f64| error > VAGUE * free.value(found.theta[*i]).abs();
-        free.is_positive() && value.stderr.is_none_or(is_vague)
-    };
-    let vague: Vec<usize> = (0..fitted.values.len()).filter(vague).collect();
-    if vague.is_empty() {
-        return;
+/// The ends of two standard errors; an end is `None` if the data set none.
+pub(super) type Interval = [Option<f64>; 2];
+
+/// Returns the interval of each key that needs one.
+pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<Option<Interval>> {
+    let keys = search.fit.free.iter().enumerate();
+    let is_vague = keys.map(|(i, free)| {
+        let error = errors.of(i);
+        free.is_positive() && !(error > 0.0 && error <= VAGUE)
+    });
+    let is_vague: Vec<bool> = is_vague.collect();
+    let mut none = vec![None; is_vague.len()];
+    if !is_vague.contains(&true) {
+        return none;
     }
-    let search = &search.on_finest();
+    let search = &search.without_corrections();
     let Ok((theta, least)) = search.least_squares(&found.theta, None) else {
-        return;
+        return none;
     };
-    let freedom = (found.z.len() - found.theta.len()).max(1) as f64;
-    let variance = least / freedom;
-    for i in vague {
-        let ends = [-1.0, 1.0].map(|sense| end(search, &theta, i, sense, (least, variance)));
-        let free = &search.fit.free[i];
-        let interval = ends.map(|end| end.map(|theta| free.value(theta)));
-        // What is fitted nowhere else has no interval either.
-        let value = &mut fitted.values[i];
-        value.interval = Some(interval);
-        let unit = value.unit;
-        let key = &value.key;
-        let place = fitted
-            .remarks
-            .iter()
-            .position(|remark| remark.contains(key.as_str()) && remark.contains("determine"));
-        let word = match interval {
-            [Some(low), None] => {
-                format!("the data give {key} a lower limit alone: {key} ≥ {low:.3e} {unit} (2 σ)")
-            }
-            [None, Some(high)] => {
-                format!("the data give {key} an upper limit alone: {key} ≤ {high:.3e} {unit} (2 σ)")
-            }
-            [Some(low), Some(high)] => {
-                format!("{key} lies between {low:.3e} and {high:.3e} {unit} (2 σ)")
-            }
-            [None, None] => continue,
+    let mut profile = Profile {
+        search,
+        theta,
+        least,
+        freedom: (found.z.len() - found.theta.len()).max(1) as f64,
+    };
+    for (i, interval) in none.iter_mut().enumerate().filter(|(i, _)| is_vague[*i]) {
+        let high = profile.end(i, 1.0);
+        let ends = [profile.end(i, -1.0), high];
+        let two = RISE * errors.of(i);
+        let is_near = |end: &Option<f64>| {
+            end.is_some_and(|end| ((end - profile.theta[i]).abs() / two - 1.0).abs() < SYMMETRIC)
         };
-        if let Some(place) = place {
-            fitted.remarks.remove(place);
-        }
-        fitted.remarks.push(word);
+        let value = |theta: f64| search.fit.free[i].value(theta);
+        let is_plain = ends.iter().all(is_near);
+        *interval = (!is_plain).then(|| ends.map(|end| end.map(value)));
     }
+    none
 }
 
-/// Where the profile of key `i` has risen enough in one direction; `None` if it does not.
-fn end(
-    search: &Search,
-    theta: &[f64],
-    i: usize,
-    sense: f64,
-    (least, variance): (f64, f64),
-) -> Option<f64> {
-    let mut from = theta.to_vec();
-    let place = |step: f64| search.fit.free[i].moved(theta[i], sense * step);
-    // Where no run ends, it is not the data that set the limit.
-    let mut rise_at = |step: f64| {
-        from[i] = place(step);
-        let (best, sum) = search.least_squares(&from, Some(i)).ok()?;
-        from = best;
-        Some(((sum - least).max(0.0) / variance).sqrt())
-    };
-    let (mut near, mut far) = ((0.0, 0.0), (FIRST, rise_at(FIRST)?));
-    while far.1 < RISE {
-        if place(2.0 * far.0) == place(far.0) {
-            return None;
+/// The profile of Σz² around its minimum.
+struct Profile<'a> {
+    search: &'a Search<'a>,
+    theta: Vec<f64>,
+    /// The least Σz² so far: a plateau may fall slightly.
+    least: f64,
+    freedom: f64,
+}
+
+impl Profile<'_> {
+    /// Where the profile of key `i` has risen enough in one direction; `None` if it does not.
+    fn end(&mut self, i: usize, sense: f64) -> Option<f64> {
+        let (free, start) = (&self.search.fit.free[i], self.theta[i]);
+        let mut from = self.theta.clone();
+        let place = |step: f64| free.moved(start, sense * step);
+        // Where no run ends, it is not the data that set the limit.
+        let mut rise_at = |step: f64| {
+            from[i] = place(step);
+            let (best, sum) = self.search.least_squares(&from, Some(i)).ok()?;
+            from = best;
+            self.least = self.least.min(sum);
+            let variance = self.least / self.freedom;
+            Some(((sum - self.least) / variance).sqrt())
+        };
+        let (mut near, mut far) = ((0.0, 0.0), (FIRST, rise_at(FIRST)?));
+        while far.1 < RISE {
+            if place(2.0 * far.0) == place(far.0) {
+                return None;
+            }
+            (near, far) = (far, (2.0 * far.0, rise_at(2.0 * far.0)?));
         }
-        (near, far) = (far, (2.0 * far.0, rise_at(2.0 * far.0)?));
+        while far.0 - near.0 > KNOWN {
+            let middle = 0.5 * (near.0 + far.0);
+            let rise = rise_at(middle)?;
+            let end = if rise < RISE { &mut near } else { &mut far };
+            *end = (middle, rise);
+        }
+        let share = (RISE - near.1) / (far.1 - near.1);
+        Some(place(near.0 + share * (far.0 - near.0)))
     }
-    while far.0 - near.0 > KNOWN {
-        let middle = 0.5 * (near.0 + far.0);
-        let rise = rise_at(middle)?;
-        let end = if rise < RISE { &mut near } else { &mut far };
-        *end = (middle, rise);
-    }
-    let share = (RISE - near.1) / (far.1 - near.1);
-    Some(place(near.0 + share * (far.0 - near.0)))
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::errors::{Errors, freedom};
 use super::nuisance::NAMES;
+use super::profile::Interval;
 use super::search::{Found, Search, residuals};
 use super::structure::Structure;
 use crate::math::scan::rms;
@@ -90,13 +91,16 @@ pub struct Fitted {
     pub remarks: Vec<String>,
     /// The scenario with the fitted values.
     pub scenario: Scenario,
+    /// Whether the search has come to its end: not where its time was up before.
+    pub has_converged: bool,
 }
 
 impl Fitted {
     pub(super) fn new(
         search: &Search,
         found: &Found,
-        (errors, numerical): &(Errors, Option<Vec<f64>>),
+        (errors, numerical): (&Errors, Option<Vec<f64>>),
+        intervals: &[Option<Interval>],
         scenario: Scenario,
     ) -> Self {
         let (mut values, mut remarks, mut alike) = (Vec::new(), Vec::new(), Vec::new());
@@ -122,8 +126,10 @@ impl Fitted {
                 ));
             }
             let numerical_error = numerical.map(|numerical| free.error(theta, numerical));
-            let key = free.key.clone();
-            if at_bound {
+            let (key, unit) = (free.key.clone(), free.unit);
+            if let Some(told) = intervals[i].and_then(|ends| limits(&key, unit, ends)) {
+                remarks.push(told);
+            } else if at_bound {
                 remarks.push(format!(
                     "the data do not determine {key}: it reached the end of its range"
                 ));
@@ -148,7 +154,7 @@ impl Fitted {
                 value: free.value(theta),
                 stderr: is_known.then(|| free.error(theta, error)),
                 numerical_error: numerical_error.filter(|_| is_known),
-                interval: None,
+                interval: intervals[i],
                 correlations: others.collect(),
                 key,
             });
@@ -164,7 +170,32 @@ impl Fitted {
             sets,
             remarks,
             scenario,
+            has_converged: true,
         }
+    }
+
+    /// Says that the time was up before the end of the search: what it has not come to is not undetermined.
+    pub(super) fn cut_off(&mut self, budget: f64) {
+        self.has_converged = false;
+        self.remarks = vec![format!(
+            "ended by the budget of {budget} s, not converged: these are the best values so far"
+        )];
+    }
+}
+
+/// Says where a key may lie; `None` if it has no end on either side.
+fn limits(key: &str, unit: &str, ends: Interval) -> Option<String> {
+    match ends {
+        [Some(low), None] => Some(format!(
+            "the data give {key} a lower limit alone: {key} ≥ {low:.3e} {unit} (2 σ)"
+        )),
+        [None, Some(high)] => Some(format!(
+            "the data give {key} an upper limit alone: {key} ≤ {high:.3e} {unit} (2 σ)"
+        )),
+        [Some(low), Some(high)] => Some(format!(
+            "{key} lies between {low:.3e} and {high:.3e} {unit} (2 σ)"
+        )),
+        [None, None] => None,
     }
 }
 

@@ -57,9 +57,10 @@ pub(super) struct Search<'a> {
     /// Smallest number of steps of a run.
     fewest_steps: Cell<u64>,
     remembered: RefCell<Vec<(Vec<u64>, Responses)>>,
-    /// What the finest run adds to the values of each data set, and its level.
+    /// What the finest run adds to the values of each data set.
     corrections: Vec<Vec<f64>>,
-    finest: Option<Scenario>,
+    /// The best of all evaluations so far.
+    best: RefCell<Option<Found>>,
 }
 
 /// A minimum.
@@ -96,7 +97,7 @@ impl<'a> Search<'a> {
             fewest_steps: Cell::new(u64::MAX),
             remembered: RefCell::default(),
             corrections: fit.data.iter().map(|set| vec![0.0; set.at.len()]).collect(),
-            finest: None,
+            best: RefCell::default(),
         }
     }
 
@@ -118,9 +119,8 @@ impl<'a> Search<'a> {
         Ok((values.zip(&found.simulated).map(change).collect(), steps))
     }
 
-    /// Adds `changes` to the values of all runs, those on the `finest` level at a minimum.
-    pub fn correct(&mut self, changes: &[Vec<f64>], finest: Scenario) {
-        self.finest = Some(finest);
+    /// Adds `changes` to the values of all runs.
+    pub fn correct(&mut self, changes: &[Vec<f64>]) {
         for (correction, changes) in self.corrections.iter_mut().zip(changes) {
             correction
                 .iter_mut()
@@ -135,14 +135,17 @@ impl<'a> Search<'a> {
         (self.in_time)()
     }
 
-    /// The same search with all runs on the finest level: far from the minimum, corrections do not hold.
-    pub fn on_finest(&self) -> Self {
+    /// The same search without what finer runs add.
+    pub fn without_corrections(&self) -> Self {
         let mut search = self.clone();
-        if let Some(finest) = search.finest.take() {
-            search.move_to(finest);
-            search.corrections.iter_mut().for_each(|one| one.fill(0.0));
-        }
+        search.corrections.iter_mut().for_each(|one| one.fill(0.0));
+        search.remembered.take();
         search
+    }
+
+    /// The best of all evaluations so far, also of those of a search that has failed.
+    pub fn best_so_far(&self) -> Option<Found> {
+        self.best.borrow().clone()
     }
 
     /// Goes on with the level of `scenario`.
@@ -225,14 +228,19 @@ impl<'a> Search<'a> {
         let keys = self.fit.free.iter().zip(theta);
         all_weighed
             .extend(keys.map(|(free, at)| (at - free.start) / (PRIOR * free.size(free.start))));
-        Ok(Found {
+        let found = Found {
             theta: theta.to_vec(),
             nuisances,
             simulated,
             z,
             weighed: all_weighed,
             objective,
-        })
+        };
+        let mut best = self.best.borrow_mut();
+        if best.as_ref().is_none_or(|best| objective < best.objective) {
+            *best = Some(found.clone());
+        }
+        Ok(found)
     }
 
     /// The deviations with these keys and nuisances; `None` where the contact cannot be computed.
@@ -298,7 +306,7 @@ impl<'a> Search<'a> {
         for _ in 0..MOST_ROUNDS {
             theta = self.least_squares(&theta, None)?.0;
             let found = self.at(&theta)?;
-            let leverages = self.uncertainty(&found).leverages;
+            let leverages = self.uncertainty(&found, &[]).leverages;
             let before = self.errors.clone();
             self.update_errors(&found.simulated, &leverages);
             let mut pairs = before.iter().zip(&self.errors);
@@ -326,9 +334,9 @@ impl<'a> Search<'a> {
         before != self.nuisances
     }
 
-    /// Errors and correlations at a minimum: of the keys, then of the nuisances.
-    pub fn uncertainty(&self, found: &Found) -> Errors {
-        let mut derivatives = self.derivatives(found);
+    /// Errors and correlations at a minimum: of the keys but those that are `held`, then of the nuisances.
+    pub fn uncertainty(&self, found: &Found, held: &[usize]) -> Errors {
+        let mut derivatives = self.derivatives(found, held);
         if let Ok(responses) = self.responses(&found.theta) {
             for (i, (set, place)) in self.places().enumerate() {
                 let columns = nuisance::derivatives(
@@ -376,8 +384,8 @@ impl<'a> Search<'a> {
     }
 
     /// ∂z/∂θ of each key at the minimum by central differences, by one-sided ones at the end of what can be
-    /// computed; none for a key at the end of its range.
-    fn derivatives(&self, found: &Found) -> Vec<Option<Vec<f64>>> {
+    /// computed; none for a key that is `held` or at the end of its range.
+    fn derivatives(&self, found: &Found, held: &[usize]) -> Vec<Option<Vec<f64>>> {
         let derivative = |(i, free): (usize, &Free)| {
             let step = free.step(found.theta[i]);
             let at = |offset: f64| {
@@ -386,7 +394,7 @@ impl<'a> Search<'a> {
                 self.deviations_at(&theta, &found.nuisances)
                     .map(|z| (theta[i], z))
             };
-            if free.is_at_bound(found.theta[i]) {
+            if held.contains(&i) || free.is_at_bound(found.theta[i]) {
                 return None;
             }
             let low = at(-step).or_else(|| at(0.0))?;

@@ -71,11 +71,11 @@ impl Cut {
 /// Returns the heights that the picture spans, m: the whole indenter's flank within the domain, and as much of the
 /// half-space.
 pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
-    let depth = frame.observation.moment.depth;
-    if frame.observation.depression.is_empty() {
+    let depth = frame.live.observation.moment.depth;
+    if frame.live.observation.depression.is_empty() {
         return None;
     }
-    let indenter = &frame.facts.scenario.setup().indenter;
+    let indenter = &frame.live.scenario.setup().indenter;
     let flank = match indenter.rim() {
         Some(_) => depth.abs(),
         None => indenter.profile(WIDER * frame.run.edge()),
@@ -112,7 +112,7 @@ impl<'a> Section<'a> {
     /// Makes the cut; `None` if there is nothing to draw.
     pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
-        let seen = &frame.observation;
+        let seen = &frame.live.observation;
         let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
@@ -124,7 +124,7 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let deepest = largest(seen.wear()).max(frame.facts.expected_wear);
+        let deepest = largest(seen.wear()).max(frame.live.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
@@ -150,7 +150,10 @@ impl<'a> Section<'a> {
     /// Returns the cut at `x`, with magnified wear and a shifted indenter. Beyond the domain the indenter continues
     /// unworn, and the surface recovers in proportion to 1/r, as under a point load.
     pub fn cut(&self, x: f64) -> Cut {
-        let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
+        let (seen, scenario) = (
+            &self.of.frame.live.observation,
+            &self.of.frame.live.scenario,
+        );
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
         let sunk = |r: f64| interpolate(seen.radii(), &seen.depression, r.min(edge));
@@ -239,7 +242,7 @@ pub fn whole(value: f64, step: f64) -> f64 {
 
 /// Returns the amplitude of u_x, m: the prescribed one, or else the amplitude of the last cycle.
 fn amplitude(frame: &Frame) -> f64 {
-    if let Some(Control::Displacement(shift)) = frame.facts.scenario.setup().drive.tangential() {
+    if let Some(Control::Displacement(shift)) = frame.live.scenario.setup().drive.tangential() {
         return shift.amplitude();
     }
     let shifts = frame.run.loops.iter().flat_map(|one| &one.shifts);

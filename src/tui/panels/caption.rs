@@ -30,7 +30,7 @@ const NOTHING: f64 = 0.02;
 const LONGEST: u16 = 54;
 
 /// Returns the areas of the picture and of its captions.
-pub fn beside(area: Rect) -> [Rect; 2] {
+pub fn split(area: Rect) -> [Rect; 2] {
     let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
     let rows = ROWS * u16::from(is_roomy);
     Layout::vertical([Min(0), Length(rows)]).areas(area)
@@ -132,7 +132,7 @@ pub fn take_ground(cell: &mut Cell) {
 }
 
 /// Writes over what is already drawn, keeping its background.
-fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
+fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     let (text, buffer) = (&*canvas.theme.printable(text), &mut *canvas.buffer);
     let style = match has_blocks(&canvas.theme) {
         true => ink(&canvas.theme).remove_modifier(Modifier::REVERSED),
@@ -169,7 +169,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     if is_brief {
         let forces = format!(" {forces} ");
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
-            on(&mut canvas, area.x + spare / 2, area.y, &forces);
+            write_over(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
         // A wide picture has room for the meaning of all colours.
         let mut key = match area.width >= ROOMY[0] {
@@ -186,20 +186,22 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     }
     let speed = speed(frame);
     let geometry = frame.live.observation.geometry;
-    let said = geometry.named(&phase(&frame.live.observation.moment, speed));
+    let said = geometry.term(&phase(&frame.live.observation.moment, speed));
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
-    on(&mut canvas, start, area.y, &said);
+    write_over(&mut canvas, start, area.y, &said);
     match speed {
         _ if area.width < LONGEST + 10 => {}
-        Some(speed) if speed >= TURNS => on(&mut canvas, start + LONGEST + 2, area.y, "━━▶"),
-        Some(speed) if speed <= -TURNS => on(&mut canvas, start - 5, area.y, "◀━━"),
+        Some(speed) if speed >= TURNS => {
+            write_over(&mut canvas, start + LONGEST + 2, area.y, "━━▶")
+        }
+        Some(speed) if speed <= -TURNS => write_over(&mut canvas, start - 5, area.y, "◀━━"),
         _ => {}
     }
-    on(&mut canvas, start, area.y + 1, &forces);
+    write_over(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
-    let worn = geometry.named(&worn(seen, |depth| value(depth, "m")));
+    let worn = geometry.term(&worn(seen, |depth| value(depth, "m")));
     let worn = canvas.printable(&worn);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
@@ -223,8 +225,8 @@ fn radii(section: &Section, canvas: &mut Canvas) {
         for x in [-r, r] {
             if let (Some(column), Some([row, _])) = (section.column(x), section.rows_above(x)) {
                 let above = row.saturating_sub(1).max(section.area.y);
-                on(canvas, column, above, name);
-                on(canvas, column, row, "┊");
+                write_over(canvas, column, above, name);
+                write_over(canvas, column, row, "┊");
             }
         }
     }

@@ -110,7 +110,7 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// Makes the cut; `None` if there is nothing to draw.
-    pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
+    pub fn new(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
         let seen = &frame.live.observation;
         let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
@@ -136,8 +136,8 @@ impl<'a> Section<'a> {
             high,
             wear: if seen.law.is_some() { wear } else { 1.0 },
             motion,
-            shift: whole(motion * seen.moment.shift, width),
-            lift: seen.moment.depth - whole(seen.moment.depth, 2.0 * half),
+            shift: round_to_step(motion * seen.moment.shift, width),
+            lift: seen.moment.depth - round_to_step(seen.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
@@ -175,7 +175,7 @@ impl<'a> Section<'a> {
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
         // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
-        let along = (x - self.given_way(moment.contact_radius, r)).abs();
+        let along = (x - self.shift_at(moment.contact_radius, r)).abs();
         let unworn = match (x - self.shift).abs() > rim {
             true => f64::INFINITY,
             false => indenter.profile(along.min(rim)) - moment.depth + self.lift,
@@ -190,7 +190,7 @@ impl<'a> Section<'a> {
     }
 
     /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
-    fn given_way(&self, contact: f64, r: f64) -> f64 {
+    fn shift_at(&self, contact: f64, r: f64) -> f64 {
         let way = 4.0 * self.shift.abs();
         match r - contact {
             _ if contact == 0.0 => self.shift,
@@ -236,7 +236,7 @@ impl<'a> Section<'a> {
 }
 
 /// Returns the nearest multiple of a step.
-pub fn whole(value: f64, step: f64) -> f64 {
+pub fn round_to_step(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 

@@ -77,7 +77,7 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         let is_less = |(i, free): (usize, &Free)| {
             let met = accuracy * free.size(found.theta[i]);
             // What the data do not determine needs no finer level.
-            let error = errors.of(i);
+            let error = errors.standard_error(i);
             [error == 0.0 || left[i] <= SMALL * error, left[i] <= met]
         };
         let keys = search.fit.free.iter().enumerate().map(is_less);

@@ -105,7 +105,7 @@ impl Fit {
         options: Options,
     ) -> Result<Self> {
         let scenario = checked::with_stroke(scenario, &data, free, options.takes_stroke)?;
-        let free = free.iter().map(|key| Free::of(&scenario, key));
+        let free = free.iter().map(|key| Free::new(&scenario, key));
         let free: Vec<Free> = free.collect::<Result<_>>()?;
         let is_empty = free.is_empty() || data.is_empty();
         let rule = "needs a key to fit and a data set to fit it to".to_owned();
@@ -185,8 +185,9 @@ impl Fit {
             (Err(_), Some(found)) if !in_time() => (search, found),
             (best, _) => best?,
         };
-        if search.drop_vague(&found) {
-            found = search.descend(&found.theta).unwrap_or(found);
+        if search.drop_undetermined(&found) {
+            let better = search.descend(&found.theta);
+            found = better.or_else(|why| if in_time() { Err(why) } else { Ok(found) })?;
         }
         let (mut errors, numerical) = levels::refine(&mut search, &mut found)?;
         let intervals = profile::intervals(&search, &found, &errors);

@@ -29,7 +29,7 @@ pub(super) type Interval = [Option<f64>; 2];
 pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<Option<Interval>> {
     let keys = search.fit.free.iter().enumerate();
     let is_vague = keys.map(|(i, free)| {
-        let error = errors.of(i);
+        let error = errors.standard_error(i);
         free.is_positive() && !(error > 0.0 && error <= VAGUE)
     });
     let is_vague: Vec<bool> = is_vague.collect();
@@ -50,7 +50,7 @@ pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<
     for (i, interval) in none.iter_mut().enumerate().filter(|(i, _)| is_vague[*i]) {
         let high = profile.end(i, 1.0);
         let ends = [profile.end(i, -1.0), high];
-        let two = RISE * errors.of(i);
+        let two = RISE * errors.standard_error(i);
         let is_near = |end: &Option<f64>| {
             end.is_some_and(|end| ((end - profile.theta[i]).abs() / two - 1.0).abs() < SYMMETRIC)
         };

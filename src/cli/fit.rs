@@ -176,7 +176,7 @@ fn data(options: &args::Fit) -> Result<Vec<Measured>> {
 }
 
 /// Splits `FILE@CYCLE` into file and cycle; an existing file of that full name takes precedence.
-fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
+pub(super) fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
     let bytes = given.as_os_str().as_bytes();
     let sign = bytes.iter().rposition(|&byte| byte == b'@');
     let parts = sign.filter(|_| !given.exists()).and_then(|at| {

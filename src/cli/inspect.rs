@@ -1,15 +1,18 @@
 //! `mdr-tui inspect`: how a measured table is understood, before anything is fitted to it.
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde::Serialize;
 
 use super::args::Inspect;
-use super::{results, small_multiples};
+use super::fit::at_cycle;
+use super::{given, results, small_multiples};
 use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::reading::column::unit_of;
+use crate::scenario::Refusal;
 use crate::scenario::columns::Columns;
+use crate::studies::fit::{ModelCycle, model_cycle};
 use crate::studies::measured::record::{Figures, Record};
 use crate::studies::measured::{Kind, Measured, loop_columns};
 use crate::traces::Axes;
@@ -30,6 +33,15 @@ struct Understood {
     notes: Vec<String>,
     /// The measured figures of each cycle of a loop.
     cycles: Vec<CycleRow>,
+    /// Those of the scenario, and the mean of the measured ones in units of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beside: Option<Beside>,
+}
+
+#[derive(Serialize)]
+struct Beside {
+    model: CycleRow,
+    ratio: CycleRow,
 }
 
 #[derive(Serialize)]
@@ -61,7 +73,8 @@ struct CycleRow {
 
 /// Prints and draws how a file is understood.
 pub fn inspect(options: &Inspect) -> Result<()> {
-    let columns = Columns::read_as(&options.file, &options.naming.of_columns())?;
+    let (path, cycle) = at_cycle(&options.file);
+    let columns = Columns::read_as(&path, &options.naming.of_columns())?;
     let kind = Kind::detect(&columns);
     let measured = match kind {
         Some(Kind::Loop) => Some(Measured::fretting_loop(&columns, options.pick)?),
@@ -78,8 +91,24 @@ pub fn inspect(options: &Inspect) -> Result<()> {
     };
     let mut understood = interpret(&columns, &measured, kind);
     if kind == Some(Kind::Loop) {
-        understood.cycles = cycles(&columns, options)?;
+        let ours = options.scenario.as_ref().map(|name| {
+            let scenario = given::scenario(name, &[])?;
+            let cycle = cycle.or(measured.cycle).or(scenario.run().cycles);
+            let cycle = cycle.unwrap_or(1.0);
+            let ours = model_cycle(&scenario, cycle)?;
+            ours.map(|ours| (cycle, ours)).ok_or_else(|| {
+                let rule = "has no tangential motion, so no loop stands beside the measured one";
+                anyhow!(Refusal::new(scenario.title(), rule))
+            })
+        });
+        let ours = ours.transpose()?;
+        let load = options.load.or(ours.as_ref().map(|(_, ours)| ours.load));
+        understood.cycles = cycles(&columns, options, load)?;
         understood.notes.extend(trends(&understood.cycles));
+        understood.beside = match &ours {
+            Some((cycle, ours)) => Some(beside(&understood.cycles, *cycle, ours)?),
+            None => None,
+        };
     }
     results::print(options.json.then_some(&understood), || {
         let over_cycles = of_cycles(&understood.cycles);
@@ -124,6 +153,7 @@ fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Unde
         columns: described.collect(),
         notes,
         cycles: Vec::new(),
+        beside: None,
     }
 }
 
@@ -158,7 +188,7 @@ fn of_trace(measured: &Measured) -> Vec<String> {
 }
 
 /// Returns the figures of every selected cycle.
-fn cycles(columns: &Columns, options: &Inspect) -> Result<Vec<CycleRow>> {
+fn cycles(columns: &Columns, options: &Inspect, load: Option<f64>) -> Result<Vec<CycleRow>> {
     let ([u, force], _) = columns.whole_rows(loop_columns(columns))?;
     let mut record = Record::new(&u, &force).map_err(|why| columns.refuse(why))?;
     if let Some(pick) = options.pick {
@@ -167,7 +197,7 @@ fn cycles(columns: &Columns, options: &Inspect) -> Result<Vec<CycleRow>> {
     Ok(record
         .cycles
         .iter()
-        .map(|cycle| row(cycle.number, &cycle.figures, options.load))
+        .map(|cycle| row(cycle.number, &cycle.figures, load))
         .collect())
 }
 
@@ -190,6 +220,32 @@ fn row(number: usize, figures: &Figures, load: Option<f64>) -> CycleRow {
         mean_displacement_m: figures.means[0],
         mean_force_N: figures.means[1],
     }
+}
+
+/// Returns the figures of the model's cycle, and the mean measured ones in units of these.
+fn beside(cycles: &[CycleRow], cycle: f64, ours: &ModelCycle) -> Result<Beside> {
+    let record = Record::new(&ours.displacements, &ours.forces).map_err(anyhow::Error::msg)?;
+    let figures = record.cycles.first().context("the model has no cycle")?;
+    let model = row(cycle.round() as usize, &figures.figures, Some(ours.load));
+    let ratio = |of: fn(&CycleRow) -> f64| {
+        cycles.iter().map(of).sum::<f64>() / cycles.len() as f64 / of(&model)
+    };
+    let friction = |row: &CycleRow| row.friction.unwrap_or(f64::NAN);
+    let ratio = CycleRow {
+        cycle: cycles.len(),
+        energy_per_cycle_J: ratio(|row| row.energy_per_cycle_J),
+        F_x_amplitude_N: ratio(|row| row.F_x_amplitude_N),
+        u_x_amplitude_m: ratio(|row| row.u_x_amplitude_m),
+        opening_m: ratio(|row| row.opening_m),
+        energy_ratio: ratio(|row| row.energy_ratio),
+        energy_ratio_B: ratio(|row| row.energy_ratio_B),
+        sliding_ratio: ratio(|row| row.sliding_ratio),
+        friction: Some(ratio(friction)),
+        // The zeros of an instrument have no ratio to those of the model.
+        mean_displacement_m: f64::NAN,
+        mean_force_N: f64::NAN,
+    };
+    Ok(Beside { model, ratio })
 }
 
 /// Describes zeros that are off, and drift from the first cycle to the last.
@@ -253,24 +309,36 @@ impl Understood {
                     .to_owned(),
             );
             let every = self.cycles.len().div_ceil(MOST_ROWS);
-            for row in self.cycles.iter().step_by(every) {
-                let friction = row
-                    .friction
-                    .map_or("      -".to_owned(), |friction| format!("{friction:7.4}"));
+            let rows = self.cycles.iter().step_by(every);
+            lines.extend(rows.map(|row| row.text(&row.cycle.to_string())));
+            if let Some(Beside { model, ratio }) = &self.beside {
+                lines.push(model.text("model"));
+                lines.push(ratio.text("ratio"));
+                let (count, cycle) = (ratio.cycle, model.cycle);
                 lines.push(format!(
-                    "{:5}  {:9.3e}  {:9.3e}  {:9.3e}  {:9.3e}  {:5.3}  {:5.3}  {:5.3} {friction}",
-                    row.cycle,
-                    row.energy_per_cycle_J,
-                    row.F_x_amplitude_N,
-                    row.u_x_amplitude_m,
-                    row.opening_m,
-                    row.energy_ratio,
-                    row.energy_ratio_B,
-                    row.sliding_ratio
+                    "ratio: the mean of {count} cycles to cycle {cycle} of the model"
                 ));
             }
         }
         lines.iter().map(|line| format!("{line}\n")).collect()
+    }
+}
+
+impl CycleRow {
+    /// Its line in the table.
+    fn text(&self, label: &str) -> String {
+        let friction = self.friction.map(|friction| format!("{friction:7.4}"));
+        format!(
+            "{label:>5}  {:9.3e}  {:9.3e}  {:9.3e}  {:9.3e}  {:5.3}  {:5.3}  {:5.3} {}",
+            self.energy_per_cycle_J,
+            self.F_x_amplitude_N,
+            self.u_x_amplitude_m,
+            self.opening_m,
+            self.energy_ratio,
+            self.energy_ratio_B,
+            self.sliding_ratio,
+            friction.unwrap_or_else(|| "      -".to_owned())
+        )
     }
 }
 

@@ -125,7 +125,7 @@ fn the_chapter_on_measuring_finds_mu_and_k() {
         &dir.done("inspect trace.csv"),
         "2 of 201 rows have missing values",
     );
-    let keys = "--free friction.coefficient,wear.coefficient --json --quiet";
+    let keys = "--free friction.coefficient,wear.coefficient --json --quiet --out fitted.toml";
     let told = dir.done(&format!(
         "fit rig.toml --loop record.txt@2 --scar trace.csv {keys}"
     ));
@@ -140,6 +140,18 @@ fn the_chapter_on_measuring_finds_mu_and_k() {
             (value - expected).abs() < 2.5 * error && error < share * expected,
             "{key}: {value:e} ± {error:e}"
         );
+    }
+    // What was fitted makes the loop that was measured.
+    let beside = dir.done("inspect record.txt@2 --scenario fitted.toml --json");
+    let beside: serde_json::Value = serde_json::from_str(&beside).expect("JSON");
+    for (figure, share) in [
+        ("energy_per_cycle_J", 0.05),
+        ("F_x_amplitude_N", 0.03),
+        ("u_x_amplitude_m", 0.02),
+        ("friction", 0.1),
+    ] {
+        let ratio = beside["beside"]["ratio"][figure].as_f64().expect("a ratio");
+        assert!((ratio - 1.0).abs() < share, "{figure}: {ratio}");
     }
     let nuisance = |set: usize, k: usize| {
         told["data"][set]["nuisances"][k]["value"]

@@ -242,7 +242,11 @@ impl Naming {
     /// Returns the same for the reader of tables.
     pub fn of_columns(&self) -> columns::Naming {
         let (fields, units) = (self.fields.clone(), self.units.clone());
-        columns::Naming { fields, units }
+        columns::Naming {
+            fields,
+            units,
+            key: None,
+        }
     }
 }
 
@@ -255,10 +259,13 @@ pub struct Inspect {
     /// How its columns are to be read.
     #[command(flatten)]
     pub naming: Naming,
+    /// Print the figures of this scenario beside those of a loop; of its cycle X with FILE@X, else of its last one.
+    #[arg(long, value_name = "SCENARIO")]
+    pub scenario: Option<OsString>,
     /// Look at these cycles of a loop's record, counted from 1.
     #[arg(long, value_name = "FIRST..LAST")]
     pub pick: Option<Pick>,
-    /// The normal force, for the coefficient of friction of each cycle, e.g. 30N.
+    /// The normal force, for the coefficient of friction of each cycle, e.g. 30N; default: that of --scenario.
     #[arg(long, value_name = "FORCE", value_parser = load)]
     pub load: Option<f64>,
     /// What the plot is made of.

@@ -43,6 +43,7 @@ pub struct Columns {
     own: Vec<(String, f64)>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<Row>,
+    naming: Naming,
 }
 
 impl Columns {
@@ -105,6 +106,7 @@ impl Columns {
                 .collect(),
             names,
             rows: found.rows,
+            naming: naming.clone(),
         };
         columns.rename(naming)?;
         if let (true, Some((line, _))) = (
@@ -113,7 +115,8 @@ impl Columns {
         ) {
             return Err(refuse(format!(
                 "line {line}: begins the numbers, and a line before must name the columns, as in r_m,f_m; or name them \
-                 with --fields r=1,wear=2 --units um,nm"
+                 with {}",
+                naming.example("r=1,wear=2", "um,nm")
             )));
         }
         if let Some((line, row)) = found.uneven {
@@ -283,9 +286,10 @@ impl Columns {
             let hint = match bases.find_map(is_base) {
                 Some(at) if !unit.is_empty() => {
                     let example = if unit == "m" { "um" } else { unit };
-                    format!("{} has no unit; name it as in {base}_{example}, or give --units, one per column", self.name(at))
+                    let units = self.naming.example("", "um,nm");
+                    format!("{} has no unit; name it as in {base}_{example}, or give {units}, one per column", self.name(at))
                 }
-                _ => format!("the first line names {}; --fields {base}=1 says which it is", self.list_names()),
+                _ => format!("the first line names {}; {} says which it is", self.list_names(), self.naming.example(&format!("{base}=1"), "")),
             };
             self.refuse(format!("has no column {name}; {hint}"))
         })
@@ -362,7 +366,7 @@ mod tests {
         );
         assert_eq!(
             message("r_m,f\n0,0\n"),
-            "scar.csv: has no column f_m; f has no unit; name it as in f_um, or give --units, one per column"
+            "scar.csv: has no column f_m; f has no unit; name it as in f_um, or give --units um,nm, one per column"
         );
         assert_eq!(
             message("0,1\n1,2\n"),
@@ -429,6 +433,7 @@ mod tests {
                 .map(|field| field.parse().expect("a field"))
                 .collect(),
             units: units.iter().map(|unit| (*unit).to_owned()).collect(),
+            key: None,
         };
         let read = |text, naming| Columns::parse_as(text, "scar.csv", &naming);
         let named = read(

@@ -1,8 +1,9 @@
-//! What a user says of the columns of a file whose lines do not say it: `--fields r=2,wear=3 --units um,nm`.
+//! What a user says of the columns of a file whose lines do not say it: `--fields r=2,wear=3 --units um,nm`, or in a
+//! scenario `file = { file = "tip.csv", fields = "r=2,f=3", units = "um,nm" }`.
 
 use std::str::FromStr;
 
-use super::{Columns, Refusal, names};
+use super::{Columns, Refusal, echo, names};
 
 /// What a user says of the columns of a file whose lines do not say it.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -11,6 +12,26 @@ pub struct Naming {
     pub fields: Vec<Field>,
     /// The units of these fields in their order, or else of the columns of the file.
     pub units: Vec<String>,
+    /// The key of the scenario that names the file, if one does.
+    pub key: Option<&'static str>,
+}
+
+impl Naming {
+    /// Returns what the user would write to name `fields` and their `units`; either may be empty.
+    pub(super) fn example(&self, fields: &str, units: &str) -> String {
+        let given = [("fields", fields), ("units", units)];
+        let given = given.iter().filter(|(_, value)| !value.is_empty());
+        match self.key {
+            Some(key) => {
+                let given = given.map(|(name, value)| format!(", {name} = \"{value}\""));
+                format!("{key} = {{ file = \"...\"{} }}", given.collect::<String>())
+            }
+            None => {
+                let given = given.map(|(name, value)| format!("--{name} {value}"));
+                given.collect::<Vec<_>>().join(" ")
+            }
+        }
+    }
 }
 
 /// A quantity and its column, as in `r=2`.
@@ -45,7 +66,11 @@ impl Columns {
         let is_known = |unit: &str| names::is_unit(unit) || ["-", "1", "cycles"].contains(&unit);
         if let Some(unit) = naming.units.iter().find(|unit| !is_known(unit)) {
             let rule = "is not a unit such as um, nm, N, mm^3";
-            return Err(Refusal::of_value("--units", unit, rule));
+            return Err(self.refuse(format!(
+                "{}: {}: {rule}",
+                naming.example("", "..."),
+                echo(unit)
+            )));
         }
         if naming.fields.is_empty() {
             let named = self.own.iter_mut().zip(&self.names);
@@ -62,7 +87,8 @@ impl Columns {
             let Some(at) = by_number.map(|number: usize| number - 1).or_else(by_name) else {
                 let (count, named) = (self.own.len(), self.list_names());
                 return Err(self.refuse(format!(
-                    "--fields {quantity}={column}: has {count} columns, {named}"
+                    "{}: has {count} columns, {named}",
+                    naming.example(&format!("{quantity}={column}"), "")
                 )));
             };
             // A unit that stands in the file holds unless another is given.

@@ -49,6 +49,16 @@ pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
     Ok(level.of_scenario(scenario)?)
 }
 
+/// The scenario on the level from which on a fit may end: two finer than that of the search.
+pub(super) fn of_figures(scenario: &Scenario) -> Result<Scenario> {
+    let search = of_search(scenario)?;
+    if scenario.accuracy().is_none() {
+        return Ok(search);
+    }
+    let finer = Level::of(&search).scaled(FINER * FINER, FINER * FINER);
+    Ok(finer.of_scenario(&search)?)
+}
+
 /// Moves a minimum to finer levels. Returns its uncertainty and the numerical errors of the keys; none where no finer
 /// level could be run. A level that the scenario names is kept, and a finer one only tells its error.
 ///

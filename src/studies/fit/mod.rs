@@ -49,6 +49,7 @@ mod solver;
 mod starts;
 mod structure;
 
+pub use model::{ModelCycle, model_cycle};
 pub use nuisance::NAMES;
 pub use report::{Fitted, Nuisance, SetResult, Value};
 pub use structure::Structure;

@@ -1,6 +1,9 @@
 //! Evaluates the scenario at each point of the data.
 
 use super::scar::WornDepth;
+use anyhow::Result;
+
+use super::levels;
 use crate::contact::indenter::Indenter;
 use crate::math::scan::{largest, value_at};
 use crate::reading::Column;
@@ -128,6 +131,36 @@ pub(super) fn simulate(
         correction: vec![0.0; set.at.len()],
     });
     Ok((responses.collect(), session.simulation().steps()))
+}
+
+/// A cycle of the model as a rig would record it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelCycle {
+    /// The displacement at the sensor, m.
+    pub displacements: Vec<f64>,
+    /// F_x, N.
+    pub forces: Vec<f64>,
+    /// The mean of F_z, N.
+    pub load: f64,
+}
+
+/// Runs a scenario up to the end of `cycle`, on the cells and steps of a fit; `None` without tangential motion.
+///
+/// # Errors
+/// A contact that cannot be computed.
+pub fn model_cycle(scenario: &Scenario, cycle: f64) -> Result<Option<ModelCycle>> {
+    let mut session = Session::start(levels::of_figures(scenario)?)?;
+    session.advance_while(cycle, |_| true)?;
+    let Some(period) = session.simulation().fine_period() else {
+        return Ok(None);
+    };
+    let (displacements, forces) = last_period(session.simulation()).into_iter().unzip();
+    let loads = period.points.iter().map(|point| point.normal_force);
+    Ok(Some(ModelCycle {
+        displacements,
+        forces,
+        load: loads.sum::<f64>() / period.points.len() as f64,
+    }))
 }
 
 /// What one cycle adds to an abscissa of histories.

@@ -60,10 +60,7 @@ impl Quantity {
     pub const fn is_promised(self) -> bool {
         match self {
             Self::WornDepth | Self::Deepest | Self::Volume | Self::Energy | Self::Force => true,
-            Self::Loop
-            | Self::Pressure
-            | Self::ContactRadius
-            | Self::StickRadius => false,
+            Self::Loop | Self::Pressure | Self::ContactRadius | Self::StickRadius => false,
         }
     }
 }

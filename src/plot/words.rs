@@ -113,7 +113,7 @@ impl Frame<'_> {
     fn names_at_ends(&self, raster: &Raster) -> Option<Vec<(Rect, String, Style)>> {
         let (theme, inner) = (self.plot.theme, self.inner);
         let mut placed: Vec<(Rect, String, Style)> = Vec::new();
-        for curve in self.plot.chart.named() {
+        for curve in self.plot.chart.named_curves() {
             let name = theme.printable(&curve.name);
             let width = cells(&name);
             let cell = |(x, y)| Some((self.x.window.cell(x)?, self.y.window.cell(y)?));

@@ -5,10 +5,10 @@
 
 use std::sync::OnceLock;
 
-use super::beside::From;
 use super::completion::{self, Completion};
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
+use super::ghosts::Since;
 use super::keys::Key::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
 use super::panels::StressMap;
@@ -79,7 +79,7 @@ commands! {
     "run" {
         RunPause [Char(' ')] "run/pause", "run or pause the simulation", Work(Worker::run_or_pause);
         Step [Char('.')] "step", "pause and take one step", Work(Worker::step_once);
-        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(|run| run.step_by_hand(ends_cycle));
+        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(|run| run.step_manually(ends_cycle));
         Faster [Char('+'), Char('=')] "faster", "more cycles per second, up to full speed", Work(|run| run.change_pace(1));
         Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
         HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
@@ -131,7 +131,7 @@ commands! {
     "compare and check" {
         Compare [Char('c')] "compare", "compare with a second method; m and M change it", Work(Worker::compare_or_stop);
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
-            Work(|run| run.compare(0, From::Start));
+            Work(|run| run.compare(0, Since::Start));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
         DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_anew(Worker::drop_ghosts));
         Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Open;
@@ -140,7 +140,7 @@ commands! {
         TimeBack [Char('[')] "back in time", "back in time; running or editing branches from there",
             Work(|run| run.travel(Past::back, "this is the start of the run"));
         TimeForth [Char(']')] "forward in time", "forward in time, up to the present",
-            Work(|run| run.travel(Past::forth, "this is the present"));
+            Work(|run| run.travel(Past::forward, "this is the present"));
         TimeFarBack [Named(N::PageUp)] "far back", "ten states back in time",
             Work(|run| run.travel(|past| past.go(-10), "this is the start of the run"));
         TimeFarForth [Named(N::PageDown)] "far forward", "ten states forward in time",

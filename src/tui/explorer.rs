@@ -114,12 +114,12 @@ impl Explorer {
 
     /// Shows a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let origin = frame.facts.scenario.origin();
+        let origin = frame.live.scenario.origin();
         self.charts.begin(origin);
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
         self.stress.follow(&frame);
-        self.calm.take(&frame, self.stage.shows_contact());
+        self.calm.update(&frame, self.stage.shows_contact());
         if self.speed_up.is_due(&frame, self.stage.presents) {
             self.order(|run| run.change_pace(1));
         }
@@ -129,12 +129,7 @@ impl Explorer {
 
     /// Returns the preset or the file on the screen.
     pub(super) fn origin(&self) -> &str {
-        self.frame.facts.scenario.origin()
-    }
-
-    /// Whether a comparison replaces all panels.
-    pub(super) fn compares(&self) -> bool {
-        self.frame.comparison.is_some()
+        self.frame.live.scenario.origin()
     }
 
     /// Stores the terminal's size; hidden panels are not computed.
@@ -154,8 +149,7 @@ impl Explorer {
     pub(super) fn click(&mut self, at: Position, is_second: bool) {
         self.begin_answer();
         let frame = Arc::clone(&self.frame);
-        let bands = layout::bands(self.stage.area).filter(|_| !self.compares());
-        let Some([_, line, area, _]) = bands else {
+        let Some([_, line, area, _]) = layout::bands(self.stage.area) else {
             return;
         };
         if let Some(cycle) = timeline::cycle_at(&frame, line, at) {
@@ -172,7 +166,7 @@ impl Explorer {
         let chart = chart.as_deref().and_then(|made| made.as_ref().ok());
         let place = chart.and_then(|chart| panels::abscissa_at(chart, &self.theme, place, at));
         let place = place.filter(|_| self.cursor.is_shown() && !is_second);
-        if let Some((place, whole)) = place.zip(self.charts.whole(panel)) {
+        if let Some((place, whole)) = place.zip(self.charts.whole_range(panel)) {
             self.cursor.put(abscissa(panel), whole, place);
         }
         self.stage.click(panel, is_second, place.is_some());
@@ -203,7 +197,7 @@ impl Explorer {
         let of = abscissa(self.stage.focus);
         let whole = match of {
             cursor::RADIUS => Some([0.0, self.frame.run.edge()]),
-            _ => self.charts.whole(self.stage.focus),
+            _ => self.charts.whole_range(self.stage.focus),
         };
         Some((of, whole?))
     }

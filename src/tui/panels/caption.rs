@@ -30,7 +30,7 @@ const NOTHING: f64 = 0.02;
 const LONGEST: u16 = 54;
 
 /// Returns the areas of the picture and of its captions.
-pub fn beside(area: Rect) -> [Rect; 2] {
+pub fn split(area: Rect) -> [Rect; 2] {
     let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
     let rows = ROWS * u16::from(is_roomy);
     Layout::vertical([Min(0), Length(rows)]).areas(area)
@@ -43,7 +43,7 @@ fn speed(frame: &Frame) -> Option<f64> {
     let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
     let fastest = steps.clone().map(f64::abs).fold(0.0, f64::max);
     // Ignores motion due to rounding.
-    let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
+    let is_seen = fastest > 1e-12 * frame.live.observation.moment.contact_radius;
     let last = steps.next_back().filter(|_| is_seen)?;
     Some(last / fastest)
 }
@@ -80,7 +80,7 @@ fn phase(moment: &Moment, speed: Option<f64>) -> String {
 
 /// Describes what has worn since the start.
 fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
-    let seen = &frame.observation;
+    let seen = &frame.live.observation;
     let deepest = largest(seen.wear());
     if seen.law.is_none() {
         return "Nothing wears in this scenario: both bodies keep their shape.".into();
@@ -89,7 +89,7 @@ fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
         return "Nothing has worn yet: wear needs pressure and sliding.".into();
     }
     let depth = value(deepest);
-    let bodies = frame.facts.scenario.wear_share().map(|share| {
+    let bodies = frame.live.scenario.wear_share().map(|share| {
         let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest));
         format!(" (indenter {indenter}, half-space {half_space})")
     });
@@ -132,7 +132,7 @@ pub fn take_ground(cell: &mut Cell) {
 }
 
 /// Writes over what is already drawn, keeping its background.
-fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
+fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     let (text, buffer) = (&*canvas.theme.printable(text), &mut *canvas.buffer);
     let style = match has_blocks(&canvas.theme) {
         true => ink(&canvas.theme).remove_modifier(Modifier::REVERSED),
@@ -150,7 +150,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     let (frame, area) = (section.of.frame, canvas.area);
     // Numbers change too fast to be read in every frame, so they come from the calm one.
     let seen = section.of.calm;
-    let calm = &seen.observation.moment;
+    let calm = &seen.live.observation.moment;
     let value = |value, unit| format_value(value, unit, 3);
     if area.height < 5 || area.width < 30 {
         return;
@@ -169,7 +169,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     if is_brief {
         let forces = format!(" {forces} ");
         if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
-            on(&mut canvas, area.x + spare / 2, area.y, &forces);
+            write_over(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
         // A wide picture has room for the meaning of all colours.
         let mut key = match area.width >= ROOMY[0] {
@@ -185,21 +185,23 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         return canvas.at(place).show(scale);
     }
     let speed = speed(frame);
-    let geometry = frame.observation.geometry;
-    let said = geometry.named(&phase(&frame.observation.moment, speed));
+    let geometry = frame.live.observation.geometry;
+    let said = geometry.term(&phase(&frame.live.observation.moment, speed));
     // The words stay where they are when the motion turns.
     let start = area.x + area.width.saturating_sub(LONGEST) / 2;
-    on(&mut canvas, start, area.y, &said);
+    write_over(&mut canvas, start, area.y, &said);
     match speed {
         _ if area.width < LONGEST + 10 => {}
-        Some(speed) if speed >= TURNS => on(&mut canvas, start + LONGEST + 2, area.y, "━━▶"),
-        Some(speed) if speed <= -TURNS => on(&mut canvas, start - 5, area.y, "◀━━"),
+        Some(speed) if speed >= TURNS => {
+            write_over(&mut canvas, start + LONGEST + 2, area.y, "━━▶")
+        }
+        Some(speed) if speed <= -TURNS => write_over(&mut canvas, start - 5, area.y, "◀━━"),
         _ => {}
     }
-    on(&mut canvas, start, area.y + 1, &forces);
+    write_over(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
-    let worn = geometry.named(&worn(seen, |depth| value(depth, "m")));
+    let worn = geometry.term(&worn(seen, |depth| value(depth, "m")));
     let worn = canvas.printable(&worn);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
@@ -216,15 +218,15 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
 
 /// Draws c and a: a short line over each border, and its name.
 fn radii(section: &Section, canvas: &mut Canvas) {
-    let moment = &section.of.calm.observation.moment;
+    let moment = &section.of.calm.live.observation.moment;
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
     for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {
         for x in [-r, r] {
             if let (Some(column), Some([row, _])) = (section.column(x), section.rows_above(x)) {
                 let above = row.saturating_sub(1).max(section.area.y);
-                on(canvas, column, above, name);
-                on(canvas, column, row, "┊");
+                write_over(canvas, column, above, name);
+                write_over(canvas, column, row, "┊");
             }
         }
     }

@@ -71,11 +71,11 @@ impl Cut {
 /// Returns the heights that the picture spans, m: the whole indenter's flank within the domain, and as much of the
 /// half-space.
 pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
-    let depth = frame.observation.moment.depth;
-    if frame.observation.depression.is_empty() {
+    let depth = frame.live.observation.moment.depth;
+    if frame.live.observation.depression.is_empty() {
         return None;
     }
-    let indenter = &frame.facts.scenario.setup().indenter;
+    let indenter = &frame.live.scenario.setup().indenter;
     let flank = match indenter.rim() {
         Some(_) => depth.abs(),
         None => indenter.profile(WIDER * frame.run.edge()),
@@ -110,9 +110,9 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// Makes the cut; `None` if there is nothing to draw.
-    pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
+    pub fn new(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
-        let seen = &frame.observation;
+        let seen = &frame.live.observation;
         let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
@@ -124,7 +124,7 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let deepest = largest(seen.wear()).max(frame.facts.expected_wear);
+        let deepest = largest(seen.wear()).max(frame.live.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
@@ -136,8 +136,8 @@ impl<'a> Section<'a> {
             high,
             wear: if seen.law.is_some() { wear } else { 1.0 },
             motion,
-            shift: whole(motion * seen.moment.shift, width),
-            lift: seen.moment.depth - whole(seen.moment.depth, 2.0 * half),
+            shift: round_to_step(motion * seen.moment.shift, width),
+            lift: seen.moment.depth - round_to_step(seen.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
@@ -150,7 +150,10 @@ impl<'a> Section<'a> {
     /// Returns the cut at `x`, with magnified wear and a shifted indenter. Beyond the domain the indenter continues
     /// unworn, and the surface recovers in proportion to 1/r, as under a point load.
     pub fn cut(&self, x: f64) -> Cut {
-        let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
+        let (seen, scenario) = (
+            &self.of.frame.live.observation,
+            &self.of.frame.live.scenario,
+        );
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
         let sunk = |r: f64| interpolate(seen.radii(), &seen.depression, r.min(edge));
@@ -172,7 +175,7 @@ impl<'a> Section<'a> {
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
         // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
-        let along = (x - self.given_way(moment.contact_radius, r)).abs();
+        let along = (x - self.shift_at(moment.contact_radius, r)).abs();
         let unworn = match (x - self.shift).abs() > rim {
             true => f64::INFINITY,
             false => indenter.profile(along.min(rim)) - moment.depth + self.lift,
@@ -187,7 +190,7 @@ impl<'a> Section<'a> {
     }
 
     /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
-    fn given_way(&self, contact: f64, r: f64) -> f64 {
+    fn shift_at(&self, contact: f64, r: f64) -> f64 {
         let way = 4.0 * self.shift.abs();
         match r - contact {
             _ if contact == 0.0 => self.shift,
@@ -233,13 +236,13 @@ impl<'a> Section<'a> {
 }
 
 /// Returns the nearest multiple of a step.
-pub fn whole(value: f64, step: f64) -> f64 {
+pub fn round_to_step(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 
 /// Returns the amplitude of u_x, m: the prescribed one, or else the amplitude of the last cycle.
 fn amplitude(frame: &Frame) -> f64 {
-    if let Some(Control::Displacement(shift)) = frame.facts.scenario.setup().drive.tangential() {
+    if let Some(Control::Displacement(shift)) = frame.live.scenario.setup().drive.tangential() {
         return shift.amplitude();
     }
     let shifts = frame.run.loops.iter().flat_map(|one| &one.shifts);

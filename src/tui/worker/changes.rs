@@ -1,6 +1,7 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
 use super::Worker;
+use super::outlet::Facts;
 use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
 use crate::panics::locked;
@@ -11,7 +12,7 @@ use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
 use crate::tui::beside::Twin;
 use crate::tui::event::Event;
-use crate::tui::frame::{Activity, Facts};
+use crate::tui::frame::Activity;
 use crate::tui::ghosts::Source;
 use crate::tui::trend::Recorded;
 
@@ -22,13 +23,13 @@ const STRIDE: f64 = 1.5;
 const COARSEST: usize = 8;
 
 impl Worker {
-    /// Steps by this many places through the transform methods, of the comparison if there is one.
+    /// Steps by this many places through the transform methods, of a comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
-        if let Some(comparison) = &self.comparison {
-            return self.compare(places, comparison.from);
+        if let Some(rival) = &self.rival {
+            return self.compare(rival.choice + places, rival.since);
         }
         let setup = self.run.simulation().setup();
-        let methods = AbelMethod::of(setup.geometry);
+        let methods = AbelMethod::for_geometry(setup.geometry);
         if methods.len() < 2 {
             return self
                 .screen
@@ -94,7 +95,7 @@ impl Worker {
         let made = self.run.session.changes().len();
         self.change(key, value);
         if self.run.session.changes().len() != made {
-            self.before = before.map(Source::before).or(self.before.take());
+            self.before = before.map(Source::unchanged).or(self.before.take());
         }
     }
 
@@ -105,7 +106,7 @@ impl Worker {
 
     /// Has `change` change the run from here on, and tells the user what it has done.
     fn change_by(&mut self, change: impl FnOnce(&mut Session) -> Result<String, SessionError>) {
-        self.keep();
+        self.store();
         let changed = change(&mut self.run.session);
         let Some(done) = self.screen.or_notice(changed) else {
             return;
@@ -121,8 +122,8 @@ impl Worker {
 
     /// Updates the facts and the twin after a change of the scenario.
     pub(super) fn renew(&mut self) {
-        self.facts = Facts::of(&self.run.session);
-        self.twin = Twin::of(&self.run.session);
+        self.facts = Facts::new(&self.run.session);
+        self.twin = Twin::new(&self.run.session);
     }
 
     /// Restarts the scenario as it was loaded; the user can go back to the run so far.
@@ -159,13 +160,13 @@ impl Worker {
 
     /// Replaces this run by another one, new or read from a file.
     pub fn replace_run(&mut self, run: Recorded) {
-        self.keep();
+        self.store();
         let left = &self.past.line(&self.run).session;
-        locked(&self.autosave).turn_over(left, &run.session);
+        locked(&self.autosave).begin_session(left, &run.session);
         self.past.leave();
         self.snapshots.clear();
         self.run = run;
-        (self.stop_at, self.comparison, self.before) = (None, None, None);
+        (self.stop_at, self.rival, self.before) = (None, None, None);
         self.renew();
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

@@ -3,16 +3,17 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::outlet::Facts;
 use super::{BROKEN_DOWN, Worker};
 use crate::panics::locked;
 use crate::scenario::Change;
-use crate::tui::frame::{Activity, Facts};
+use crate::tui::frame::Activity;
 use crate::tui::undo::{Kept, Past};
 
 impl Worker {
     /// Stores the present state.
-    pub(super) fn keep(&mut self) {
-        self.past.keep(&self.run);
+    pub(super) fn store(&mut self) {
+        self.past.store(&self.run);
         self.kept_at = Instant::now();
     }
 
@@ -22,7 +23,7 @@ impl Worker {
         let left = self.past.branch()?;
         let (cycle, end) = (self.run.cycle(), left.end.run.cycle());
         if left.is_other_run {
-            locked(&self.autosave).turn_over(&left.end.run.session, &self.run.session);
+            locked(&self.autosave).begin_session(&left.end.run.session, &self.run.session);
         }
         Some(format!(
             "branch at cycle {cycle:.2}; [ leads back to the run up to {end:.2}"
@@ -35,15 +36,15 @@ impl Worker {
         way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>,
         end: &str,
     ) {
-        self.keep();
+        self.store();
         let Some(kept) = way(&mut self.past) else {
             return self.screen.notice(end);
         };
         self.run = kept.run.clone();
         self.stop_at = None;
-        self.comparison = None;
+        self.rival = None;
         self.activity = Activity::Paused;
-        self.facts = Facts::of(&self.run.session);
+        self.facts = Facts::new(&self.run.session);
     }
 }
 
@@ -96,7 +97,7 @@ impl Worker {
         if run.cycle() > before || !due.is_empty() {
             self.past.insert(run.clone());
             self.run = run;
-            self.facts = Facts::of(&self.run.session);
+            self.facts = Facts::new(&self.run.session);
         }
     }
 

@@ -112,9 +112,10 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
 
 /// Returns the exit code of a study.
 fn succeeded(has_succeeded: bool) -> ExitCode {
-    match has_succeeded {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::from(FAILED),
+    if has_succeeded {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(FAILED)
     }
 }
 
@@ -155,9 +156,10 @@ fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.is::<NoTerminal>()
             || written.is_some_and(WriteError::is_misuse)
     };
-    match error.chain().any(is_misuse) {
-        true => MISUSED,
-        false => FAILED,
+    if error.chain().any(is_misuse) {
+        MISUSED
+    } else {
+        FAILED
     }
 }
 

@@ -27,9 +27,12 @@ pub fn verify(options: &Verify) -> Result<()> {
     results::write(target.as_ref(), "verify", &notes, &nodes)?;
     let rows = options.output.json.then(|| all_rows(&outcomes));
     let is_whole = options.all || options.drawing.plot || !options.problem.is_empty();
-    results::print(rows.as_ref(), || match is_whole {
-        true => format!("{}\n{}\n", text(&outcomes, options), verdict(&outcomes)),
-        false => verdict(&outcomes) + "\n",
+    results::print(rows.as_ref(), || {
+        if is_whole {
+            format!("{}\n{}\n", text(&outcomes, options), verdict(&outcomes))
+        } else {
+            verdict(&outcomes) + "\n"
+        }
     })
 }
 

@@ -98,9 +98,10 @@ impl Target {
     /// If the file exists.
     pub fn refuse_existing(&self, force: bool) -> Result<(), WriteError> {
         let rule = "already exists; choose another name or add --force";
-        match self.exists() && !force {
-            true => Err(WriteError::refused(&self.path, rule)),
-            false => Ok(()),
+        if self.exists() && !force {
+            Err(WriteError::refused(&self.path, rule))
+        } else {
+            Ok(())
         }
     }
 

@@ -191,9 +191,10 @@ fn map(
         quantity: quantity(column.name(), if is_regime { &[] } else { &values }),
         values,
         colors: ColorMap::Sequential,
-        words: match is_regime {
-            true => Regime::ALL.map(Regime::title).to_vec(),
-            false => Vec::new(),
+        words: if is_regime {
+            Regime::ALL.map(Regime::title).to_vec()
+        } else {
+            Vec::new()
         },
         places: [xs, ys],
     });

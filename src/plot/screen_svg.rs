@@ -179,9 +179,10 @@ impl Run {
     fn write(&self, svg: &mut String) {
         let (text, (x, y)) = (self.text.trim_end(), self.at);
         let width = Line::raw(text).width() as f64 * CELL.0;
-        let bold = match self.look.bold {
-            true => " font-weight=\"bold\"",
-            false => "",
+        let bold = if self.look.bold {
+            " font-weight=\"bold\""
+        } else {
+            ""
         };
         let _ = writeln!(
             svg,

@@ -206,9 +206,10 @@ impl Scenario {
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
         let is_given = self.spec.numerics.domain_radius.is_some();
-        match is_given || self.setup.indenter.rim().is_some() {
-            true => Domain::Given,
-            false => Domain::Derived,
+        if is_given || self.setup.indenter.rim().is_some() {
+            Domain::Given
+        } else {
+            Domain::Derived
         }
     }
 

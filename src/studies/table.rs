@@ -98,9 +98,12 @@ impl Table {
         let name = |at: usize, width| columns[at].2.aligned(columns[at].1, width);
         text += &line(&widths, |at| at + 1, name);
         for row in &self.rows {
-            let end = |at: usize| match columns[at].2.is_spanned_by(&row[at]) {
-                true => self.group_end(at),
-                false => at + 1,
+            let end = |at: usize| {
+                if columns[at].2.is_spanned_by(&row[at]) {
+                    self.group_end(at)
+                } else {
+                    at + 1
+                }
             };
             let cell = |at: usize, width| {
                 let (.., format) = columns[at];

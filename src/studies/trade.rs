@@ -273,9 +273,10 @@ impl Trial {
                 ];
                 let told = told.into_iter().map(|of| errors[of]);
                 row.extend(told.chain([stick]).map(|error| finite(error).into()));
-                row.push(match complaints.is_empty() {
-                    true => "ok".into(),
-                    false => complaints.join(", ").into(),
+                row.push(if complaints.is_empty() {
+                    "ok".into()
+                } else {
+                    complaints.join(", ").into()
                 });
             }
         }

@@ -97,9 +97,10 @@ impl Twin {
     /// Returns the cycle of the last comparison and the run's estimated errors, or why there are none yet; the run is
     /// at `cycle`.
     pub fn errors(&self, cycle: f64) -> Result<(f64, Difference), String> {
-        let waits = match self.lags(cycle) {
-            true => "running ...",
-            false => NOTHING_YET,
+        let waits = if self.lags(cycle) {
+            "running ..."
+        } else {
+            NOTHING_YET
         };
         let stopped = self.beside.stopped.as_deref();
         self.told.ok_or_else(|| stopped.unwrap_or(waits).to_owned())

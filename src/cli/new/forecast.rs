@@ -53,9 +53,10 @@ impl<'a> Forecast<'a> {
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
             false => ("mean pressure", mean, ""),
         };
-        let approach = match is_line {
-            true => String::new(),
-            false => format!("depth {}, ", value(depth, "m")),
+        let approach = if is_line {
+            String::new()
+        } else {
+            format!("depth {}, ", value(depth, "m"))
         };
         format!(
             "{} {}, {approach}load {}, {what} {}{place}",

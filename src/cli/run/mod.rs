@@ -309,9 +309,10 @@ impl Job<'_> {
                 crate::failpoint::stall("long step");
             }
         }
-        let reach = match simulation.may_jump() {
-            true => f64::INFINITY,
-            false => simulation.next_moment(),
+        let reach = if simulation.may_jump() {
+            f64::INFINITY
+        } else {
+            simulation.next_moment()
         };
         // A copy between two steps costs a fraction of a step and does not change the run.
         *before = self.job.next_snapshot(reach).map(|_| session.clone());

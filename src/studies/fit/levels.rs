@@ -85,9 +85,10 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         numerical = Some(left);
         let is_last = round > 0 && (is_small || is_met && is_costly);
         let before = search.clone();
-        match is_last {
-            true => search.correct(&changes, scenario),
-            false => search.move_to(scenario),
+        if is_last {
+            search.correct(&changes, scenario)
+        } else {
+            search.move_to(scenario)
         }
         let better = search.descend(&found.theta).ok();
         let better = better.map(|found| (search.uncertainty(&found), found));

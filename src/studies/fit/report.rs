@@ -103,9 +103,10 @@ impl Fitted {
         let covariance = &errors.covariance;
         let correlation = |i: usize, j: usize| {
             let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-            match norm > 0.0 {
-                true => covariance[(i, j)] / norm,
-                false => 0.0,
+            if norm > 0.0 {
+                covariance[(i, j)] / norm
+            } else {
+                0.0
             }
         };
         let keys = &search.fit.free;

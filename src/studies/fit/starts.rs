@@ -72,9 +72,10 @@ impl Search<'_> {
                 });
                 moved.collect::<Vec<_>>()
             };
-            match i < TOGETHER {
-                true => all = all.iter().flat_map(around).collect(),
-                false => all.extend(around(&start.to_vec())),
+            if i < TOGETHER {
+                all = all.iter().flat_map(around).collect()
+            } else {
+                all.extend(around(&start.to_vec()))
             }
         }
         all

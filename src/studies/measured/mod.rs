@@ -104,9 +104,10 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
     pub fn scar(columns: &Columns) -> Result<Self, Refusal> {
-        let axes = match columns.has(Axes::WEAR.y) {
-            true => Axes::WEAR,
-            false => Axes::PROFILE,
+        let axes = if columns.has(Axes::WEAR.y) {
+            Axes::WEAR
+        } else {
+            Axes::PROFILE
         };
         let mut scar = match Kind::detect(columns) {
             Some(Kind::Map) => map::read(columns, axes)?,

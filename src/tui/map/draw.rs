@@ -214,9 +214,10 @@ fn in_words(of: &Axis, number: f64) -> String {
 /// Returns the column with its range, or its words, in their colours.
 fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     let ((quantity, range), quiet) = (shown(chart), theme.style(Role::Quiet));
-    let name = match view.is_regime() {
-        true => view.column().name(),
-        false => &quantity.label,
+    let name = if view.is_regime() {
+        view.column().name()
+    } else {
+        &quantity.label
     };
     let name = Span::styled(theme.printable(name), theme.style(Role::Focus));
     let mut line = Line::from(name);

@@ -139,9 +139,10 @@ impl View {
     /// Returns the chart of the column, as on paper. Its colours end at the shown values, and its scale is switched if
     /// the user wants that.
     pub fn chart(&self) -> Chart {
-        let lines = match self.with_overlays {
-            true => [self.borders(), self.slice.criteria()],
-            false => Default::default(),
+        let lines = if self.with_overlays {
+            [self.borders(), self.slice.criteria()]
+        } else {
+            Default::default()
         };
         let mut chart = study::chart(&self.slice, self.column(), lines);
         let quantity = chart.map.as_mut().map(|map| &mut map.quantity);

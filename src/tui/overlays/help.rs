@@ -57,9 +57,10 @@ impl Help {
         let height = usize::from(area.height);
         let columns = 1 + usize::from(area.width >= 2 * WIDTH && count + 2 > height);
         let rows = count.div_ceil(columns);
-        let title = match rows + 2 <= height {
-            true => "keys (/ searches, Esc closes)",
-            false => "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)",
+        let title = if rows + 2 <= height {
+            "keys (/ searches, Esc closes)"
+        } else {
+            "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)"
         };
         let size = (columns as u16 * WIDTH, rows as u16 + 2);
         let mut inside = canvas.popup(title, size);

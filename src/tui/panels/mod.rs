@@ -141,9 +141,10 @@ pub(super) fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
         Scale::Linear if has_spikes => {
             let curves = chart.curves.iter().filter(|curve| !curve.is_theory);
             let top = curves.map(spread_top).fold(0.0, f64::max);
-            match chart.y.is_symmetric {
-                true => Some([-top, top]),
-                false => Some([low.max(-top), high.min(top)]),
+            if chart.y.is_symmetric {
+                Some([-top, top])
+            } else {
+                Some([low.max(-top), high.min(top)])
             }
         }
         Scale::Linear => Some([low, high]),

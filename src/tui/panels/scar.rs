@@ -102,9 +102,10 @@ fn draw(of: &Shown, mut canvas: Canvas) {
             look_at(frame, &theme, deepest, [x, y])
         });
         let cell = &mut canvas.buffer[at];
-        match has_blocks(&theme) {
-            true => paint_halves(cell, halves.map(|(color, _)| color)),
-            false => _ = cell.set_char(halves[0].1),
+        if has_blocks(&theme) {
+            paint_halves(cell, halves.map(|(color, _)| color))
+        } else {
+            cell.set_char(halves[0].1);
         }
     }
     legend(frame, [size, deepest], canvas);

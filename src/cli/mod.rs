@@ -202,9 +202,9 @@ fn refuse(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     let is_end =
         |line: &&str| line.starts_with("Usage:") || line.starts_with("For more information");
-    let words = text.lines().take_while(|line| !is_end(line)).map(str::trim);
-    let words: Vec<&str> = words.filter(|line| !line.is_empty()).collect();
-    let words = words.join(" ").replace(" tip: ", "; ");
+    let lines = text.lines().take_while(|line| !is_end(line)).map(str::trim);
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
+    let words = lines.join(" ").replace(" tip: ", "; ");
     let command = match Arguments::command().find_subcommand(&*first) {
         Some(_) => format!("mdr-tui {first}"),
         None => "mdr-tui".into(),

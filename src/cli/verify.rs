@@ -65,8 +65,8 @@ fn text(outcomes: &[Outcome], options: &Verify) -> String {
             text += &format!("  {line}\n");
         }
         text += &problem_table(problem, outcomes).text();
-        let left = options.points.iter();
-        let left = left.filter(|&&points| !options.long && problem.is_long(points));
+        let points = options.points.iter();
+        let left = points.filter(|&&points| !options.long && problem.is_long(points));
         let left: Vec<String> = left.map(usize::to_string).collect();
         if !left.is_empty() {
             text += &format!("N = {} only with --long\n", left.join(", "));

@@ -129,7 +129,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// If the system refuses, or the directory is another one by now; what was there before is then there still.
+    /// If the system refuses, or the directory has been replaced; the old file then stays.
     pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
         self.write_with(|out| out.write_all(contents))
     }

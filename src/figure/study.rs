@@ -79,7 +79,7 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
     })
 }
 
-/// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
+/// The default columns of a sheet: for a map the first one and the regimes, for curves all except errors.
 fn usual(slice: &Slice) -> Vec<Column> {
     let named = slice.study.columns.iter().copied();
     let regime = named.clone().filter(|name| *name == REGIME);
@@ -147,7 +147,7 @@ pub fn quantity(name: &str, values: &[f64]) -> Axis {
     })
 }
 
-/// The values of a column at points; those of the regimes are the numbers of their words.
+/// The values of a column at points; regimes count as the numbers of their words.
 fn values(slice: &Slice, column: Column, points: impl Iterator<Item = usize>) -> Vec<f64> {
     let value = |point| match column {
         REGIME => slice.regime(point).map(|regime| f64::from(regime as u8)),

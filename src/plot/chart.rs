@@ -257,8 +257,8 @@ impl Chart {
             let axis = [&self.x, &self.y][k];
             let points = curves().flat_map(|curve| curve.points().chain(curve.bars()));
             let points = points.filter(|at| across.has(at.0) && up.has(at.1) && seen(at.0));
-            let places = self.map.iter().flat_map(|map| &map.places[k]);
-            let places = places.chain(&axis.holds).copied();
+            let of_map = self.map.iter().flat_map(|map| &map.places[k]);
+            let places = of_map.chain(&axis.holds).copied();
             let places = places.filter(|place| axis.scale.has(*place));
             range(points.map(|at| [at.0, at.1][k]).chain(places))
         })

@@ -139,11 +139,11 @@ impl LiveCharts {
             };
             let mut chart = recipe.chart(&frame.run, &view);
             let made = chart.as_ref().ok();
-            let across = made.filter(|_| recipe.keeps_abscissa);
-            let across = across.and_then(|chart| chart.x.bounds);
+            let keeps = made.filter(|_| recipe.keeps_abscissa);
+            let range = keeps.and_then(|chart| chart.x.bounds);
             let extent = made.and_then(|chart| extent(chart, recipe.has_spikes));
             let along = self.update_bounds(ordinate, extent, cycle);
-            let across = self.update_bounds((panel, None), across, cycle);
+            let across = self.update_bounds((panel, None), range, cycle);
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = along;
                 chart.x.bounds = across.or(chart.x.bounds);

@@ -384,9 +384,9 @@ impl Job<'_> {
             ("field.csv", field),
         ];
         let owed = self.owed.iter().map(|(name, table)| (name.as_str(), table));
-        let files = files.iter();
-        let files = files.filter_map(|(name, text)| Some((*name, text.as_ref()?)));
-        for (name, text) in owed.chain(files) {
+        let made = files.iter();
+        let made = made.filter_map(|(name, text)| Some((*name, text.as_ref()?)));
+        for (name, text) in owed.chain(made) {
             outcome = outcome.and(self.directory.write(name, text));
         }
         outcome

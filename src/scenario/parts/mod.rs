@@ -182,7 +182,7 @@ impl Parts<'_> {
         any.and_then(|any| any.try_into().ok()).ok_or(missing)
     }
 
-    /// Notes that there is no value at `path`, which means `meaning`, unless an error already covers it.
+    /// Notes that the value at `path`, which means `meaning`, is missing, unless an error already covers it.
     fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();

@@ -23,7 +23,7 @@ const FINER: f64 = 1.6;
 /// How much smaller its tolerance of jumps is: they err by the third power of their length.
 const LESS_TOLERANT: f64 = 4.0;
 
-/// The error that is left on a level, relative to what it has moved the keys by, and that of the level before it, if errors
+/// The error left on a level, relative to how far it has moved the keys, and the error of the level before it, if errors
 /// fall with the first to second power of the steps.
 const LEFT: f64 = 1.0;
 const BEFORE: f64 = 2.2;

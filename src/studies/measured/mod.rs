@@ -91,7 +91,7 @@ pub struct Measured {
     pub cycle: Option<f64>,
     /// For a loop, which points belong to rising strokes; otherwise empty.
     pub rising: Vec<bool>,
-    /// Whether its values are means around the axis, so that it has no other side and no other centre.
+    /// Whether its values are means around the axis, which leave nothing to centre.
     pub is_averaged: bool,
     /// What was left out or corrected, one line each.
     pub notes: Vec<String>,

@@ -84,13 +84,13 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     let point = view.point();
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
     let count_place = Rect::new(area.x + behind, area.y, area.width - behind, 1);
-    let told = [
+    let parts = [
         (names, Role::Quiet),
         (vec![place(view, point)], Role::Quiet),
         (reading(view, point), Role::Notice),
     ];
     // Each part takes as many rows as it needs, and the map gets the rest.
-    let told = told.iter().flat_map(|(parts, role)| {
+    let told = parts.iter().flat_map(|(parts, role)| {
         let lines = side_by_side(parts, usize::from(area.width)).into_iter();
         lines.map(move |line| (line, *role))
     });

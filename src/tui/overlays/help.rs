@@ -18,7 +18,7 @@ use crate::tui::overlays::answer::{Answer, PAGE, watch};
 /// The commands that close it.
 const CLOSING: &[Command] = &[Command::Back, Command::Help, Command::Accept];
 
-/// The help, scrolled down by some lines. Drawing limits them to the lines that there are.
+/// The help, scrolled down by some lines; drawing limits them to the length of the text.
 #[derive(Debug, Default)]
 pub struct Help {
     first: Cell<u16>,

@@ -204,13 +204,13 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     write_over(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
-    let worn = geometry.term(&worn(seen, |depth| value(depth, "m")));
-    let worn = canvas.printable(&worn);
+    let text = geometry.term(&worn(seen, |depth| value(depth, "m")));
+    let text = canvas.printable(&text);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
-    let worn = match worn.rsplit_once(", ") {
-        Some((brief, _)) if Line::raw(worn.as_str()).width() > room => brief,
-        _ => worn.as_str(),
+    let worn = match text.rsplit_once(", ") {
+        Some((brief, _)) if Line::raw(text.as_str()).width() > room => brief,
+        _ => text.as_str(),
     };
     canvas.at(first).show(Line::raw(format!(" {worn}")));
     let mut key = body_key(&canvas.theme);

@@ -97,7 +97,7 @@ panels! {
 }
 
 impl Panel {
-    /// What is said of it.
+    /// Its description.
     pub fn recipe(self) -> &'static About {
         match self.content() {
             Content::Chart(recipe) => recipe,
@@ -127,8 +127,7 @@ pub fn abscissa_at(chart: &Chart, theme: &Theme, area: Rect, at: Position) -> Op
     Plot::new(chart, theme).abscissa_at(inner, at)
 }
 
-/// The smallest and largest ordinate of a live chart: given ones, or those of the run's own curves and of other
-/// sources.
+/// The smallest and largest ordinate of a live chart: given bounds, or the range of all curves except closed forms.
 pub(super) fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     if chart.y.bounds.is_some() {
         return chart.y.bounds;

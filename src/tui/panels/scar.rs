@@ -126,7 +126,7 @@ fn legend_lines(area: Rect) -> u16 {
     1 + u16::from(area.width < ONE_LINE && area.height >= TWO_LINES)
 }
 
-/// Draws the scale bar, the direction of slip, and the scale of the depth, as far as there is room.
+/// Draws as much of the scale bar, the direction of slip and the scale of the depth as has room.
 fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
     let value = |value| format_value(value, "m", 3);

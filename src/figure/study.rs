@@ -11,7 +11,7 @@ use crate::reading::column::unit_of;
 use crate::reading::{Column, Regime};
 use crate::scenario::nearest::nearest;
 use crate::scenario::{printable, schema};
-use crate::studies::sweep::slice::{Line, Slice};
+use crate::studies::sweep::slice::{Contour, Slice};
 use crate::studies::sweep::{self, Design};
 
 /// Maximum number of charts by default.
@@ -159,7 +159,7 @@ fn values(slice: &Slice, column: Column, points: impl Iterator<Item = usize>) ->
 }
 
 /// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
-pub fn chart(slice: &Slice, column: Column, lines: [Vec<Line>; 2]) -> Chart {
+pub fn chart(slice: &Slice, column: Column, lines: [Vec<Contour>; 2]) -> Chart {
     match slice.y() {
         Some(upwards) => map(slice, upwards, column, lines),
         None => points(slice, column),
@@ -180,7 +180,7 @@ fn map(
     slice: &Slice,
     upwards: &sweep::Axis,
     column: Column,
-    [borders, criteria]: [Vec<Line>; 2],
+    [borders, criteria]: [Vec<Contour>; 2],
 ) -> Chart {
     let [(x, xs, _), (y, ys, _)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
     let values = values(slice, column, slice.points());

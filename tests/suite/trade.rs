@@ -6,7 +6,7 @@ use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::reading::Quantity;
 use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::refinement::{Level, Outcome};
-use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
+use mdr_tui::studies::trade::{self, POINTS, STEPS, Candidate};
 
 use crate::common::load;
 use crate::test_dir::{Said, TestDir, end, has, signal};
@@ -68,18 +68,18 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     assert!(has_points, "{out}");
     // Against a reference of another make: Method A on many cells.
     let scenario = load("li2019-fig3", &[]);
-    let end = |setting: &Setting| {
+    let end = |setting: &Candidate| {
         let (session, _) = setting.run(&scenario, 3.0, &|| true).expect("a run");
         Outcome::of(&session)
     };
     let recommended = load("li2019-fig3", &sets);
     let setup = recommended.setup();
-    let setting = Setting {
+    let setting = Candidate {
         method: setup.method,
         scheme: setup.scheme,
         level: Level::of(&recommended),
     };
-    let reference = Setting {
+    let reference = Candidate {
         method: AbelMethod::A,
         scheme: Scheme::Trapezoid,
         level: Level {

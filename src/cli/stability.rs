@@ -11,7 +11,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
 use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
-use crate::studies::stability::{Limit, Variant, Study};
+use crate::studies::stability::{Limit, Study, Variant};
 
 /// Runs the study and prints and writes its results.
 pub fn stability(options: &Stability) -> Result<ExitCode> {

@@ -10,7 +10,7 @@ use crate::plot::{Axis, Chart, Curve, Marker, Scale};
 use crate::scenario::Refusal;
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
-use crate::studies::verify::{Solved, Problem, STICK_RADIUS, Task, tasks};
+use crate::studies::verify::{Problem, STICK_RADIUS, Solved, Task, tasks};
 
 /// Runs the study and prints, draws and writes its results.
 pub fn verify(options: &Verify) -> Result<()> {

@@ -250,7 +250,7 @@ impl Trial {
                 row.resize(row.len() + 5, Value::Null);
             }
             Ok((session, seconds)) => {
-                let errors = Outcome::of(&session).against(&reference.outcome);
+                let errors = Outcome::from_session(&session).difference_from(&reference.outcome);
                 let complaints = complaints(&session, &reference.session);
                 if complaints.is_empty() && errors.promised().is_finite() {
                     point = Some([seconds, errors.promised() + reference.error]);
@@ -356,8 +356,8 @@ mod tests {
 
     fn reference(session: Session) -> Reference {
         Reference {
-            outcome: Outcome::of(&session),
-            level: Level::of(session.scenario()),
+            outcome: Outcome::from_session(&session),
+            level: Level::from_scenario(session.scenario()),
             session,
             error: 0.0,
             seconds: 0.0,

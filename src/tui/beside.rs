@@ -113,7 +113,7 @@ impl Twin {
         let is_ahead = self.beside.run.cycle() > cycle;
         if cycle > 0.0 && (is_due || must) && !is_ahead {
             self.due = cycle;
-            self.run = Some(Outcome::of(session));
+            self.run = Some(Outcome::from_session(session));
         }
     }
 
@@ -127,7 +127,7 @@ impl Twin {
         self.beside.follow(self.due, cycle.min(self.due), budget);
         let is_there = self.beside.run.cycle() >= self.due;
         if let Some(run) = self.run.take_if(|_| is_there) {
-            let twin = Outcome::of(&self.beside.run.session);
+            let twin = Outcome::from_session(&self.beside.run.session);
             self.told = Some((self.due, refinement::by_twin(&twin, &run)));
             self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
         }

@@ -10,7 +10,7 @@ use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::preset;
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
-use mdr_tui::studies::stability::{Ending, Variant, Study, VISIBLE, sawtooth};
+use mdr_tui::studies::stability::{Ending, Study, VISIBLE, Variant, sawtooth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.

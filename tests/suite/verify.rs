@@ -3,7 +3,7 @@
 
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::studies::verify::errors::Errors;
-use mdr_tui::studies::verify::{Solved, Problem, Task, tasks};
+use mdr_tui::studies::verify::{Problem, Solved, Task, tasks};
 use serde_json::Value;
 
 use crate::common::near;

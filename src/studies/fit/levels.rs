@@ -42,7 +42,7 @@ pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
     }
     let (points, steps, tolerance) = COARSE;
     let jumps = match scenario.value("numerics.integrator") {
-        Some(_) => Level::of(scenario).tolerance.is_some(),
+        Some(_) => Level::from_scenario(scenario).tolerance.is_some(),
         None => scenario.setup().drive.repeats_after().is_some(),
     };
     let level = Level::new(points, steps, jumps.then_some(tolerance));
@@ -59,7 +59,7 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
     let mut errors = search.uncertainty(found);
     let mut numerical = None;
     for round in 0..MOST_LEVELS {
-        let level = Level::of(&search.scenario);
+        let level = Level::from_scenario(&search.scenario);
         let level = Level {
             tolerance: level.tolerance.map(|tolerance| tolerance / LESS_TOLERANT),
             ..level.scaled(FINER, FINER)

@@ -88,7 +88,7 @@ impl Study {
     pub fn new(scenario: Scenario, cycles: f64) -> Result<Option<Self>, SessionError> {
         // A stability limit belongs to one number of cells and steps, not to an accuracy.
         let scenario = match scenario.accuracy() {
-            Some(_) => Level::of(&scenario).of_scenario(&scenario)?,
+            Some(_) => Level::from_scenario(&scenario).of_scenario(&scenario)?,
             None => scenario,
         };
         let session = Session::start(scenario.clone())?;

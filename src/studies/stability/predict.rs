@@ -29,7 +29,7 @@
 //! **Methods that are unstable at any step size.** For b and benad, a measured constant of the method, not derived.
 
 use super::growth::growing_from;
-use super::{Variant, Study, VISIBLE};
+use super::{Study, VISIBLE, Variant};
 use crate::math::abel::AbelMethod;
 use crate::math::scan::largest;
 use crate::reading::{Curves, Zone};

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::predict::sawtooth_from;
-use super::{Limit, Ending, Variant};
+use super::{Ending, Limit, Variant};
 use crate::scenario::scalars::Value;
 use crate::studies::table::Format::{Fixed, Rough, Words};
 use crate::studies::table::Report;

@@ -78,7 +78,9 @@ pub fn run(
     let mut level = 0;
     loop {
         let finer = f64::from(1 << level);
-        let fixed = Level::of(&middle).scaled(finer, finer).of_scenario(&middle);
+        let fixed = Level::from_scenario(&middle)
+            .scaled(finer, finer)
+            .of_scenario(&middle);
         let fixed = fixed.map_err(|error| Refusal::new("sensitivity", error))?;
         let found = around(study, &fixed, &keys, pool, go_on)?;
         if level == LEVELS || found.as_ref().is_none_or(|found| found.is_resolved) {

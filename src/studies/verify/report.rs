@@ -1,7 +1,7 @@
 //! Tables of a study: one per problem to read, one of all rows for JSON, one of all nodes for CSV.
 
 use super::errors::Errors;
-use super::{Solved, Problem, STICK_RADIUS};
+use super::{Problem, STICK_RADIUS, Solved};
 use crate::scenario::scalars::Value;
 use crate::studies::table::{Format, Report};
 

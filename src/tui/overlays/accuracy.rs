@@ -43,7 +43,7 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
         }
         Err(why) => lines.push(text(why)),
         Ok((cycle, of)) => {
-            let Level { points, steps, .. } = Level::of(&frame.live.scenario);
+            let Level { points, steps, .. } = Level::from_scenario(&frame.live.scenario);
             lines.push(text(&format!(
                 "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));

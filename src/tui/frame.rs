@@ -1,13 +1,13 @@
 //! What the worker publishes about the simulation, facts about the scenario, and the slot from which the screen takes
 //! frames.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::beside::Comparison;
 use super::settings::Setting;
 use crate::charts::Run;
 use crate::panics::locked;
-use crate::reading::subsurface::{Peak, SpringLoad};
+use crate::reading::subsurface::{Peak, SpringLoad, Stress};
 use crate::reading::{Check, CycleFigures, Observation, Passed};
 use crate::scenario::session::Session;
 use crate::scenario::{Change, Scenario};
@@ -58,14 +58,28 @@ pub struct Frame {
     pub load: Option<Arc<SpringLoad>>,
     /// The loads of the last cycle, if they are shown.
     pub cycle_loads: Vec<Arc<SpringLoad>>,
-    /// The largest von Mises and the largest principal stress in the half-space, if they are shown.
-    pub peaks: Option<[Peak; 2]>,
+    /// The largest stresses in the half-space, once [`Self::peaks`] has found them.
+    pub found_peaks: OnceLock<Option<[Peak; 2]>>,
     /// The cycle up to which the run's errors are estimated, with the errors, or why there is no estimate.
     pub errors: Result<(f64, Difference), String>,
     /// The present checks.
     pub checks: Vec<Check>,
     /// The comparison run.
     pub comparison: Option<Comparison>,
+}
+
+impl Frame {
+    /// Returns the largest von Mises and the largest principal stress in the half-space; `None` without contact, or
+    /// unless stresses are shown.
+    pub fn peaks(&self) -> Option<[Peak; 2]> {
+        let touches = self.observation.moment.contact_radius > 0.0;
+        let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
+        let find = || {
+            let load = self.load.as_ref().filter(|_| touches)?;
+            Some(shown.map(|of| load.largest(of)))
+        };
+        *self.found_peaks.get_or_init(find)
+    }
 }
 
 /// The slot that holds the latest frame.

@@ -2,15 +2,14 @@
 
 use std::fmt::Display;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use super::Worker;
 use crate::charts::{Live, Medium, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
-use crate::reading::subsurface::Stress;
 use crate::reading::{Curves, CycleFigures, Observation};
 use crate::tui::beside::{COMPARED, ComparisonRun};
 use crate::tui::event::Event;
@@ -111,10 +110,6 @@ impl Worker {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
         });
-        let touches = observation.moment.contact_radius > 0.0;
-        let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
-        let peaks = load.as_ref().filter(|_| touches);
-        let peaks = peaks.map(|load| shown.map(|of| load.largest(of)));
         let is_running = self.activity == Activity::Running;
         let figures = self.run.session.cycle_figures();
         Frame {
@@ -122,7 +117,7 @@ impl Worker {
             facts: Arc::clone(&self.facts),
             load,
             cycle_loads: self.cycle_loads.all(),
-            peaks,
+            found_peaks: OnceLock::new(),
             observation,
             figures,
             shows_ends: self.clock.shows_ends(simulation),

@@ -78,7 +78,11 @@ impl Worker {
             self.step();
             let simulation = self.run.simulation();
             let is_end = ends_cycle(before, simulation.cycle());
-            if is_end && self.clock.shows_ends(simulation) && self.screen.is_due() {
+            let is_shown = match self.clock.shows_ends(simulation) {
+                true => self.screen.is_due(),
+                false => self.clock.shows_motion(simulation),
+            };
+            if is_end && is_shown {
                 self.publish();
             }
         }

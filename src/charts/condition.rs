@@ -28,11 +28,10 @@ const POINTS: usize = 64;
 /// The load axis reaches this many times the largest load.
 const BEYOND: f64 = 1.5;
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    let live = run.live.as_ref().filter(|live| live.moves());
-    let live = live.ok_or(NO_MOTION)?;
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    let live = view.live().filter(|live| live.moves()).ok_or(NO_MOTION)?;
     // The path so far, oldest first: m, N.
-    let path = run.over_cycles([Column::ShiftAmplitude, Column::MeanNormalForce]);
+    let path = run.over_cycles(view, [Column::ShiftAmplitude, Column::MeanNormalForce]);
     let [amplitudes, loads] = path.unwrap_or_default();
     let path = amplitudes.into_iter().zip(loads);
     let known = path.filter(|(amplitude, load)| *amplitude > 0.0 && *load > 0.0);
@@ -51,7 +50,8 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
     let right = right.chain(worn_u.map(|u| u[1])).fold(0.0, f64::max);
     let unworn = Curve::new("border, unworn", unworn_u, unworn_load, Role::Limit).dashed();
     let worn = worn_u.map(|u| Curve::new("border, now", u, [0.0, top], Role::Slip));
-    let (name, here) = (live.regime.unwrap_or("now"), [[amplitude; 2], [load; 2]]);
+    let regime = live.figures.as_ref().map(|figures| figures.regime.title());
+    let (name, here) = (regime.unwrap_or("now"), [[amplitude; 2], [load; 2]]);
     let mut chart = Chart::new(
         "",
         Axis::new("amplitude of u_x", "m").bounds([0.0, 1.1 * right]),

@@ -17,10 +17,10 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    let cost = finished_series(run, Column::StepCost, Role::Shear)?;
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    let cost = finished_series(run, view, Column::StepCost, Role::Shear)?;
     if !cost.ys.iter().any(|value| value.is_finite()) {
         return Err("measured while it runs");
     }
-    Ok(over_cycles(run, Axis::new("t", "s").from_zero()).curve(cost))
+    Ok(over_cycles(run, view, Axis::new("t", "s").from_zero()).curve(cost))
 }

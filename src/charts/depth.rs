@@ -1,7 +1,7 @@
 //! The worn depth f − f₀ over the radius.
 
 use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, of_states, over_r};
-use crate::charts::run::{Medium, Run};
+use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve};
 use crate::reading::{Column, Curves};
@@ -22,11 +22,11 @@ pub static RECIPE: Recipe = Recipe {
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
-    let mut worn = of_states(run, Column::Wear, run.pick("worn", ""), Role::Profile);
-    let mut chart = over_r(run, "r", (run.pick("f - f0", "worn depth"), "m"));
-    chart.band = run.zones();
-    chart.y.expects = run.expected_wear();
-    if run.medium == Medium::Screen {
+    let mut worn = of_states(run, Column::Wear, view.pick("worn", ""), Role::Profile);
+    let mut chart = over_r(view, "r", (view.pick("f - f0", "worn depth"), "m"));
+    chart.band = view.zones(run.edge());
+    chart.y.expects = view.expected_wear();
+    if view.is_on_screen() {
         chart.y.holds = Some(0.0);
         let shade = |curve: &mut Curve| curve.fill = vec![0.0; curve.xs.len()];
         worn.iter_mut().for_each(shade);

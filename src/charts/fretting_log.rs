@@ -24,8 +24,8 @@ const MOST: usize = 12;
 /// Height of a loop, relative to the distance between neighbouring loops.
 const HEIGHT: f64 = 1.6;
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    let live = run.live.as_ref().filter(|live| live.moves());
+fn make(_: &Run, view: &View) -> Result<Chart, &'static str> {
+    let live = view.live().filter(|live| live.moves());
     let log = &live.ok_or(NO_MOTION)?.log;
     let every = log.len().div_ceil(MOST).max(1);
     let mut loops: Vec<&Loop> = log.iter().rev().step_by(every).map(AsRef::as_ref).collect();

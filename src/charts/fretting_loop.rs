@@ -3,7 +3,7 @@
 //! drawn too; it has the same forces and the same area as the contact's loop.
 
 use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, named};
-use crate::charts::run::{Live, Medium, Run};
+use crate::charts::{Live, Run};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
 use crate::traces::{Axes, Loop};
@@ -39,13 +39,13 @@ fn symmetric<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> [f64; 2] {
 
 /// Returns the loop before each state of a run, or the last loop if there are no states. On a compliant rig, the
 /// sensor's loop comes before the contact's.
-fn loops(run: &Run) -> Vec<Curve> {
+fn loops(run: &Run, view: &View) -> Vec<Curve> {
     let ends: Vec<f64> = match &run.states[..] {
         [] => run.end().into_iter().collect(),
         states => states.iter().map(|state| state.cycle()).collect(),
     };
     let count = ends.len();
-    let fewest = run.pick(1, Loop::SHORTEST);
+    let fewest = view.pick(1, Loop::SHORTEST);
     let mut curves = Vec::new();
     for (k, end) in ends.into_iter().enumerate() {
         let one = run.loop_at(end);
@@ -64,7 +64,7 @@ fn loops(run: &Run) -> Vec<Curve> {
         };
         if is_sensed {
             let curve = Curve::new(sensor, sensed, forces, of_sensor);
-            curves.push(curve.dashed_if(run.medium == Medium::Paper));
+            curves.push(curve.dashed_if(!view.is_on_screen()));
         }
         // The contact's loop comes last: another figure takes the last curve as its ghost.
         curves.push(Curve::new(name, one.shifts, one.forces, role));
@@ -72,13 +72,13 @@ fn loops(run: &Run) -> Vec<Curve> {
     curves
 }
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    if run.live.as_ref().is_some_and(|live| !live.moves()) {
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    if view.live().is_some_and(|live| !live.moves()) {
         return Err(NO_MOTION);
     }
-    let loops = loops(run);
+    let loops = loops(run, view);
     let moves = |curve: &Curve| curve.xs.iter().any(|&x| x != curve.xs[0]);
-    if run.medium == Medium::Paper && !loops.iter().any(moves) {
+    if !view.is_on_screen() && !loops.iter().any(moves) {
         return Err(match loops.is_empty() {
             true => {
                 "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \
@@ -91,14 +91,14 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         .curves(ghosts::on(run, Axes::LOOP))
         .curves(loops);
     chart.margin = MARGIN;
-    if let Some(live) = &run.live {
+    if let Some(live) = view.live() {
         let across = symmetric(chart.curves.iter().flat_map(|curve| &curve.xs));
         let upwards = symmetric(chart.curves.iter().flat_map(|curve| &curve.ys));
         (chart.x.bounds, chart.y.bounds) = (Some(across), Some(upwards));
         // Leaves room for the loop under gross slip.
         let slip_per_depth = run.theory.as_ref().map(|theory| theory.slip_per_depth);
-        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.seen.moment.depth;
-        chart.y.expects = live.friction * live.seen.moment.normal_force;
+        chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.observation.moment.depth;
+        chart.y.expects = live.friction() * live.observation.moment.normal_force;
         chart.points.push(here(run, live));
     }
     Ok(chart)
@@ -107,7 +107,10 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
 /// Returns an arrow at the present moment.
 fn here(run: &Run, live: &Live) -> Point {
     Point {
-        at: [live.seen.moment.shift, live.seen.moment.tangential_force],
+        at: [
+            live.observation.moment.shift,
+            live.observation.moment.tangential_force,
+        ],
         sign: match run.loops.last().is_none_or(Loop::rises) {
             true => '▶',
             false => '◀',

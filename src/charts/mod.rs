@@ -3,7 +3,7 @@
 
 use crate::plot::step::Step;
 use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Mark, Scale};
+use crate::plot::{Axis, Chart, Curve, Mark};
 use crate::reading::{Column, Curves};
 use crate::scenario::Refusal;
 use crate::studies::ghost::Ghost;
@@ -27,9 +27,11 @@ pub mod scar_growth;
 mod simulated;
 pub mod springs;
 pub mod stresses;
+mod view;
 pub mod volume;
 
-pub use run::{Live, Medium, Run};
+pub use run::Run;
+pub use view::{Live, Medium, View};
 
 /// Symbols with their meaning, for a reader who knows only Hertz.
 pub type Symbols = &'static [(&'static str, &'static str)];
@@ -132,9 +134,9 @@ impl Recipe {
         }
         chart.curves.sort_by_key(|curve| match curve.role {
             // On paper, curves of other sources lie over those of the run.
-            Role::Ghost(k) if run.medium == Medium::Paper => k + 1,
+            Role::Ghost(k) if !view.is_on_screen() => k + 1,
             // On a screen, closed forms lie below what they explain.
-            _ => usize::from(run.medium == Medium::Screen && !curve.is_theory),
+            _ => usize::from(view.is_on_screen() && !curve.is_theory),
         });
         Ok(chart)
     }
@@ -163,26 +165,14 @@ pub static USUAL: [&Recipe; 4] = [
     &fretting_loop::RECIPE,
 ];
 
-/// How a chart is viewed; the default is for paper.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct View {
-    /// The scale of the ordinate.
-    pub scale: Scale,
-    /// Whether closed forms are drawn.
-    pub with_theory: bool,
-}
-
-impl View {
-    /// Returns the closed forms if they are shown.
-    fn theory(self, run: &Run) -> Option<&Theory> {
-        run.theory.as_deref().filter(|_| self.with_theory)
-    }
-}
-
 /// Returns an empty chart over the radius, with marks at a and c on a screen. The ordinate is given as label and unit.
-fn over_r(run: &Run, abscissa: &'static str, (label, unit): (&'static str, &'static str)) -> Chart {
+fn over_r(
+    view: &View,
+    abscissa: &'static str,
+    (label, unit): (&'static str, &'static str),
+) -> Chart {
     Chart {
-        marks: run.live.as_ref().map(Live::edge_marks).unwrap_or_default(),
+        marks: view.live().map(Live::edge_marks).unwrap_or_default(),
         ..Chart::new("", Axis::new(abscissa, "m"), Axis::new(label, unit))
     }
 }
@@ -225,22 +215,34 @@ fn limit(run: &Run, theory: Option<&Theory>, times: Option<f64>) -> Option<Curve
 }
 
 /// Returns an empty chart over cycles. On a screen its axis grows through 10, 20, 50, 100, … to the planned end.
-fn over_cycles(run: &Run, y: Axis) -> Chart {
+fn over_cycles(run: &Run, view: &View, y: Axis) -> Chart {
     let mut cycles = Axis::new("cycles", "");
-    cycles.bounds = cycles_shown(run);
+    cycles.bounds = cycles_shown(run, view);
     Chart::new("", cycles, y)
 }
 
 /// A column of the history over its cycles.
-fn series(run: &Run, column: Column, name: &str, role: Role) -> Result<Curve, &'static str> {
-    let [cycles, values] = run.over_cycles([Column::Cycle, column]).ok_or(NO_HISTORY)?;
+fn series(
+    run: &Run,
+    view: &View,
+    column: Column,
+    name: &str,
+    role: Role,
+) -> Result<Curve, &'static str> {
+    let columns = run.over_cycles(view, [Column::Cycle, column]);
+    let [cycles, values] = columns.ok_or(NO_HISTORY)?;
     Ok(Curve::new(name, cycles, values, role))
 }
 
 /// A column of the history over its finished cycles: the unfinished one only if there is no other.
-fn finished_series(run: &Run, column: Column, role: Role) -> Result<Curve, &'static str> {
-    let mut curve = series(run, column, "", role)?;
-    let is_open = run.live.as_ref().is_some_and(|live| live.is_within_a_cycle);
+fn finished_series(
+    run: &Run,
+    view: &View,
+    column: Column,
+    role: Role,
+) -> Result<Curve, &'static str> {
+    let mut curve = series(run, view, column, "", role)?;
+    let is_open = view.live().is_some_and(|live| live.is_within_a_cycle);
     if is_open && curve.xs.len() > 1 {
         curve.xs.pop();
         curve.ys.pop();
@@ -249,12 +251,12 @@ fn finished_series(run: &Run, column: Column, role: Role) -> Result<Curve, &'sta
 }
 
 /// Returns the range of cycles on a live chart: well filled by the cycles so far, and seldom changed.
-fn cycles_shown(run: &Run) -> Option<[f64; 2]> {
-    let live = run.live.as_ref()?;
-    let seen = run.history.as_ref().and_then(Table::last_cycle);
+fn cycles_shown(run: &Run, view: &View) -> Option<[f64; 2]> {
+    let live = view.live()?;
+    let seen = run.history.as_deref().and_then(Table::last_cycle);
     let of_ghosts = run.ghosts.iter().map(|ghost| ghost.end());
     let seen = of_ghosts.fold(seen.unwrap_or(0.0), f64::max);
-    let planned = live.planned_cycles.filter(|planned| seen <= *planned);
+    let planned = live.planned_cycles().filter(|planned| seen <= *planned);
     let grown = Step::above(seen.max(10.0) * (1.0 - 1e-6)).value();
     Some([
         0.0,
@@ -283,22 +285,6 @@ pub fn round_end(end: f64) -> f64 {
         .filter(|round| round.fract() == 0.0)
         .find(|round| end <= round * (1.0 + 1e-9))
         .unwrap_or(10.0 * decade)
-}
-
-impl Live {
-    /// Marks at the contact radius a and at the permanent stick radius c.
-    pub fn edge_marks(&self) -> Vec<Mark> {
-        let moment = &self.seen.moment;
-        let mark = |x, label, role| Mark { x, label, role };
-        let mut marks = Vec::new();
-        if moment.contact_radius > 0.0 {
-            marks.push(mark(moment.contact_radius, "a", Role::Contact));
-        }
-        let within = |c: &f64| *c > 0.0 && *c < moment.contact_radius;
-        let permanent = moment.permanent_stick_radius.filter(within);
-        marks.extend(permanent.map(|c| mark(c, "c", Role::Stick)));
-        marks
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! The 3D profile f(r), worn and unworn, with the zones of the contact below it. Wear that would be thinner than a line
 //! is drawn magnified.
 
-use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, magnification, of_states, over_r};
-use crate::charts::run::{Medium, Run};
+use super::{
+    A, BAND, C, Medium, NO_STATE, Recipe, View, ghosts, limit, magnification, of_states, over_r,
+};
+use crate::charts::run::Run;
 use crate::math::scan::largest;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
@@ -41,14 +43,17 @@ fn height(unworn: &[f64], depth: f64) -> f64 {
 
 /// Returns the magnification of the wear on a screen. It stays the same from the first cycle to the planned end, so
 /// that growing wear is seen to grow; it drops only if there is more wear than expected.
-fn times(run: &Run, unworn: &[f64], wear: &[f64]) -> f64 {
-    let Some(live) = &run.live else {
+fn times(run: &Run, view: &View, unworn: &[f64], wear: &[f64]) -> f64 {
+    let Some(live) = view.live() else {
         return 1.0;
     };
     let ghosts = ghosts::worn(run, None);
     let seen = largest(wear).max(live.expected_wear);
     let deepest = ghosts.iter().map(Curve::highest).fold(seen, f64::max);
-    magnification(deepest, SHARE * height(unworn, live.seen.moment.depth))
+    magnification(
+        deepest,
+        SHARE * height(unworn, live.observation.moment.depth),
+    )
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
@@ -59,10 +64,10 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         column(Column::Unworn),
         column(Column::Wear),
     );
-    let mut chart = over_r(run, "r", ("f", "m"));
-    let times = run.pick(times(run, unworn, wear), 1.0);
-    let worn = match run.medium {
-        Medium::Screen => {
+    let mut chart = over_r(view, "r", ("f", "m"));
+    let times = times(run, view, unworn, wear);
+    let worn = match view.medium {
+        Medium::Screen(_) => {
             let worn = unworn.iter().zip(wear);
             let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
             let worn = Curve::new("worn", radii, worn, Role::Profile);
@@ -82,8 +87,8 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
             of_states(run, Column::Profile, "worn", Role::Profile)
         }
     };
-    chart.band = run.zones();
-    let theory = view.theory(run).or(run.pick(None, run.theory.as_deref()));
+    chart.band = view.zones(run.edge());
+    let theory = view.theory(run).or(view.pick(None, run.theory.as_deref()));
     // Unworn curves come first, so that the worn ones lie on top.
     Ok(chart
         .curve(Curve::new("unworn", radii, unworn, Role::Unworn).dashed())

@@ -2,7 +2,7 @@
 //! rate over less than a cycle means little.
 
 use super::{Recipe, View, finished_series, over_cycles};
-use crate::charts::run::Run;
+use crate::charts::{Live, Run};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart};
 use crate::reading::Column;
@@ -21,13 +21,13 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    run.wears()?;
-    let rate = finished_series(run, Column::WearRate, Role::Profile)?;
-    let cycles = run.live.as_ref().and_then(|live| live.planned_cycles);
-    let expected = run.expected_volume() / cycles.unwrap_or(1.0);
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    view.wears()?;
+    let rate = finished_series(run, view, Column::WearRate, Role::Profile)?;
+    let cycles = view.live().and_then(Live::planned_cycles);
+    let expected = view.expected_volume() / cycles.unwrap_or(1.0);
     let ordinate = Axis::new("V per cycle", "m³")
         .from_zero()
         .expecting(expected);
-    Ok(over_cycles(run, ordinate).curve(rate))
+    Ok(over_cycles(run, view, ordinate).curve(rate))
 }

@@ -18,9 +18,9 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     // The history has 1 − V/(k E_d); it is missing under laws that do not follow energy.
-    let mut differences = series(run, Column::EnergyResidual, "", Role::Profile)?;
+    let mut differences = series(run, view, Column::EnergyResidual, "", Role::Profile)?;
     for value in &mut differences.ys {
         *value *= -1e3;
     }
@@ -28,8 +28,8 @@ fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
         return Err("nothing to compare yet");
     }
     let ordinate = Axis::new("V/(k E_d) - 1", "1e-3");
-    let zero = cycles_shown(run).map(|ends| Curve::new("", ends, [0.0; 2], Role::Faint));
-    Ok(over_cycles(run, ordinate)
+    let zero = cycles_shown(run, view).map(|ends| Curve::new("", ends, [0.0; 2], Role::Faint));
+    Ok(over_cycles(run, view, ordinate)
         .curves(zero.map(Curve::dashed))
         .curve(differences))
 }

@@ -2,51 +2,14 @@
 
 use std::sync::Arc;
 
+use super::View;
 use crate::contact::indenter::Indenter;
 use crate::math::geometry::Geometry;
-use crate::reading::{Column, Observation, Zone};
+use crate::reading::Column;
 use crate::scenario::Scenario;
 use crate::studies::ghost::Ghost;
 use crate::studies::theory::Theory;
 use crate::traces::{Loop, Table};
-
-/// What charts are drawn on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Medium {
-    /// A screen, where charts move with the run.
-    Screen,
-    /// A page.
-    #[default]
-    Paper,
-}
-
-/// What only a run has that goes on: the present moment.
-#[derive(Debug, Clone)]
-pub struct Live {
-    /// The present moment.
-    pub seen: Arc<Observation>,
-    /// The coefficient of friction μ.
-    pub friction: f64,
-    /// Where the scenario's plan ends, cycles.
-    pub planned_cycles: Option<f64>,
-    /// Rough estimate of the deepest wear at the planned end, m; 0 if unknown.
-    pub expected_wear: f64,
-    /// Whether the last row of the history belongs to an incomplete cycle.
-    pub is_within_a_cycle: bool,
-    /// The running condition of the last cycle, in words.
-    pub regime: Option<&'static str>,
-    /// The amplitude of u_x at which the whole present contact begins to slip, m, if known.
-    pub slip_border: Option<f64>,
-    /// Loops of earlier cycles, oldest first.
-    pub log: Vec<Arc<Loop>>,
-}
-
-impl Live {
-    /// Whether there is a tangential motion.
-    pub fn moves(&self) -> bool {
-        self.seen.moment.stick_radius.is_some()
-    }
-}
 
 /// The data of a run: over the radius, over cycles, over one cycle, and data of other sources to compare with.
 #[derive(Debug, Clone, Default)]
@@ -54,7 +17,7 @@ pub struct Run {
     /// The states, in the order of their cycles.
     pub states: Vec<Arc<Table>>,
     /// The history.
-    pub history: Option<Table>,
+    pub history: Option<Arc<Table>>,
     /// Loops of single cycles.
     pub loops: Vec<Loop>,
     /// Curves of other sources.
@@ -67,33 +30,9 @@ pub struct Run {
     pub indenter: Option<Indenter>,
     /// Whether the contact is round or a line.
     pub geometry: Geometry,
-    /// What its charts are drawn on.
-    pub medium: Medium,
-    /// The present moment, of a run that goes on.
-    pub live: Option<Live>,
 }
 
 impl Run {
-    /// Returns the short name on a screen, the full one on paper.
-    pub(super) fn pick<T>(&self, screen: T, paper: T) -> T {
-        match self.medium {
-            Medium::Screen => screen,
-            Medium::Paper => paper,
-        }
-    }
-
-    /// Rough estimate of the deepest wear at the planned end, m; 0 if unknown.
-    pub fn expected_wear(&self) -> f64 {
-        self.live.as_ref().map_or(0.0, |live| live.expected_wear)
-    }
-
-    /// Upper estimate of the worn volume at the planned end, m³: the deepest wear over the whole contact area.
-    pub fn expected_volume(&self) -> f64 {
-        let radius = |live: &Live| live.seen.moment.contact_radius;
-        let area = self.geometry.area(self.live.as_ref().map_or(0.0, radius));
-        area * self.expected_wear()
-    }
-
     /// Adds what follows from the scenario.
     #[must_use]
     pub fn of(self, scenario: &Scenario) -> Self {
@@ -113,7 +52,7 @@ impl Run {
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
         } else if table.has(&[Column::Cycle, Column::ContactRadius, Column::WearVolume]) {
-            self.history = Some(table);
+            self.history = Some(table.into());
         } else if let Some(one) = Loop::of(&table, None) {
             self.loops.push(one);
         } else if table.has(&[Column::X, Column::Z, Column::VonMises]) {
@@ -128,7 +67,7 @@ impl Run {
     pub fn loop_at(&self, end: f64) -> Option<Loop> {
         let mut alone = self.loops.iter();
         let alone = alone.find(|one| (one.end - end).abs() < 1e-9).cloned();
-        let recorded = || Loop::of(self.history.as_ref()?, Some(end));
+        let recorded = || Loop::of(self.history.as_deref()?, Some(end));
         alone.or_else(recorded)
     }
 
@@ -137,8 +76,7 @@ impl Run {
         let mut ghost = Ghost::new(name);
         ghost
             .tables
-            .extend(self.states.last().map(|state| Table::clone(state)));
-        ghost.tables.extend(self.history.clone());
+            .extend(self.states.last().into_iter().chain(&self.history).cloned());
         if let Some(one) = self.end().and_then(|end| self.loop_at(end)) {
             ghost.take_loop(one.shifts, one.forces);
         }
@@ -160,51 +98,20 @@ impl Run {
         indenter.map_or(f64::NAN, |indenter| indenter.profile(r))
     }
 
-    /// Returns μ if there is a tangential motion with friction.
-    pub(super) fn friction(&self) -> Option<f64> {
-        let live = self.live.as_ref().filter(|live| live.moves());
-        live.map(|live| live.friction).filter(|mu| *mu > 0.0)
-    }
-
-    /// Returns an error if the scenario has no wear.
-    pub(super) fn wears(&self) -> Result<(), &'static str> {
-        match &self.live {
-            Some(live) if live.seen.law.is_none() => Err(super::NO_WEAR),
-            _ => Ok(()),
-        }
-    }
-
-    /// Returns the stick, slip and open zones along the radius; empty on paper.
-    pub(super) fn zones(&self) -> Vec<([f64; 2], Zone)> {
-        let Some(live) = &self.live else {
-            return Vec::new();
-        };
-        let contact = live.seen.moment.contact_radius;
-        let stick = live
-            .seen
-            .moment
-            .stick_radius
-            .unwrap_or(contact)
-            .min(contact);
-        let mut zones = vec![
-            ([0.0, stick], Zone::Stick),
-            ([stick, contact], Zone::Slip),
-            ([contact, self.edge()], Zone::Open),
-        ];
-        zones.retain(|([from, to], _)| to > from);
-        zones
-    }
-
     /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
     /// they lie at other phases of the motion.
-    pub(super) fn over_cycles<const N: usize>(&self, wanted: [Column; N]) -> Option<[Vec<f64>; N]> {
+    pub(super) fn over_cycles<const N: usize>(
+        &self,
+        view: &View,
+        wanted: [Column; N],
+    ) -> Option<[Vec<f64>; N]> {
         let history = self.history.as_ref()?;
         let cycles = history.column(Column::Cycle)?;
         let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
         let rows = 0..cycles.len();
         let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
         let rows = match 2 * whole.len() > cycles.len() && whole.len() > 1 {
-            true if self.medium == Medium::Paper => whole,
+            true if !view.is_on_screen() => whole,
             _ => rows.collect(),
         };
         let mut columns = [(); N].map(|()| Vec::new());
@@ -217,7 +124,7 @@ impl Run {
 
     /// Returns the last cycle that any of the data reach.
     pub fn end(&self) -> Option<f64> {
-        let recorded = self.history.as_ref().and_then(Table::last_cycle);
+        let recorded = self.history.as_deref().and_then(Table::last_cycle);
         let states = self.states.iter().map(|state| state.cycle());
         let loops = self.loops.iter().map(|one| one.end);
         states.chain(loops).chain(recorded).reduce(f64::max)
@@ -225,12 +132,8 @@ impl Run {
 
     /// Returns the data for a caption.
     pub fn facts(&self) -> Vec<(String, String)> {
-        let last = self
-            .states
-            .last()
-            .map(Arc::as_ref)
-            .or(self.history.as_ref());
-        let Some(last) = last.or(self.field.as_ref()) else {
+        let last = self.states.last().or(self.history.as_ref());
+        let Some(last) = last.map(Arc::as_ref).or(self.field.as_ref()) else {
             return Vec::new();
         };
         let told = [

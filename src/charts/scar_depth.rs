@@ -32,14 +32,14 @@ fn of_states(run: &Run) -> Option<Curve> {
     Some(curve.scattered([])).filter(|curve| !curve.xs.is_empty())
 }
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    run.wears()?;
-    let depth = series(run, Column::ScarDepth, "", Role::Profile).ok();
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    view.wears()?;
+    let depth = series(run, view, Column::ScarDepth, "", Role::Profile).ok();
     let depth = depth.or_else(|| of_states(run)).ok_or(NO_STATE)?;
-    let ordinate = Axis::new(run.pick("depth", "worn depth"), "m")
+    let ordinate = Axis::new(view.pick("depth", "worn depth"), "m")
         .from_zero()
-        .expecting(run.expected_wear());
-    Ok(over_cycles(run, ordinate)
+        .expecting(view.expected_wear());
+    Ok(over_cycles(run, view, ordinate)
         .curves(ghosts::on(run, Axes::DEPTH))
         .curve(depth))
 }

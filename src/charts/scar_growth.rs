@@ -31,23 +31,24 @@ const DEPTH: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarDepth);
 const RADIUS: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarRadius);
 
 /// Extrapolates the friction work, J, to the last cycle that charts show, at the mean rate so far.
-fn shown_work(run: &Run) -> Option<f64> {
-    let [cycles, work] = run.over_cycles([Column::Cycle, Column::DissipatedEnergy])?;
+fn shown_work(run: &Run, view: &View) -> Option<f64> {
+    let [cycles, work] = run.over_cycles(view, [Column::Cycle, Column::DissipatedEnergy])?;
     let (cycle, done) = (*cycles.last()?, *work.last()?);
-    let [_, end] = cycles_shown(run)?;
+    let [_, end] = cycles_shown(run, view)?;
     (cycle >= 1.0).then(|| done * (end / cycle).max(1.0))
 }
 
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
-    run.wears()?;
-    let columns = run.over_cycles([
+    view.wears()?;
+    let columns = [
         Column::DissipatedEnergy,
         Column::ScarRadius,
         Column::ScarDepth,
-    ]);
+    ];
+    let columns = run.over_cycles(view, columns);
     let [work, radii, depths] = columns.ok_or(NO_HISTORY)?;
     let radius = Curve::new("radius", work.clone(), radii, Role::Contact);
-    let expected = run.expected_wear();
+    let expected = view.expected_wear();
     let deepest = depths.iter().copied().fold(expected, f64::max);
     let times = match view.scale {
         Scale::Linear => magnification(deepest, radius.highest()),
@@ -61,10 +62,10 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     });
     let (mut work_axis, axis) = (Axis::new("E_d", "J").from_zero(), Axis::new("scar", "m"));
     let mut reach = 0.0;
-    if let Some(live) = &run.live {
-        reach = live.seen.moment.contact_radius;
+    if let Some(live) = view.live() {
+        reach = live.observation.moment.contact_radius;
         let of_others = others.iter().flat_map(|ghost| &ghost.xs).copied();
-        let end = of_others.fold(shown_work(run).ok_or(NO_CYCLE)?, f64::max);
+        let end = of_others.fold(shown_work(run, view).ok_or(NO_CYCLE)?, f64::max);
         work_axis = work_axis.bounds([0.0, end]);
     }
     Ok(Chart::new("", work_axis, axis.from_zero().expecting(reach))

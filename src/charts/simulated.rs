@@ -67,7 +67,7 @@ impl Run {
             record(session);
         }
         let header = || header::entries(session);
-        data.history = Some(Table::of_rows(header(), OVER_CYCLES, &seen));
+        data.history = Some(Table::of_rows(header(), OVER_CYCLES, &seen).into());
         data.field =
             with_field.then(|| Table::of_rows(header(), field::COLUMNS, &field::rows(session)));
         Ok(data)

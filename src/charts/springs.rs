@@ -20,14 +20,14 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     run.states.last().ok_or(NO_STATE)?;
-    let depth = run.live.as_ref().map(|live| {
-        let (ends, depth) = ([0.0, run.edge()], [live.seen.moment.depth; 2]);
+    let depth = view.live().map(|live| {
+        let (ends, depth) = ([0.0, run.edge()], [live.observation.moment.depth; 2]);
         Curve::new("depth d", ends, depth, Role::Contact).dashed()
     });
-    let springs = of_states(run, Column::Profile1d, run.pick("g", ""), Role::Profile);
-    Ok(over_r(run, "x", ("g", "m"))
+    let springs = of_states(run, Column::Profile1d, view.pick("g", ""), Role::Profile);
+    Ok(over_r(view, "x", ("g", "m"))
         .curves(depth)
         .curves(ghosts::on(run, Axes::SPRINGS))
         .curves(springs))

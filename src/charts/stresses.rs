@@ -1,7 +1,7 @@
 //! Pressure p(r) and shear stress τ(r). On a screen τ is drawn as τ/μ, which meets ±p where the contact slips.
 
-use super::{A, C, NO_STATE, Recipe, View, ghosts, over_r};
-use crate::charts::run::{Medium, Run};
+use super::{A, C, Medium, NO_STATE, Recipe, View, ghosts, over_r};
+use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve, Scale};
 use crate::reading::{Column, Curves};
@@ -35,10 +35,10 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
     // What τ is divided by; on paper it is drawn as it is.
-    let (name, divisor) = match run.medium {
+    let (name, divisor) = match view.medium {
         Medium::Paper => ("τ", Some(1.0)),
-        Medium::Screen if is_log => ("|τ|/μ", run.friction()),
-        Medium::Screen => ("τ/μ", run.friction()),
+        Medium::Screen(_) if is_log => ("|τ|/μ", view.friction()),
+        Medium::Screen(_) => ("τ/μ", view.friction()),
     };
     // On a logarithmic ordinate, |τ| is drawn.
     let scaled = |shear: f64| {
@@ -52,23 +52,22 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         }),
         None => ghosts::on(run, Axes::PRESSURE),
     };
-    let mut chart = over_r(run, "r", ("stress", "Pa"))
+    let mut chart = over_r(view, "r", ("stress", "Pa"))
         .curves(others)
         .curve(curve("p", pressure.to_vec(), Role::Pressure));
     let shear = state.column(Column::Shear).filter(|_| divisor.is_some());
-    let is_seen =
-        |shear: &&[f64]| run.medium == Medium::Screen || shear.iter().any(|&tau| tau != 0.0);
+    let is_seen = |shear: &&[f64]| view.is_on_screen() || shear.iter().any(|&tau| tau != 0.0);
     if let Some(shear) = shear.filter(is_seen) {
         let shear = shear.iter().copied().map(scaled).collect();
         let shear = curve(name, shear, Role::Shear);
         // Dashes: where the contact slips the pressure lies under it, and is still seen.
-        chart = chart.curve(shear.dashed_if(run.medium == Medium::Screen));
+        chart = chart.curve(shear.dashed_if(view.is_on_screen()));
         chart.y.is_symmetric = true;
     }
-    let (Some(theory), Some(live)) = (view.theory(run), &run.live) else {
+    let (Some(theory), Some(live)) = (view.theory(run), view.live()) else {
         return Ok(chart);
     };
-    let moment = &live.seen.moment;
+    let moment = &live.observation.moment;
     let hertz = theory.unworn_pressure(moment.depth, radii);
     let hertz = hertz.map(|p| curve("unworn p", p, Role::Limit));
     let cattaneo =

@@ -21,13 +21,13 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-fn make(run: &Run, _: &View) -> Result<Chart, &'static str> {
-    run.wears()?;
-    let volume = series(run, Column::WearVolume, "", Role::Profile)?;
+fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
+    view.wears()?;
+    let volume = series(run, view, Column::WearVolume, "", Role::Profile)?;
     let ordinate = Axis::new("V", "m³").from_zero();
-    let mut chart = over_cycles(run, ordinate.expecting(run.expected_volume()));
-    if let Some(live) = &run.live {
-        let work = format_value(live.seen.moment.dissipated_energy, "J", 4);
+    let mut chart = over_cycles(run, view, ordinate.expecting(view.expected_volume()));
+    if let Some(live) = view.live() {
+        let work = format_value(live.observation.moment.dissipated_energy, "J", 4);
         chart.note = format!("E_d {work}");
     }
     Ok(chart.curves(ghosts::on(run, Axes::VOLUME)).curve(volume))

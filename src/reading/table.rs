@@ -34,6 +34,23 @@ impl Table {
         Self::of_columns(header, columns)
     }
 
+    /// Adds a row at the end; the first row of an empty table names its columns.
+    pub fn push(&mut self, row: impl IntoIterator<Item = (Column, f64)>) {
+        for (k, (column, value)) in row.into_iter().enumerate() {
+            match self.columns.get_mut(k) {
+                Some((_, values)) => values.push(value),
+                None => self.columns.push((column, vec![value])),
+            }
+        }
+    }
+
+    /// Removes the last row.
+    pub fn pop(&mut self) {
+        for (_, values) in &mut self.columns {
+            values.pop();
+        }
+    }
+
     /// The same columns under another header.
     #[must_use]
     pub fn under(&self, header: Vec<(String, String)>) -> Self {

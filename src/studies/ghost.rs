@@ -1,6 +1,7 @@
 //! Curves to draw beside a simulation: measurements, the files of a run, or a frozen state.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::measured::{Kind, Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
@@ -58,7 +59,7 @@ pub struct Ghost {
     /// Whether the values were measured, so that nothing is known between the points.
     pub is_measured: bool,
     /// The data it contains.
-    pub tables: Vec<Table>,
+    pub tables: Vec<Arc<Table>>,
 }
 
 impl Ghost {
@@ -167,7 +168,9 @@ impl Ghost {
     pub fn end(&self) -> f64 {
         let tables = self.tables.iter();
         let histories = tables.filter(|table| table.column(Column::Radius).is_none());
-        histories.filter_map(Table::last_cycle).fold(0.0, f64::max)
+        histories
+            .filter_map(|table| table.last_cycle())
+            .fold(0.0, f64::max)
     }
 
     /// Checks whether its radii and the `reach` of the contact, m,
@@ -193,7 +196,7 @@ impl Ghost {
         if let Some(one) = Loop::of(&table, table.last_cycle()) {
             self.take_loop(one.shifts, one.forces);
         }
-        self.tables.push(table);
+        self.tables.push(table.into());
     }
 
     fn take_measured(&mut self, mut measured: Measured) {
@@ -206,7 +209,8 @@ impl Ghost {
     fn add(&mut self, axes: Axes, xs: Vec<f64>, ys: Vec<f64>, errors: Option<Vec<f64>>) {
         let errors = errors.map(|errors| (Column::StandardError, errors));
         let columns = [(axes.x, xs), (axes.y, ys)].into_iter().chain(errors);
-        self.tables.push(Table::of_columns(Vec::new(), columns));
+        let table = Table::of_columns(Vec::new(), columns);
+        self.tables.push(table.into());
     }
 }
 

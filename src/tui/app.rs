@@ -133,14 +133,12 @@ impl App {
             Act::Screen(act) => act(&mut self.explorer),
             Act::Worker(act) => self.explorer.order(act),
             Act::Open => self.open(command),
-            Act::Words(key) => {
-                let mut settings = self.explorer.frame.facts.settings.iter();
-                let setting = settings.find(|setting| setting.parameter.path == key);
-                match setting.map(Palette::choosing) {
-                    Some(words) => self.overlays.push(Overlay::Palette(words)),
-                    None => self.explorer.notice = Some(format!("this scenario has no {key}")),
-                }
-            }
+            Act::Words(key) => match self.explorer.frame.setting(key) {
+                Some(setting) => self
+                    .overlays
+                    .push(Overlay::Palette(Palette::choosing(&setting))),
+                None => self.explorer.notice = Some(format!("this scenario has no {key}")),
+            },
             Act::Argument(_) => {
                 let begun = Palette::begun(&format!("{} ", row.name));
                 self.overlays.push(Overlay::Palette(begun));

@@ -1,5 +1,5 @@
-//! Second runs that follow the first from cycle to cycle: a comparison in lockstep (another method, or the same method
-//! on half the cells), and a coarser twin, whose difference from the run is about the run's error.
+//! Second runs that follow the first from cycle to cycle: ghosts over the plots, and a coarser twin, whose difference
+//! from the run is about the run's error.
 //!
 //! The twin has fewer cells and steps per cycle by a factor of 1.7, so about a third of the work. The two are compared
 //! at the end of a cycle, and again when the run is a quarter longer. In between, the twin takes steps and jumps of its
@@ -8,21 +8,15 @@
 use std::time::{Duration, Instant};
 
 use super::trend::Recorded;
-use crate::math::abel::AbelMethod;
-use crate::math::grid::{MIN_CELLS, RadialGrid};
-use crate::reading::{Curves, Observation};
-use crate::scenario::Spec;
-use crate::scenario::session::{Session, SessionError};
+use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Difference, Outcome};
 
-/// The second run, and the cost of its steps.
+/// The second run.
 #[derive(Debug, Clone)]
 pub(super) struct Beside {
     pub run: Recorded,
     /// The run before its first step, from which it restarts when the first run goes back in time.
     start: Option<Session>,
-    busy: Duration,
-    steps: u64,
     /// Why it stopped, if it did.
     pub stopped: Option<String>,
 }
@@ -34,15 +28,8 @@ impl Beside {
         Self {
             start: restarts.then(|| session.clone()),
             run: session.into(),
-            busy: Duration::ZERO,
-            steps: 0,
             stopped: None,
         }
-    }
-
-    /// Returns the mean cost of its steps, s; `None` before the first.
-    pub fn step_cost(&self) -> Option<f64> {
-        (self.steps > 0).then(|| self.busy.as_secs_f64() / self.steps as f64)
     }
 
     /// Whether it still has to reach `cycle`.
@@ -63,7 +50,7 @@ impl Beside {
         {
             *self = Self::new(start, true);
         }
-        let (start, before) = (Instant::now(), self.run.simulation().steps());
+        let start = Instant::now();
         while self.lags(cycle) {
             let stepped = self.run.step_until(goal);
             self.stopped = stepped.err().map(|error| error.to_string());
@@ -71,112 +58,7 @@ impl Beside {
                 break;
             }
         }
-        self.busy += start.elapsed();
-        self.steps += self.run.simulation().steps() - before;
     }
-}
-
-/// Where a comparison begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum From {
-    /// At the present state of the run.
-    Now,
-    /// At the start of the scenario.
-    Start,
-}
-
-/// The worker's side of a comparison.
-#[derive(Debug)]
-pub(super) struct ComparisonRun {
-    pub beside: Beside,
-    /// The index of its choice among [`choices`].
-    choice: usize,
-    /// Where it began.
-    pub from: From,
-}
-
-impl ComparisonRun {
-    /// Makes the comparison `places` after `before` in the list of choices, or the first one. It begins at the present
-    /// state of `session`, or at the start with the changes made since.
-    pub fn beside(
-        session: &Session,
-        before: Option<&Self>,
-        places: isize,
-        from: From,
-    ) -> Result<Self, SessionError> {
-        let choices = choices(session);
-        let now = before.map_or(0, |comparison| comparison.choice) as isize;
-        let choice = (now + places).rem_euclid(choices.len() as isize) as usize;
-        let chosen = &choices[choice];
-        let session = match from {
-            From::Now => {
-                let mut session = session.clone();
-                session.edit(chosen)?;
-                session
-            }
-            From::Start => {
-                let run = session.as_run(Vec::new());
-                let mut others = run.changes().to_vec();
-                let run = run.with_changes(Vec::new());
-                let scenario = run.edited(chosen)?;
-                let replaced = run.spec().changes_to(scenario.spec());
-                others.retain(|change| replaced.iter().all(|(key, _)| change.key() != *key));
-                Session::start(scenario.with_changes(others))?
-            }
-        };
-        Ok(Self {
-            beside: Beside::new(session, false),
-            choice,
-            from,
-        })
-    }
-
-    /// Returns the part that the screen shows.
-    pub fn seen(&self) -> Comparison {
-        let simulation = self.beside.run.simulation();
-        Comparison {
-            observation: simulation.observe(COMPARED),
-            step_cost: self.beside.step_cost(),
-            stopped: self.beside.stopped.clone(),
-        }
-    }
-}
-
-/// The curves shown of both runs.
-pub(super) const COMPARED: Curves = Curves::PROFILE.union(Curves::PRESSURE);
-
-/// A second run in lockstep with the first.
-#[derive(Debug, Clone)]
-pub struct Comparison {
-    /// Its curves and scalars.
-    pub observation: Observation,
-    /// Its time per step, s.
-    pub step_cost: Option<f64>,
-    /// Why it stopped, if it did.
-    pub stopped: Option<String>,
-}
-
-/// Names a run by its method and cells.
-pub fn name_of(method: AbelMethod, grid: &RadialGrid) -> String {
-    format!("{}, N = {}", method.spoken(), grid.cells())
-}
-
-/// What tells the other run apart.
-type Edit = Box<dyn Fn(&mut Spec)>;
-
-/// What a run can be compared with: every other method, and itself on half the cells.
-fn choices(session: &Session) -> Vec<Edit> {
-    let setup = session.simulation().setup();
-    let mut others = AbelMethod::of(setup.geometry).to_vec();
-    others.retain(|method| *method != setup.method);
-    // Method b comes first, because the paper's conclusion is about it.
-    others.sort_by_key(|method| *method != AbelMethod::B);
-    let half = (setup.grid.cells() / 2).max(MIN_CELLS);
-    let by = |method| -> Edit { Box::new(move |spec| spec.numerics.method = Some(method)) };
-    let on_half: Edit = Box::new(move |Spec { numerics, .. }| {
-        (numerics.accuracy, numerics.points, numerics.nodes) = (None, Some(half), None);
-    });
-    others.into_iter().map(by).chain([on_half]).collect()
 }
 
 /// At the next comparison the run is this many times longer.

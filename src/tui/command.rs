@@ -5,10 +5,10 @@
 
 use std::sync::OnceLock;
 
-use super::beside::From;
 use super::completion::{self, Completion};
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
+use super::ghosts::Since;
 use super::keys::Key::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
 use super::panels::StressMap;
@@ -131,7 +131,7 @@ commands! {
     "compare and check" {
         Compare [Char('c')] "compare", "compare with a second method; m and M change it", Work(Worker::compare_or_stop);
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
-            Work(|run| run.compare(0, From::Start));
+            Work(|run| run.compare(0, Since::Start));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
         DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_anew(Worker::drop_ghosts));
         Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Open;

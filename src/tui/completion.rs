@@ -49,7 +49,7 @@ impl Completion {
 
 /// Completes `KEY`, or `KEY=` with the values that the key accepts.
 pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
-    let known = &frame.facts.settings;
+    let known = &frame.settings();
     let Some((key, value)) = typed.split_once('=') else {
         return keys(known.iter(), typed.trim_end(), |setting| {
             let line = format!("set {}=", setting.parameter.path);
@@ -85,7 +85,8 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
 /// Completes `KEY`, or `KEY FROM..TO`.
 pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
     let is_number = |of: &&Setting| matches!(of.parameter.kind, Kind::Number | Kind::Whole);
-    let numbers = frame.facts.settings.iter().filter(is_number);
+    let settings = frame.settings();
+    let numbers = settings.iter().filter(is_number);
     let units = numbers.clone().map(|of| (of.parameter.path, of.unit));
     if let Some(range) = Range::parse(typed, &units.collect::<Vec<_>>()) {
         let help = format!("runs {POINTS} values on all cores and shows the curve");
@@ -135,7 +136,7 @@ pub fn goto(typed: &str, frame: &Frame) -> Vec<Completion> {
             "past: as it was; to come: runs there and pauses".into(),
         )];
     }
-    let plan = frame.facts.scenario.run();
+    let plan = frame.live.scenario.run();
     let planned = plan.snapshot_at.iter().chain(&plan.cycles);
     let help = || "the scenario writes the state there".to_owned();
     let mut list = vec![Completion::new(

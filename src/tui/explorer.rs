@@ -114,7 +114,7 @@ impl Explorer {
 
     /// Shows a new frame.
     pub fn take_frame(&mut self, frame: Arc<Frame>) {
-        let origin = frame.facts.scenario.origin();
+        let origin = frame.live.scenario.origin();
         self.charts.begin(origin);
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
@@ -131,12 +131,7 @@ impl Explorer {
 
     /// Returns the preset or the file on the screen.
     pub(super) fn origin(&self) -> &str {
-        self.frame.facts.scenario.origin()
-    }
-
-    /// Whether a comparison replaces all panels.
-    pub(super) fn compares(&self) -> bool {
-        self.frame.comparison.is_some()
+        self.frame.live.scenario.origin()
     }
 
     /// Stores the terminal's size; hidden panels are not computed.
@@ -156,8 +151,7 @@ impl Explorer {
     pub(super) fn click(&mut self, at: Position, is_second: bool) {
         self.begin_answer();
         let frame = Arc::clone(&self.frame);
-        let bands = layout::bands(self.stage.area).filter(|_| !self.compares());
-        let Some([_, line, area, _]) = bands else {
+        let Some([_, line, area, _]) = layout::bands(self.stage.area) else {
             return;
         };
         if let Some(cycle) = timeline::cycle_at(&frame, line, at) {

@@ -55,7 +55,7 @@ const ON_TOUR: Mode = &[
 
 fn mode(explorer: &Explorer) -> Mode {
     match &*explorer.frame {
-        frame if frame.comparison.is_some() => COMPARING,
+        frame if frame.compares => COMPARING,
         frame if frame.present.is_some() => IN_THE_PAST,
         _ if explorer.stage.tour.is_some() => ON_TOUR,
         _ if explorer.stage.shows_contact() => AT_THE_CONTACT,

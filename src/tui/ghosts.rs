@@ -1,4 +1,5 @@
-//! Sources of ghosts: files, states frozen by the user, and scenarios run beside.
+//! Sources of ghosts: files, states frozen by the user, and runs beside this one: of another scenario, by another
+//! method or on half the cells, or as it was before a change.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -6,10 +7,12 @@ use std::sync::Arc;
 
 use super::beside::Beside;
 use super::trend::Recorded;
+use crate::math::abel::AbelMethod;
+use crate::math::grid::MIN_CELLS;
 use crate::reading::Curves;
-use crate::scenario::Scenario;
 use crate::scenario::columns::Naming;
 use crate::scenario::session::{Session, SessionError};
+use crate::scenario::{Scenario, Spec};
 use crate::studies::ghost::Ghost;
 use crate::studies::refinement;
 
@@ -57,6 +60,42 @@ impl Source {
         Self::still(ghost(&name, run, Curves::all()))
     }
 
+    /// Runs `session` by another method or on half the cells: the `choice`th of these, counted round. Begins at the
+    /// present state, or at the start with the changes made since.
+    ///
+    /// # Errors
+    /// If that run cannot be made.
+    pub(super) fn rival(
+        session: &Session,
+        choice: isize,
+        since: Since,
+    ) -> Result<Self, SessionError> {
+        let choices = choices(session);
+        let chosen = &choices[choice.rem_euclid(choices.len() as isize) as usize];
+        let session = match since {
+            Since::Now => {
+                let mut session = session.clone();
+                session.edit(chosen)?;
+                session
+            }
+            Since::Start => {
+                let run = session.as_run(Vec::new());
+                let mut others = run.changes().to_vec();
+                let run = run.with_changes(Vec::new());
+                let scenario = run.edited(chosen)?;
+                let replaced = run.spec().changes_to(scenario.spec());
+                others.retain(|change| replaced.iter().all(|(key, _)| change.key() != *key));
+                Session::start(scenario.with_changes(others))?
+            }
+        };
+        let setup = session.simulation().setup();
+        let name = format!("{}, N = {}", setup.method.spoken(), setup.grid.cells());
+        Ok(Self {
+            ghost: Arc::new(Ghost::new(&name)),
+            beside: Some(Box::new(Beside::new(session, false))),
+        })
+    }
+
     /// Continues a run as it was before it was changed.
     pub(super) fn before(session: Session) -> Self {
         Self {
@@ -94,4 +133,31 @@ impl Source {
 fn ghost(name: &str, run: &Recorded, curves: Curves) -> Ghost {
     let seen = run.simulation().observe(curves);
     run.charted(&seen).ghost(name)
+}
+
+/// Where a comparison begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Since {
+    /// At the present state of the run.
+    Now,
+    /// At the start of the scenario.
+    Start,
+}
+
+/// What tells another run apart.
+type Edit = Box<dyn Fn(&mut Spec)>;
+
+/// What a run can be compared with: every other method, and itself on half the cells.
+fn choices(session: &Session) -> Vec<Edit> {
+    let setup = session.simulation().setup();
+    let mut others = AbelMethod::of(setup.geometry).to_vec();
+    others.retain(|method| *method != setup.method);
+    // Method b comes first, because the paper's conclusion is about it.
+    others.sort_by_key(|method| *method != AbelMethod::B);
+    let half = (setup.grid.cells() / 2).max(MIN_CELLS);
+    let by = |method| -> Edit { Box::new(move |spec| spec.numerics.method = Some(method)) };
+    let on_half: Edit = Box::new(move |Spec { numerics, .. }| {
+        (numerics.accuracy, numerics.points, numerics.nodes) = (None, Some(half), None);
+    });
+    others.into_iter().map(by).chain([on_half]).collect()
 }

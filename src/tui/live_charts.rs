@@ -12,7 +12,7 @@ use super::held::Held;
 use super::panels::{Content, Panel, extent};
 use super::stage::Stage;
 use super::tour;
-use crate::charts::{Recipe, View};
+use crate::charts::{Medium, Recipe, View};
 use crate::math::scan::{range, value_at};
 use crate::plot::{Chart, Scale};
 
@@ -103,18 +103,19 @@ impl LiveCharts {
     pub(super) fn get(&self, panel: Panel, recipe: &Recipe, frame: &Frame) -> Cow<'_, Made> {
         match self.charts.get(&panel) {
             Some(chart) => Cow::Borrowed(chart),
-            None => Cow::Owned(recipe.chart(&frame.run, &self.view(panel))),
+            None => Cow::Owned(recipe.chart(&frame.run, &self.view(panel, frame))),
         }
     }
 
-    fn view(&self, panel: Panel) -> View {
+    fn view<'f>(&self, panel: Panel, frame: &'f Frame) -> View<'f> {
         View {
+            medium: Medium::Screen(&frame.live),
             scale: self.scale(panel),
             with_theory: self.with_theory,
         }
     }
 
-    /// Makes the charts of the `visible` panels, each for the frame that it shows. A comparison draws different charts.
+    /// Makes the charts of the `visible` panels, each for the frame that it shows.
     pub fn make<'a>(
         &mut self,
         visible: &[Panel],
@@ -123,12 +124,10 @@ impl LiveCharts {
         cursor: &Cursor,
     ) {
         self.charts.clear();
-        if newest.comparison.is_some() {
-            return;
-        }
-        let cycle = newest.observation.moment.cycle;
+        let cycle = newest.live.observation.moment.cycle;
         for &panel in visible {
-            let (view, frame) = (self.view(panel), shown(panel));
+            let frame = shown(panel);
+            let view = self.view(panel, frame);
             let ordinate = (panel, Some(view.scale));
             let recipe = match panel.content() {
                 Content::Chart(recipe) => recipe,
@@ -207,7 +206,7 @@ impl Calm {
     /// Holds its frame for a few frames, then takes `newest`; returns whether it has. In a `slow` view it is held for a
     /// whole cycle, so that a contact shown large has the stress of one phase of the motion.
     pub fn take(&mut self, newest: &Arc<Frame>, slow: bool) -> bool {
-        let begins = |frame: &Frame| frame.observation.moment.cycle.floor();
+        let begins = |frame: &Frame| frame.live.observation.moment.cycle.floor();
         let may_stay = |calm: &Frame, lasted| match slow {
             true => begins(calm) == begins(newest),
             false => lasted < LASTS,
@@ -238,9 +237,8 @@ impl Calm {
 /// Whether `calm` may stay while the others show `frame`: the run continues, and both hold the same kinds of data.
 fn may_last(calm: &Frame, frame: &Frame) -> bool {
     frame.activity == Activity::Running
-        && frame.observation.moment.cycle >= calm.observation.moment.cycle
+        && frame.live.observation.moment.cycle >= calm.live.observation.moment.cycle
         && frame.load.is_some() == calm.load.is_some()
-        && frame.comparison.is_some() == calm.comparison.is_some()
 }
 
 #[cfg(test)]

@@ -44,12 +44,12 @@ pub struct SpeedUp(Option<(f64, f64)>);
 impl SpeedUp {
     /// Whether the run has had its pace long enough to increase it.
     pub fn is_due(&mut self, frame: &Frame, presents: bool) -> bool {
-        let cycle = frame.observation.moment.cycle;
+        let cycle = frame.live.observation.moment.cycle;
         let is_running = presents && frame.activity == Activity::Running;
         let since = self
             .0
             .filter(|(pace, began)| is_running && *pace == frame.pace && cycle >= *began);
-        let planned = frame.facts.scenario.run().cycles.unwrap_or(f64::INFINITY);
+        let planned = frame.live.scenario.run().cycles.unwrap_or(f64::INFINITY);
         let is_due = since
             .is_some_and(|(pace, began)| planned / pace > LEAST && cycle - began >= SECONDS * pace);
         if is_due || since.is_none() {
@@ -66,10 +66,10 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
         return;
     }
     let below = Rect::new(area.x + 1, area.y + 1, area.width - 1, area.height - 1);
-    let (_, words, role) = contact_state(&frame.observation.moment);
-    let words = frame.observation.geometry.named(words);
+    let (_, words, role) = contact_state(&frame.live.observation.moment);
+    let words = frame.live.observation.geometry.named(words);
     let used = large(&words, role, canvas.at(below));
-    let cycle = format!("CYCLE {:.0}", frame.observation.moment.cycle.floor());
+    let cycle = format!("CYCLE {:.0}", frame.live.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;
     if used + width + 4 < below.width {
         let right = Rect::new(below.right() - width, below.y, width, below.height);

@@ -33,7 +33,7 @@ pub(super) fn line_at(
     };
     match &*charts.get(focus, recipe, frame) {
         _ if abscissa(focus) == RADIUS => line(frame, focus, place, width, theme),
-        Ok(chart) => match &compared(&frame.run, focus, place)[..] {
+        Ok(chart) => match &compared(frame, focus, place)[..] {
             [] => line_of(chart, place, width, theme),
             now => theme.printable(&format!(" now {}", now.concat())),
         },
@@ -48,13 +48,13 @@ fn line(frame: &Frame, focus: Panel, r: f64, width: usize, theme: &Theme) -> Str
         format!(" {name} {} ", format_value(value, unit, DIGITS))
     };
     let run = &frame.run;
-    let mut parts = compared(run, focus, r);
+    let mut parts = compared(frame, focus, r);
     let at_radius = parts.is_empty() || compared_axes(focus).over_r();
     if at_radius {
-        let zone = frame.observation.moment.zone_at(r);
+        let zone = frame.live.observation.moment.zone_at(r);
         let place = [value("r", r, "m"), format!(" {} ", zone.name())];
         parts.splice(0..0, place);
-        let moves = frame.observation.moment.stick_radius.is_some();
+        let moves = frame.live.observation.moment.stick_radius.is_some();
         let curves = CURVES.into_iter();
         for axes in curves.filter(|axes| moves || *axes != Axes::SHEAR) {
             let at = over_r(run, axes, r).map(|seen| value(axes.y.symbol(), seen, axes.y.unit()));
@@ -94,11 +94,12 @@ fn compared_axes(focus: Panel) -> Axes {
 
 /// Returns the position at which the panel compares (the radius, or the present displacement, cycle or work) and the
 /// run's value there.
-fn here(run: &Run, axes: Axes, r: f64) -> Option<(f64, f64)> {
+fn here(frame: &Frame, axes: Axes, r: f64) -> Option<(f64, f64)> {
+    let run = &frame.run;
     if axes.over_r() {
         return Some((r, over_r(run, axes, r)?));
     }
-    let moment = &run.live.as_ref()?.seen.moment;
+    let moment = &frame.live.observation.moment;
     match axes {
         Axes::LOOP => return Some((moment.shift, moment.tangential_force)),
         // The screen shows the largest radius of the cycle, histories the one at that moment.
@@ -126,9 +127,10 @@ fn of_ghost(run: &Run, ghost: &Ghost, axes: Axes, place: f64) -> Option<f64> {
 
 /// Returns the run's value of the focused panel's quantity, and each ghost's value with its difference from the run's;
 /// empty if no ghost has the quantity.
-fn compared(run: &Run, focus: Panel, r: f64) -> Vec<String> {
+fn compared(frame: &Frame, focus: Panel, r: f64) -> Vec<String> {
     let axes = compared_axes(focus);
-    let Some((place, own)) = here(run, axes, r) else {
+    let run = &frame.run;
+    let Some((place, own)) = here(frame, axes, r) else {
         return Vec::new();
     };
     let shown = |value: f64| format_value(value, axes.y.unit(), DIGITS);

@@ -20,7 +20,7 @@ use super::explorer::Explorer;
 use super::frame::{Activity, Frame};
 use super::layout;
 use super::overlays::Overlay;
-use super::panels::{Content, Panel, Shown, compare};
+use super::panels::{Content, Panel, Shown};
 use super::{footer, present, timeline};
 use crate::plot::theme::Role;
 use crate::reading::verdict;
@@ -60,10 +60,6 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn panels(explorer: &Explorer, mut canvas: Canvas) {
     let (frame, stage, area) = (&*explorer.frame, &explorer.stage, canvas.area);
-    if let Some(comparison) = &frame.comparison {
-        let cursor = explorer.cursor_in(Panel::Profile);
-        return compare::draw(frame, comparison, cursor, canvas);
-    }
     for (panel, place) in stage.places(area) {
         draw_panel(panel, explorer, canvas.at(place));
     }
@@ -119,7 +115,7 @@ fn status(frame: &Frame, mut canvas: Canvas) {
         left = text(&parts);
     }
     let room = usize::from(area.width).saturating_sub(Line::raw(left.as_str()).width() + 4);
-    let title = shortened(theme.printable(frame.facts.scenario.title()), room);
+    let title = shortened(theme.printable(frame.live.scenario.title()), room);
     canvas.show(Line::styled(title, bar).right_aligned());
     canvas.show(Line::styled(format!(" {left}"), bar));
 }
@@ -149,8 +145,8 @@ fn shortened(mut text: String, room: usize) -> String {
 
 /// Returns the parts of the status line, the state first.
 fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
-    let moment = &frame.observation.moment;
-    let planned = frame.facts.scenario.run().cycles;
+    let moment = &frame.live.observation.moment;
+    let planned = frame.live.scenario.run().cycles;
     // Hundredths are of no interest among ten thousand cycles.
     let most = planned.unwrap_or(0.0).max(moment.cycle);
     let decimals = if most < 1e4 { 2 } else { 0 };
@@ -176,15 +172,15 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
         Activity::Done => "■ done",
         Activity::Stopped(_) => "! stopped",
     };
-    let law = frame.observation.law.unwrap_or("no wear");
+    let law = frame.live.observation.law.unwrap_or("no wear");
     let word = if has_room { "method: " } else { "" };
-    let method = format!("{word}{}", frame.observation.method);
+    let method = format!("{word}{}", frame.live.observation.method);
     let present = frame.present.map(|present| format!("present {present:.2}"));
     let verdict = verdict(&frame.checks);
     let errors = frame.errors.as_ref().ok();
     let error = errors.map(|(_, errors)| errors.of_wear());
     let error = error.filter(|error| error.is_finite()).map(wear_error);
-    let mut warnings = frame.facts.warnings.iter();
+    let mut warnings = frame.warnings.iter();
     let is_outside = warnings.any(|warning| warning.starts_with("outside"));
     let parts = [
         Some((6, activity.into(), 9)),

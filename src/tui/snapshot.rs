@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 
-use super::trend::{self, Cycle, Recorded, Trend};
+use super::trend::{Recorded, Trend};
 use crate::export::file::WriteError;
 use crate::export::header::{field as written, number, table};
 use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
@@ -54,21 +54,22 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
 /// Returns the history with the columns of a run's `history.csv`. As on the screen, contact radii and stick radii are
 /// the largest and the smallest of each cycle.
 fn history(session: &Session, trend: &Trend) -> String {
+    let cycles = trend.history.column(Column::Cycle).unwrap_or_default();
     let now = session.simulation().cycle();
-    let rows = trend.cycles().map(|entry| {
-        let mut fields = match &entry.fields {
+    let rows = trend.fields.iter().enumerate().map(|(row, fields)| {
+        let mut fields = match fields {
             Some(fields) => fields.to_vec(),
-            None if entry.end() == now => history::fields(&Reading::new(session)).to_vec(),
+            None if cycles[row] == now => history::fields(&Reading::new(session)).to_vec(),
             None => vec![String::new(); Column::HISTORY.len()],
         };
-        for ((column, _), value) in trend::COLUMNS.into_iter().zip(entry.values) {
+        for (column, values) in trend.history.columns() {
             let is_of_cycle =
                 [Column::ContactRadius, Column::PermanentStickRadius].contains(&column);
             let at = Column::HISTORY.iter().position(|known| *known == column);
             if let Some(field) = at.map(|at| &mut fields[at])
                 && (is_of_cycle || field.is_empty())
             {
-                *field = written(value);
+                *field = written(values[row]);
             }
         }
         fields
@@ -136,15 +137,9 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let has_all = file.names == Column::HISTORY.map(Column::name);
     let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
     let entries = entries.map(|row| {
-        let value = |column| {
-            history
-                .column(column)
-                .map_or(f64::NAN, |values| values[row])
-        };
-        Cycle {
-            values: trend::COLUMNS.map(|(column, _)| value(column)),
-            fields: has_all.then(|| file.fields(row).into()),
-        }
+        let column = |column| history.column(column);
+        let value = move |of| column(of).map_or(f64::NAN, |values| values[row]);
+        (value, has_all.then(|| file.fields(row).into()))
     });
     let steps = read("loop.csv").map(|file| Table::of_file(&file));
     let steps = steps.unwrap_or_default();

@@ -17,8 +17,8 @@ const LEAST: u16 = 30;
 
 /// Returns the present cycle, and the cycle at the end of the line.
 fn ends(frame: &Frame) -> [f64; 2] {
-    let now = frame.present.unwrap_or(frame.observation.moment.cycle);
-    let end = match frame.facts.scenario.run().cycles {
+    let now = frame.present.unwrap_or(frame.live.observation.moment.cycle);
+    let end = match frame.live.scenario.run().cycles {
         Some(planned) if now <= planned => planned,
         _ => round_end(now),
     };
@@ -33,7 +33,7 @@ fn short(cycle: f64) -> f64 {
 /// Describes the last change before the shown moment in as many words as fit. The cycle can be seen on the line, and
 /// the end of a key says more than its beginning.
 fn edit(frame: &Frame, room: usize) -> Option<String> {
-    let shown = frame.observation.moment.cycle + 1e-9;
+    let shown = frame.live.observation.moment.cycle + 1e-9;
     let mut latest_first = frame.changes.iter().rev();
     let change = latest_first.find(|change| change.at_cycle <= shown)?;
     let set = change.set.as_str();
@@ -83,7 +83,7 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
     let changes = changes.map(|change| (change.at_cycle, ["▼", "v"], Role::Notice));
     let snapshots = frame.snapshots.iter();
     let snapshots = snapshots.map(|cycle| (*cycle, ["◆", "s"], Role::Contact));
-    let shown = (frame.observation.moment.cycle, ["●", "O"], Role::Title);
+    let shown = (frame.live.observation.moment.cycle, ["●", "O"], Role::Title);
     for (cycle, signs_of, role) in changes.chain(snapshots).chain([shown]) {
         if let Some(span) = signs.get_mut(usize::from(place(cycle))) {
             *span = Span::styled(sign(signs_of), theme.style(role));

@@ -49,7 +49,7 @@ impl Recorded {
         let last = moves.then(|| self.trend.loops.last(moment.cycle));
         Run {
             states: vec![Arc::clone(&seen.columns)],
-            history: Some(self.trend.history()),
+            history: Some(Arc::clone(&self.trend.history)),
             loops: last.into_iter().collect(),
             geometry: seen.geometry,
             ..Run::default()
@@ -76,7 +76,7 @@ type Merge = fn(f64, f64) -> f64;
 const LAST: Merge = |_, later| later;
 
 /// The columns of a history, by their names in `history.csv` where they are there.
-pub const COLUMNS: [(Column, Merge); 11] = [
+const COLUMNS: [(Column, Merge); 12] = [
     (Column::Cycle, LAST),
     (Column::ContactRadius, f64::max),
     (Column::PermanentStickRadius, f64::min),
@@ -89,41 +89,30 @@ pub const COLUMNS: [(Column, Merge); 11] = [
     // Of the last whole cycle.
     (Column::ShiftAmplitude, LAST),
     (Column::MeanNormalForce, LAST),
+    // The mean since the entry before.
+    (Column::WearRate, LAST),
 ];
 
 const VOLUME: usize = 3;
 const AMPLITUDE: usize = 9;
 const LOAD: usize = 10;
+const RATE: usize = 11;
 
-/// One cycle, or several merged ones; NaN for unknown values.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Cycle {
-    /// Its values, in the order of the [`COLUMNS`].
-    pub values: [f64; COLUMNS.len()],
-    /// The fields of its end in `history.csv`; `None` while it is incomplete.
-    pub fields: Option<Arc<[String]>>,
-}
+/// One cycle, or several merged ones, in the order of the [`COLUMNS`]; NaN for unknown values.
+type Cycle = [f64; COLUMNS.len()];
 
-impl Cycle {
-    /// Returns its end.
-    pub fn end(&self) -> f64 {
-        self.values[0]
-    }
+/// The fields of a cycle's end in `history.csv`; `None` while it is incomplete.
+pub type Fields = Option<Arc<[String]>>;
 
-    fn merged(&self, later: &Self) -> Self {
-        Self {
-            values: from_fn(|k| (COLUMNS[k].1)(self.values[k], later.values[k])),
-            fields: later.fields.clone(),
-        }
-    }
-}
-
-/// The past of a run. Copies share the cycles.
+/// The past of a run. Copies share what has not changed since.
 #[derive(Debug, Clone, Default)]
 pub struct Trend {
-    cycles: Vec<Arc<Cycle>>,
-    /// The incomplete cycle.
-    open: Option<Arc<Cycle>>,
+    /// The cycles so far, oldest first.
+    pub history: Arc<Table>,
+    /// The fields of each.
+    pub fields: Vec<Fields>,
+    /// Whether the last cycle is incomplete.
+    pub is_within_a_cycle: bool,
     /// Number of cycles per entry.
     stride: f64,
     /// The time per step for new entries, s.
@@ -135,36 +124,25 @@ pub struct Trend {
 }
 
 impl Trend {
-    /// Restores a past from `cycles`, oldest first, and the [steps](Loops::steps) of the last one. The run began with a
-    /// worn volume `initial` (m³).
+    /// Restores a past from `cycles`, oldest first: their values by column and their fields, and the
+    /// [steps](Loops::steps) of the last one. The run began with a worn volume `initial` (m³).
     pub fn of_past(
-        cycles: impl Iterator<Item = Cycle>,
+        cycles: impl Iterator<Item = (impl Fn(Column) -> f64, Fields)>,
         steps: impl Iterator<Item = [f64; 4]>,
         initial: f64,
     ) -> Self {
-        let mut cycles: Vec<_> = cycles.take(CAPACITY - 1).map(Arc::new).collect();
-        // An incomplete last cycle stays open.
-        let whole = cycles.iter().rev().nth(1).map_or(0.0, |entry| entry.end());
-        let is_open = |last: &mut Arc<Cycle>| last.end() < whole + 1.0 - 1e-9;
         let mut trend = Self {
-            open: cycles.pop_if(is_open),
-            cycles,
             start: Some([0.0, initial]),
             ..Self::default()
         };
+        for (value, fields) in cycles.take(CAPACITY - 1) {
+            // An incomplete last cycle stays open.
+            let whole = trend.last().map_or(0.0, |last| last[0]);
+            trend.is_within_a_cycle = value(Column::Cycle) < whole + 1.0 - 1e-9;
+            trend.push(COLUMNS.map(|(column, _)| value(column)), fields);
+        }
         trend.loops.steps.extend(steps);
         trend
-    }
-
-    /// Returns its memory in bytes, not counting the cycles that it shares with `other`.
-    pub fn bytes_beside(&self, other: Option<&Self>) -> usize {
-        let first = |trend: &Self| trend.cycles.first().map(Arc::as_ptr);
-        let other = other.filter(|other| first(other) == first(self));
-        let shared = other.map_or(0, |other| other.cycles.len());
-        let fields = 32 * Column::HISTORY.len();
-        let own = self.cycles.len().saturating_sub(shared) * (size_of::<Cycle>() + fields);
-        let places = size_of::<Arc<Cycle>>() * self.cycles.len();
-        own + places + size_of::<[f64; 4]>() * self.loops.steps.len()
     }
 
     /// Records the moment after a step.
@@ -180,85 +158,101 @@ impl Trend {
         } else {
             self.loops.record(&moment);
         }
-        let is_end = self.take(&moment, scar);
-        let ended = self.cycles.last_mut().filter(|_| is_end);
-        if let Some(entry) = ended.map(Arc::make_mut) {
+        self.add(&moment, scar, |cycle| {
             let reading = Reading::new(session);
             for k in [AMPLITUDE, LOAD] {
-                entry.values[k] = reading.number(COLUMNS[k].0);
+                cycle[k] = reading.number(COLUMNS[k].0);
             }
-            entry.fields = Some(Arc::new(history::fields(&reading)));
-        }
+            Arc::new(history::fields(&reading))
+        });
     }
 
-    /// Adds a moment, with the largest worn depth and the outer radius of the scar, m; returns true if it completes an
-    /// entry.
-    fn take(&mut self, moment: &Moment, [depth, radius]: [f64; 2]) -> bool {
-        let [start, _] = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
-        let before = self.cycles.last().map(|last| last.values);
+    /// Adds a moment, with the largest worn depth and the outer radius of the scar, m. If it completes an entry,
+    /// `complete` corrects its values and returns its fields.
+    fn add(
+        &mut self,
+        moment: &Moment,
+        [depth, radius]: [f64; 2],
+        complete: impl FnOnce(&mut Cycle) -> Arc<[String]>,
+    ) {
+        let start = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
+        let open = self.is_within_a_cycle.then(|| self.pop()).flatten();
+        let before = self.last();
         let of_last = |k: usize| before.map_or(f64::NAN, |values| values[k]);
-        let now = Cycle {
-            values: [
-                moment.cycle,
-                moment.contact_radius,
-                moment.stick_radius.unwrap_or(f64::NAN),
-                moment.wear_volume,
-                depth,
-                radius,
-                moment.dissipated_energy,
-                moment.energy_residual.unwrap_or(f64::NAN),
-                self.step_cost.unwrap_or(f64::NAN),
-                of_last(AMPLITUDE),
-                of_last(LOAD),
-            ],
-            fields: None,
-        };
-        let merged = match self.open.take() {
-            Some(open) => open.merged(&now),
-            None => now,
-        };
-        let before = before.map_or(start, |values| values[0]);
-        if merged.end() < before + self.stride.max(1.0) - 1e-9 {
-            self.open = Some(Arc::new(merged));
-            return false;
+        let now = [
+            moment.cycle,
+            moment.contact_radius,
+            moment.stick_radius.unwrap_or(f64::NAN),
+            moment.wear_volume,
+            depth,
+            radius,
+            moment.dissipated_energy,
+            moment.energy_residual.unwrap_or(f64::NAN),
+            self.step_cost.unwrap_or(f64::NAN),
+            of_last(AMPLITUDE),
+            of_last(LOAD),
+            f64::NAN,
+        ];
+        let mut cycle = open.map_or(now, |open| merged(&open, &now));
+        let before = before.map_or(start[0], |values| values[0]);
+        self.is_within_a_cycle = cycle[0] < before + self.stride.max(1.0) - 1e-9;
+        let fields = (!self.is_within_a_cycle).then(|| complete(&mut cycle));
+        self.push(cycle, fields);
+        if !self.is_within_a_cycle && self.fields.len() >= CAPACITY {
+            self.merge_pairs();
         }
-        self.cycles.push(Arc::new(merged));
-        if self.cycles.len() >= CAPACITY {
-            let pairs = self.cycles.chunks(2).map(|pair| match pair {
-                [one, other] => Arc::new(one.merged(other)),
-                alone => Arc::clone(&alone[0]),
-            });
-            self.cycles = pairs.collect();
-            self.stride = 2.0 * self.stride.max(1.0);
+    }
+
+    /// Adds an entry, with the mean wear volume per cycle since the one before.
+    fn push(&mut self, mut cycle: Cycle, fields: Fields) {
+        let before = self.last().map(|last| [last[0], last[VOLUME]]);
+        let [then, volume] = before.or(self.start).unwrap_or_default();
+        cycle[RATE] = (cycle[VOLUME] - volume) / (cycle[0] - then);
+        let columns = COLUMNS.map(|(column, _)| column).into_iter();
+        Arc::make_mut(&mut self.history).push(columns.zip(cycle));
+        self.fields.push(fields);
+    }
+
+    /// Removes and returns the last entry.
+    fn pop(&mut self) -> Option<Cycle> {
+        let last = self.last();
+        Arc::make_mut(&mut self.history).pop();
+        self.fields.pop();
+        last
+    }
+
+    fn merge_pairs(&mut self) {
+        let rows: Vec<_> = (0..self.fields.len()).map(|row| self.cycle(row)).collect();
+        let fields = std::mem::take(&mut self.fields);
+        self.history = Arc::default();
+        for (pair, fields) in rows.chunks(2).zip(fields.chunks(2)) {
+            let cycle = pair
+                .iter()
+                .copied()
+                .reduce(|one, other| merged(&one, &other));
+            let fields = fields.last().cloned().flatten();
+            cycle
+                .into_iter()
+                .for_each(|cycle| self.push(cycle, fields.clone()));
         }
-        true
+        self.stride = 2.0 * self.stride.max(1.0);
     }
 
-    /// Returns the cycles so far, including the incomplete one, oldest first.
-    pub fn cycles(&self) -> impl Iterator<Item = &Cycle> {
-        self.cycles.iter().chain(&self.open).map(Arc::as_ref)
+    fn cycle(&self, row: usize) -> Cycle {
+        COLUMNS.map(|(column, _)| {
+            self.history
+                .column(column)
+                .map_or(f64::NAN, |values| values[row])
+        })
     }
 
-    /// Whether the last cycle is incomplete.
-    pub fn is_within_a_cycle(&self) -> bool {
-        self.open.is_some()
+    fn last(&self) -> Option<Cycle> {
+        Some(self.cycle(self.fields.len().checked_sub(1)?))
     }
+}
 
-    /// Returns the cycles so far as columns, with the mean wear volume per cycle in each entry.
-    pub fn history(&self) -> Table {
-        let columns = COLUMNS.into_iter().enumerate();
-        let columns = columns.map(|(k, (column, _))| {
-            let values = self.cycles().map(|entry| entry.values[k]);
-            (column, values.collect())
-        });
-        let start = self.start.unwrap_or_default();
-        let rates = self.cycles().scan(start, |before, entry| {
-            let [cycle, volume] = std::mem::replace(before, [entry.end(), entry.values[VOLUME]]);
-            Some((before[1] - volume) / (before[0] - cycle))
-        });
-        let rates = (Column::WearRate, rates.collect());
-        Table::of_columns(Vec::new(), columns.chain([rates]))
-    }
+fn merged(one: &Cycle, later: &Cycle) -> Cycle {
+    from_fn(|k| (COLUMNS[k].1)(one[k], later[k]))
 }
 
 #[cfg(test)]
@@ -290,17 +284,20 @@ pub(super) mod tests {
         let mut trend = Trend::default();
         for step in 1..=200_000_u32 {
             let cycle = f64::from(step) / 4.0;
-            trend.take(
-                &moment(cycle, if step == 777 { 0.1 } else { 1.0 }),
-                [0.0; 2],
-            );
+            let stick = if step == 777 { 0.1 } else { 1.0 };
+            trend.add(&moment(cycle, stick), [0.0; 2], |_| Arc::new([]));
         }
-        assert!(trend.cycles().count() <= CAPACITY);
-        let smallest = trend
-            .cycles()
-            .map(|cycle| cycle.values[2])
-            .fold(f64::INFINITY, f64::min);
-        assert_eq!(smallest, 0.1);
-        assert_eq!(trend.cycles().last().map(Cycle::end), Some(50_000.0));
+        assert!(trend.fields.len() <= CAPACITY);
+        assert_eq!(trend.history.rows(), trend.fields.len());
+        let radii = trend.history.column(Column::PermanentStickRadius);
+        let smallest = radii.and_then(|radii| radii.iter().copied().reduce(f64::min));
+        assert_eq!(smallest, Some(0.1));
+        assert_eq!(trend.history.last_cycle(), Some(50_000.0));
+        // One unit of volume per cycle.
+        let rates = trend.history.column(Column::WearRate).unwrap_or_default();
+        assert!(
+            rates.iter().all(|rate| (rate - 1.0).abs() < 1e-9),
+            "{rates:?}"
+        );
     }
 }

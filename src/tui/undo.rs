@@ -11,20 +11,13 @@ use std::sync::Arc;
 use super::autosave::mark;
 use super::trend::Recorded;
 
-/// The memory limit for the past, bytes.
-const BUDGET: usize = 64 << 20;
+/// Maximum number of states, and of numbers at nodes in all of them (64 MB), which counts on large grids.
+const MOST: usize = 256;
+const MOST_NUMBERS: usize = 8 << 20;
 
-/// Upper bound of the number of nodal arrays in a session.
+/// Upper bounds of the number of nodal arrays in a session, and in the operators of a method in its fast form.
 const ARRAYS: usize = 40;
-
-/// Upper bound of the number of nodal arrays in the operators of a method in its fast form.
 const FAST_ARRAYS: usize = 200;
-
-/// Memory of a session besides nodal values, for texts and tables, in bytes.
-const TEXTS: usize = 24 << 10;
-
-/// Memory of a session for each change made to it, in bytes.
-const CHANGE: usize = 256;
 
 /// One state of the past.
 #[derive(Debug)]
@@ -42,9 +35,9 @@ impl Kept {
         self.run.cycle()
     }
 
-    /// Returns an upper bound, in bytes, of its memory that is not shared with the state `after`. Operators are shared
-    /// unless method or grid differ; the newest state's operators do not count, because they are in use anyway.
-    fn bytes(&self, after: Option<&Self>) -> usize {
+    /// Returns an upper bound of the numbers at nodes that it does not share with the state `after`. Operators are
+    /// shared unless method or grid differ; the newest state's operators do not count, because they are in use anyway.
+    fn numbers(&self, after: Option<&Self>) -> usize {
         let setup = self.run.simulation().setup();
         let nodes = setup.grid.len();
         let shares_operators = after.is_none_or(|after| {
@@ -58,13 +51,10 @@ impl Kept {
         let is_fast = setup.method.prefers_fast(nodes) && !setup.geometry.is_line();
         let operators = match is_fast {
             _ if shares_operators => 0,
-            true => FAST_ARRAYS * nodes,
-            false => 4 * nodes.pow(2),
+            true => FAST_ARRAYS,
+            false => 4 * nodes,
         };
-        let changes = self.run.session.changes().len() * CHANGE;
-        let trend = &self.run.trend;
-        let trend = trend.bytes_beside(after.map(|after| &after.run.trend));
-        8 * (ARRAYS * nodes + operators) + trend + TEXTS + changes
+        (ARRAYS + operators) * nodes
     }
 }
 
@@ -101,13 +91,13 @@ impl Past {
             stretch: self.stretch,
             scenario: self.scenario,
         }));
-        self.make_room(BUDGET);
+        self.make_room(MOST, MOST_NUMBERS);
     }
 
-    /// Thins the past, then drops the oldest states, until it takes at most `budget` bytes. The last state stays, and
-    /// the first as long as possible.
-    fn make_room(&mut self, budget: usize) {
-        while self.kept.len() > 2 && self.bytes() > budget {
+    /// Thins the past, then drops the oldest states, until there are at most `states`, with at most so many `numbers`.
+    /// The last state stays, and the first as long as possible.
+    fn make_room(&mut self, states: usize, numbers: usize) {
+        while self.kept.len() > 2 && (self.kept.len() > states || self.numbers() > numbers) {
             let least = self.least_missed().unwrap_or(0);
             self.kept.remove(least);
             self.at = self.at.map(|at| at - usize::from(least < at));
@@ -121,12 +111,12 @@ impl Past {
         })
     }
 
-    /// Returns an upper bound of the memory in use, bytes.
-    fn bytes(&self) -> usize {
+    /// Returns an upper bound of the numbers at nodes in all states.
+    fn numbers(&self) -> usize {
         let mut after = None;
         let newest_first = self.kept.iter().rev();
         newest_first
-            .map(|kept| kept.bytes(after.replace(kept).map(Arc::as_ref)))
+            .map(|kept| kept.numbers(after.replace(kept).map(Arc::as_ref)))
             .sum()
     }
 
@@ -212,7 +202,7 @@ impl Past {
         };
         self.kept.insert(at + 1, Arc::new(kept));
         self.at = Some(at + 1);
-        self.make_room(BUDGET);
+        self.make_room(MOST, MOST_NUMBERS);
     }
 
     /// Goes to a state; the last one is the present.
@@ -296,13 +286,12 @@ mod tests {
         let mut session = session();
         let mut past = Past::default();
         keep(&mut past, &session);
-        let budget = 24 * past.kept[0].bytes(None);
         for cycle in 1..=300 {
             session.advance_to(f64::from(cycle)).expect("a step");
             keep(&mut past, &session);
             keep(&mut past, &session);
-            past.make_room(budget);
-            assert!(past.bytes() <= budget);
+            past.make_room(24, usize::MAX);
+            assert!(past.kept.len() <= 24);
         }
         let cycles = cycles(&past);
         assert_eq!((cycles[0], cycles[cycles.len() - 1]), (0.0, 300.0));
@@ -323,15 +312,15 @@ mod tests {
         let start = session();
         let mut past = Past::default();
         keep(&mut past, &start);
-        let budget = 12 * past.kept[0].bytes(None);
+        let budget = 12 * past.kept[0].numbers(None);
         for _ in 0..40 {
             let mut session = start.clone();
             keep(&mut past, &session);
             for cycle in 1..=5 {
                 session.advance_to(f64::from(cycle)).expect("a step");
                 keep(&mut past, &session);
-                past.make_room(budget);
-                assert!(past.bytes() <= budget);
+                past.make_room(MOST, budget);
+                assert!(past.numbers() <= budget);
             }
             past.leave();
         }

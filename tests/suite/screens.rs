@@ -38,7 +38,7 @@ fn screens_are_as_the_table_says() {
 }
 
 #[test]
-fn two_methods_side_by_side() {
+fn a_second_method_lies_over_the_plots() {
     for size in SIZES {
         // The time per step is another on every machine.
         let text = shot("li2019-fig3", ",,,,C", size);
@@ -70,7 +70,7 @@ fn a_click_on_the_timeline_travels_there() {
         stage.app.point(Gesture::Click(Position::new(column, 1)));
         stage.press("<Esc>");
         let frame = stage.app.explorer.frame.clone();
-        let seen = (frame.observation.moment.cycle, frame.present);
+        let seen = (frame.live.observation.moment.cycle, frame.present);
         assert_eq!(seen, (cycle, present));
     }
 }
@@ -97,7 +97,7 @@ fn a_lecture_speeds_up_by_itself() {
         (0.5, 91.0, &paused, false),
         (0.5, 99.0, &paused, false),
     ] {
-        Arc::make_mut(&mut frame.observation).moment.cycle = cycle;
+        frame.live.observation.moment.cycle = cycle;
         frame.pace = at;
         frame.activity = activity.clone();
         let before = stage.frame().pace;
@@ -330,11 +330,18 @@ fn a_small_panel_hides_no_curve_behind_its_names() {
 #[test]
 fn a_comparison_can_begin_at_the_start() {
     // It is the run of that method: the same numbers as in a run of its own.
-    let text = shot("strong-wear", ",,,,,,C", (120, 40));
+    let text = shot(
+        "strong-wear",
+        &format!(",,,,,,Cx{}", "<Tab>".repeat(8)),
+        (200, 50),
+    );
     let alone = ran(load("strong-wear", &["numerics.method=b"]), 6.0);
     let volume = alone.simulation().moment().wear_volume;
     let shown = mdr_tui::plot::units::format_value(volume, "m³", 4);
-    has(line_with(&text, "wear volume "), &shown);
+    has(
+        line_with(&text, " now  V"),
+        &format!(" B, N = 100 {shown} ("),
+    );
 }
 
 /// A worker that runs for so many cycles.
@@ -365,13 +372,13 @@ fn fast_runs_are_shown_at_one_phase() {
     // What was on the way, and the answer to the order.
     frames(3);
     for frame in frames(8) {
-        let part = frame.observation.moment.cycle.fract();
+        let part = frame.live.observation.moment.cycle.fract();
         assert!(frame.shows_ends);
         assert!(part < 0.011, "{part}");
     }
     orders.send(Worker::hold_or_release_phase);
     frames(3);
-    let is_off = |frame: &Frame| frame.observation.moment.cycle.fract() > 0.05;
+    let is_off = |frame: &Frame| frame.live.observation.moment.cycle.fract() > 0.05;
     assert!(frames(8).iter().any(|frame| is_off(frame)));
 }
 
@@ -386,7 +393,7 @@ fn slow_runs_show_the_end_of_each_cycle() {
     while ends.len() < 2 {
         let event = worker.events.recv_timeout(Duration::from_secs(30));
         if let Event::Frame(slot) = event.expect("a frame") {
-            let cycles = slot.take().map(|frame| frame.observation.moment.cycle);
+            let cycles = slot.take().map(|frame| frame.live.observation.moment.cycle);
             ends.extend(cycles.filter(|cycle| *cycle > 0.5));
         }
     }

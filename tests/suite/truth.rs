@@ -175,7 +175,7 @@ fn the_axis_of_stresses_holds_for_a_cycle_and_is_not_that_of_a_spike() {
         assert!(axes.len() <= before + 1, "{preset}: {axes:?}");
         // In the middle the pressure is seen.
         let frame = explorer.frame();
-        let pressure = frame.observation.pressure()[0];
+        let pressure = frame.live.observation.pressure()[0];
         let highest = explorer
             .app
             .explorer
@@ -215,14 +215,14 @@ fn a_bare_number_is_si_in_every_form() {
         explorer.press("<Enter>");
         let frame = explorer.frame();
         let value = frame
-            .facts
+            .live
             .scenario
             .value("motion.tangential.angular_frequency");
         assert_eq!(value.as_deref(), Some("100.0"), "{keys}");
     }
     let mut explorer = explorer("li2019-fig3", size, DARK);
     explorer.press(",ewear.coefficient<Enter><C-u>2e-10<Enter>");
-    let k = explorer.frame().facts.scenario.value("wear.coefficient");
+    let k = explorer.frame().live.scenario.value("wear.coefficient");
     assert_eq!(k.as_deref(), Some("2e-10"));
     // One unit for one quantity: k in the list and among the numbers.
     has(&shown(&explorer, size), "wear.coefficient");
@@ -242,7 +242,7 @@ fn without_colours_letters_tell_what_sticks() {
     };
     let mut explorer = explorer("li2019-fig3", size, mono);
     explorer.press("V,,......................");
-    let moment = explorer.frame().observation.moment;
+    let moment = explorer.frame().live.observation.moment;
     let screen = shown(&explorer, size);
     let picture: String = screen
         .lines()
@@ -308,10 +308,9 @@ fn no_key_pressed_in_a_modal_changes_the_run() {
     explorer.press(",,");
     let before = explorer.frame();
     let state = |frame: &Arc<Frame>| {
-        let facts = &frame.facts;
-        let moment = &frame.observation.moment;
+        let moment = &frame.live.observation.moment;
         (
-            facts.scenario.to_toml(),
+            frame.live.scenario.to_toml(),
             moment.cycle,
             frame.changes.len(),
             frame.pace,
@@ -358,7 +357,7 @@ fn a_lifted_indenter_leaves_air_above_the_half_space() {
     let size = (120, 40);
     let mut explorer = explorer("separation", size, DARK);
     explorer.press("V,,");
-    while explorer.frame().observation.moment.contact_radius > 0.0 {
+    while explorer.frame().live.observation.moment.contact_radius > 0.0 {
         explorer.press(".");
     }
     let screen = shown(&explorer, size);

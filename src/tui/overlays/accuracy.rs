@@ -37,14 +37,16 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
     let estimated = " estimated from the same run on fewer cells and steps:";
     lines.extend([Line::default(), Line::styled(estimated, title)]);
     match &frame.errors {
-        _ if frame.observation.moment.wear_volume == 0.0 => lines.push(text("nothing has worn")),
+        _ if frame.live.observation.moment.wear_volume == 0.0 => {
+            lines.push(text("nothing has worn"))
+        }
         Err(why) => lines.push(text(why)),
         Ok((cycle, of)) => {
-            let Level { points, steps, .. } = Level::of(&frame.facts.scenario);
+            let Level { points, steps, .. } = Level::of(&frame.live.scenario);
             lines.push(text(&format!(
                 "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));
-            let geometry = frame.observation.geometry;
+            let geometry = frame.live.observation.geometry;
             lines.extend(Quantity::ALL.iter().map(|&number| {
                 let name = geometry.named(number.name());
                 error(of[number], &format!("error of {name}"))
@@ -61,7 +63,7 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
 
 /// Draws what each check compares, what a difference means, and what lies outside the theory.
 pub(super) fn draw_explanations(frame: &Frame, mut canvas: Canvas) {
-    let warnings = frame.facts.warnings.iter();
+    let warnings = frame.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {warning}"));
     let checks = frame.checks.iter().map(|check| {
         let (name, error) = (check.subject.name(), check.error.abs());

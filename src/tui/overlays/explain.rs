@@ -10,7 +10,7 @@ use crate::tui::canvas::{Canvas, rows};
 use crate::tui::command::Command;
 use crate::tui::explorer::Explorer;
 use crate::tui::stage::Stage;
-use crate::tui::{panels, tour};
+use crate::tui::tour;
 
 /// The commands that close the explanation, and those that run while it is open: it follows the focus, and the run can
 /// continue.
@@ -36,15 +36,14 @@ fn beside(stage: &Stage, area: Rect) -> Rect {
 
 pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
-    let is_compared = explorer.compares();
-    // A comparison shows other panels than the focused one.
     let focus = explorer.stage.focus;
-    let (recipe, keys): (&About, _) = match is_compared {
-        true => (&panels::compare::RECIPE, "Esc closes"),
-        false => (focus.recipe(), "Tab: next panel, Esc closes"),
-    };
-    let (title, text, symbols) = (recipe.title, recipe.text, recipe.symbols);
-    let geometry = explorer.frame.observation.geometry;
+    let About {
+        title,
+        text,
+        symbols,
+        ..
+    } = *focus.recipe();
+    let geometry = explorer.frame.live.observation.geometry;
     let spelled = |text: &str| theme.printable(&geometry.named(text));
     let mut lines = vec![Line::raw(spelled(text)), Line::default()];
     lines.extend(symbols.iter().map(|(symbol, meaning)| {
@@ -57,7 +56,7 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
         ])
     }));
     let captions = tour::captions(explorer.origin()).iter();
-    let mut here = captions.filter(|caption| !is_compared && caption.panel() == Some(focus));
+    let mut here = captions.filter(|caption| caption.panel() == Some(focus));
     if let Some(first) = here.next() {
         let heading = Line::styled("In this scenario", theme.style(Role::Title));
         lines.extend([Line::default(), heading, Line::raw(spelled(&first.text))]);
@@ -77,6 +76,6 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
             false => place = area,
         }
     }
-    let title = format!("{} ({keys})", spelled(title));
+    let title = format!("{} (Tab: next panel, Esc closes)", spelled(title));
     canvas.at(place).page(&title, width, lines);
 }

@@ -1,7 +1,5 @@
 //! The parameters of the scenario, edited while it runs: the value, unit, range and effect of each.
 
-use std::sync::Arc;
-
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::Layout;
 use ratatui::style::Style;
@@ -72,8 +70,8 @@ impl Form {
     }
 
     pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
-        let facts = Arc::clone(&explorer.frame.facts);
-        let settings = self.fitting(&facts.settings);
+        let known = explorer.frame.settings();
+        let settings = self.fitting(&known);
         let Some((at, setting, typed)) = self.seen(&settings) else {
             return self.find(key);
         };
@@ -151,7 +149,8 @@ impl Form {
     }
 
     pub(super) fn draw(&self, explorer: &Explorer, mut canvas: Canvas) {
-        let settings = self.fitting(&explorer.frame.facts.settings);
+        let known = explorer.frame.settings();
+        let settings = self.fitting(&known);
         let seen = self.seen(&settings);
         let filter = self.filter.text();
         let is_typed = matches!(seen, Some((.., Some(_))));

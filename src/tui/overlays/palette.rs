@@ -146,10 +146,8 @@ impl Palette {
         let text = self.line.text();
         let key = text.trim_start().strip_prefix("set ");
         let key = key.and_then(|rest| rest.split_once('='));
-        let mut settings = frame.facts.settings.iter();
-        let of_key =
-            settings.find(|of| key.is_some_and(|(key, _)| of.parameter.path == key.trim()));
-        if let Some(unit) = of_key.map(Setting::typed_unit) {
+        if let Some(setting) = key.and_then(|(key, _)| frame.setting(key.trim())) {
+            let unit = setting.typed_unit();
             let room = usize::from(inside.area.width).saturating_sub(line.width() + 1);
             line.push_span(Span::styled(
                 format!("{:>room$}", inside.printable(&unit)),

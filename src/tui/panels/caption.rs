@@ -45,7 +45,7 @@ fn speed(frame: &Frame) -> Option<f64> {
     let mut steps = shifts.windows(2).map(|pair| pair[1] - pair[0]);
     let fastest = steps.clone().map(f64::abs).fold(0.0, f64::max);
     // Ignores motion due to rounding.
-    let is_seen = fastest > 1e-12 * frame.observation.moment.contact_radius;
+    let is_seen = fastest > 1e-12 * frame.live.observation.moment.contact_radius;
     let last = steps.next_back().filter(|_| is_seen)?;
     Some(last / fastest)
 }
@@ -82,7 +82,7 @@ fn phase(moment: &Moment, speed: Option<f64>) -> String {
 
 /// Describes what has worn since the start.
 fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
-    let seen = &frame.observation;
+    let seen = &frame.live.observation;
     let deepest = largest(seen.wear());
     if seen.law.is_none() {
         return "Nothing wears in this scenario: both bodies keep their shape.".into();
@@ -91,7 +91,7 @@ fn worn(frame: &Frame, value: impl Fn(f64) -> String) -> String {
         return "Nothing has worn yet: wear needs pressure and sliding.".into();
     }
     let depth = value(deepest);
-    let bodies = frame.facts.scenario.wear_share().map(|share| {
+    let bodies = frame.live.scenario.wear_share().map(|share| {
         let [indenter, half_space] = [share, 1.0 - share].map(|part| value(part * deepest));
         format!(" (indenter {indenter}, half-space {half_space})")
     });
@@ -150,7 +150,7 @@ fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
 /// Draws the text on the picture and below it.
 pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     let (frame, area) = (section.of.frame, canvas.area);
-    let (seen, moment) = (section.of.calm, &frame.observation.moment);
+    let (seen, moment) = (section.of.calm, &frame.live.observation.moment);
     let value = |value, unit| format_value(value, unit, 3);
     if area.height < 5 || area.width < 30 {
         return;
@@ -192,6 +192,7 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
     let worn = frame
+        .live
         .observation
         .geometry
         .named(&worn(seen, |depth| value(depth, "m")));
@@ -212,14 +213,14 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
 /// Says at the top of the picture what the contact does, and below it the `forces`.
 fn said(frame: &Frame, forces: &str, canvas: &mut Canvas) {
     let (area, speed) = (canvas.area, speed(frame));
-    let said = phase(&frame.observation.moment, speed);
+    let said = phase(&frame.live.observation.moment, speed);
     // The words stay where they are when the motion turns.
     let start = area.x + (area.width - LONGEST) / 2;
     on(
         canvas,
         start,
         area.y,
-        &frame.observation.geometry.named(&said),
+        &frame.live.observation.geometry.named(&said),
     );
     match speed {
         _ if area.width < LONGEST + 10 => {}
@@ -232,7 +233,7 @@ fn said(frame: &Frame, forces: &str, canvas: &mut Canvas) {
 
 /// Draws c and a: a short line over each border, and its name.
 fn radii(section: &Section, canvas: &mut Canvas) {
-    let moment = &section.of.calm.observation.moment;
+    let moment = &section.of.calm.live.observation.moment;
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
     for (name, r) in marks.into_iter().filter_map(|(name, r)| Some((name, r?))) {

@@ -72,11 +72,11 @@ impl Cut {
 /// Returns the heights that the picture spans, m: the whole indenter's flank within the domain, and as much of the
 /// half-space.
 pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
-    let depth = frame.observation.moment.depth;
-    if frame.observation.depression.is_empty() {
+    let depth = frame.live.observation.moment.depth;
+    if frame.live.observation.depression.is_empty() {
         return None;
     }
-    let indenter = &frame.facts.scenario.setup().indenter;
+    let indenter = &frame.live.scenario.setup().indenter;
     let flank = match indenter.rim() {
         Some(_) => depth.abs(),
         None => indenter.profile(WIDER * frame.run.edge()),
@@ -118,7 +118,7 @@ impl<'a> Section<'a> {
     /// Makes the cut; `None` if there is nothing to draw.
     pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
-        let seen = &frame.observation;
+        let seen = &frame.live.observation;
         let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
         if seen.depression.is_empty() || area.is_empty() {
             return None;
@@ -130,11 +130,11 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
-        let depths = [frame, of.calm].map(|frame| frame.observation.moment.depth);
+        let depths = [frame, of.calm].map(|frame| frame.live.observation.moment.depth);
         let may_rest = (depths[0] - depths[1]).abs() < 2.0 * half
-            && !of.calm.observation.depression.is_empty();
+            && !of.calm.live.observation.depression.is_empty();
         let resting = if may_rest { of.calm } else { frame };
-        let deepest = largest(seen.wear()).max(frame.facts.expected_wear);
+        let deepest = largest(seen.wear()).max(frame.live.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let room = [area.width, 2 * area.height].map(usize::from);
         let mut section = Self {
@@ -149,7 +149,7 @@ impl<'a> Section<'a> {
             shift: whole(motion * seen.moment.shift, width),
             flanks: whole(motion * seen.moment.shift, STRIDE * width),
             resting,
-            level: whole(resting.observation.moment.depth, 2.0 * half),
+            level: whole(resting.live.observation.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
@@ -162,7 +162,10 @@ impl<'a> Section<'a> {
     /// Returns the cut at `x`, with magnified wear and a shifted indenter. Beyond the domain the indenter continues
     /// unworn, and the surface recovers in proportion to 1/r, as under a point load.
     pub fn cut(&self, x: f64) -> Cut {
-        let (seen, scenario) = (&self.of.frame.observation, &self.of.frame.facts.scenario);
+        let (seen, scenario) = (
+            &self.of.frame.live.observation,
+            &self.of.frame.live.scenario,
+        );
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
         // In the contact the surface is the indenter's. Around it, it is of the frame at rest.
@@ -170,7 +173,7 @@ impl<'a> Section<'a> {
         let of = if is_in_contact {
             seen
         } else {
-            &self.resting.observation
+            &self.resting.live.observation
         };
         let (touching, lift) = (of.moment.contact_radius, of.moment.depth - self.level);
         let sunk = |r: f64| interpolate(of.radii(), &of.depression, r.min(edge));
@@ -208,7 +211,7 @@ impl<'a> Section<'a> {
 
     /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
     fn given_way(&self, r: f64) -> f64 {
-        let contact = self.resting.observation.moment.contact_radius;
+        let contact = self.resting.live.observation.moment.contact_radius;
         let way = 4.0 * self.flanks.abs();
         match r - contact {
             _ if contact == 0.0 => self.flanks,
@@ -260,7 +263,7 @@ pub fn whole(value: f64, step: f64) -> f64 {
 
 /// Returns the amplitude of u_x, m: the prescribed one, or else the amplitude of the last cycle.
 fn amplitude(frame: &Frame) -> f64 {
-    if let Some(Control::Displacement(shift)) = frame.facts.scenario.setup().drive.tangential() {
+    if let Some(Control::Displacement(shift)) = frame.live.scenario.setup().drive.tangential() {
         return shift.amplitude();
     }
     let shifts = frame.run.loops.iter().flat_map(|one| &one.shifts);

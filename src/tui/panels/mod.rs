@@ -11,7 +11,6 @@ use crate::plot::theme::{Role, Theme};
 use crate::plot::{Chart, Curve, Plot, Scale};
 
 mod caption;
-pub mod compare;
 mod cut;
 pub(super) mod numbers;
 mod scar;

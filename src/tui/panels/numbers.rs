@@ -48,7 +48,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
-        let name = shown.frame.observation.geometry.named(name);
+        let name = shown.frame.live.observation.geometry.named(name);
         let [name, value] = [&name, &value].map(|text| canvas.printable(text));
         // The name is cut rather than the value: its last words and the symbol say the most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
@@ -69,7 +69,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
 
 /// Returns all of them, one per line.
 pub fn text(frame: &Frame) -> String {
-    let moment = format!("cycle {}\n", frame.observation.moment.cycle);
+    let moment = format!("cycle {}\n", frame.live.observation.moment.cycle);
     rows(frame).fold(moment, |text, (name, value)| {
         text + &format!("{}: {value}\n", name.trim())
     })
@@ -77,13 +77,15 @@ pub fn text(frame: &Frame) -> String {
 
 /// Returns the names and values of the numbers that are known.
 fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
-    let (facts, moment, figures) = (&frame.facts, &frame.observation.moment, &frame.figures);
-    let figures = figures.as_ref();
-    let setup = facts.scenario.setup();
+    let (moment, figures) = (&frame.live.observation.moment, frame.live.figures.as_ref());
+    let setup = frame.live.scenario.setup();
     let k = setup.wear.map(|law| law.coefficient());
     let [mises, tension] = frame.peaks().map_or([None; 2], |peaks| peaks.map(Some));
     let (moves, c) = (moment.stick_radius.is_some(), moment.permanent_stick_radius);
-    let (cells, steps) = (frame.observation.grid.cells(), setup.steps_in_a_cycle());
+    let (cells, steps) = (
+        frame.live.observation.grid.cells(),
+        setup.steps_in_a_cycle(),
+    );
 
     let value = |value: Option<f64>, unit| Some(format_value(value?, unit, 4));
     let always = |number, unit| value(Some(number), unit);

@@ -47,7 +47,7 @@ const TWO_LINES: u16 = 10;
 /// Returns the colour of the disc at `x` and `y` from its centre (m), and the character that replaces it without
 /// colours. The colours of depths range from 0 to `deepest`.
 fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
-    let seen = &frame.observation;
+    let seen = &frame.live.observation;
     let r = if seen.geometry.is_line() {
         x.abs()
     } else {
@@ -68,14 +68,14 @@ fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Optio
 
 /// Returns the range of depths that the colours cover, m.
 fn depths(frame: &Frame) -> Option<[f64; 2]> {
-    let deepest = largest(frame.observation.wear());
+    let deepest = largest(frame.live.observation.wear());
     (deepest > 0.0).then_some([0.0, deepest])
 }
 
 fn draw(of: &Shown, mut canvas: Canvas) {
     let frame = of.frame;
     let mut canvas = canvas.titled(RECIPE.title, of.role);
-    let (theme, area, seen) = (canvas.theme, canvas.area, &frame.observation);
+    let (theme, area, seen) = (canvas.theme, canvas.area, &frame.live.observation);
     let Some(&edge) = seen.radii().last().filter(|_| !seen.wear().is_empty()) else {
         return;
     };
@@ -87,7 +87,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
     // Without bounds, nothing has worn yet.
     let deepest = of
         .bounds
-        .map_or(frame.facts.expected_wear, |bounds| bounds[1]);
+        .map_or(frame.live.expected_wear, |bounds| bounds[1]);
     // Half a cell is about as high as a cell is wide.
     let across = match seen.geometry {
         Geometry::Round => disc.width.min(2 * disc.height),
@@ -113,7 +113,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
 /// Returns the direction in which the sliding parts of the indenter move, which is the direction of the traction that
 /// they exert.
 fn slip_direction(frame: &Frame) -> Option<f64> {
-    let seen = &frame.observation;
+    let seen = &frame.live.observation;
     let (a, stick) = (seen.moment.contact_radius, seen.moment.stick_radius?);
     let mut outermost_first = seen.radii().iter().zip(seen.tangential_load()).rev();
     let (_, load) = outermost_first.find(|(r, load)| **r < a && **load != 0.0)?;

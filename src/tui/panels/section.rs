@@ -87,7 +87,7 @@ impl Section<'_> {
 
     /// Draws short lines on both bodies: on the indenter they move with it, on the half-space with its surface.
     fn lines(&self, canvas: &mut Canvas) {
-        let (seen, area) = (&self.of.frame.observation, self.area);
+        let (seen, area) = (&self.of.frame.live.observation, self.area);
         if self.motion == 0.0 || seen.surface().is_empty() || !has_blocks(&self.theme) {
             return;
         }

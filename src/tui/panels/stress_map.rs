@@ -102,7 +102,7 @@ impl StressMap {
 
     /// Updates the range of the colours, which follows the stress as the scales of plots follow their data.
     pub fn follow(&mut self, frame: &Frame) {
-        let (cycle, before) = (frame.observation.moment.cycle, self.held);
+        let (cycle, before) = (frame.live.observation.moment.cycle, self.held);
         // Without contact, the range stays the same.
         let Some(([low, high], range)) = self.extent(frame) else {
             return;

@@ -1,6 +1,7 @@
 //! Changes during the run: a value, method or law, or another scenario.
 
 use super::Worker;
+use super::outlet::Facts;
 use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
 use crate::panics::locked;
@@ -11,7 +12,7 @@ use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
 use crate::tui::beside::Twin;
 use crate::tui::event::Event;
-use crate::tui::frame::{Activity, Facts};
+use crate::tui::frame::Activity;
 use crate::tui::ghosts::Source;
 use crate::tui::trend::Recorded;
 
@@ -22,10 +23,10 @@ const STRIDE: f64 = 1.5;
 const COARSEST: usize = 8;
 
 impl Worker {
-    /// Steps by this many places through the transform methods, of the comparison if there is one.
+    /// Steps by this many places through the transform methods, of a comparison if there is one.
     pub fn change_method(&mut self, places: isize) {
-        if let Some(comparison) = &self.comparison {
-            return self.compare(places, comparison.from);
+        if let Some(rival) = &self.rival {
+            return self.compare(rival.choice + places, rival.since);
         }
         let setup = self.run.simulation().setup();
         let methods = AbelMethod::of(setup.geometry);
@@ -165,7 +166,7 @@ impl Worker {
         self.past.leave();
         self.snapshots.clear();
         self.run = run;
-        (self.stop_at, self.comparison, self.before) = (None, None, None);
+        (self.stop_at, self.rival, self.before) = (None, None, None);
         self.renew();
         if self.activity != Activity::Running {
             self.activity = Activity::Paused;

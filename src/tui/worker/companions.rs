@@ -1,13 +1,20 @@
-//! Companions of the run: a comparison, ghosts over the plots, and the twin that estimates its error.
+//! Companions of the run: ghosts over the plots, and the twin that estimates its error.
 
 use std::time::Duration;
 
 use super::Worker;
 use crate::scenario::columns::Naming;
 use crate::studies::refinement::Difference;
-use crate::tui::beside::{Beside, ComparisonRun, From, name_of};
+use crate::tui::beside::Beside;
 use crate::tui::frame::Activity;
-use crate::tui::ghosts::{MOST, Source};
+use crate::tui::ghosts::{MOST, Since, Source};
+
+/// A run by another method, over the plots.
+pub(super) struct Rival {
+    pub run: Source,
+    pub choice: isize,
+    pub since: Since,
+}
 
 /// How long each of them catches up before the worker looks for orders again.
 pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
@@ -15,10 +22,9 @@ pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 impl Worker {
     /// Returns the visible companions.
     fn seen(&mut self) -> impl Iterator<Item = &mut Beside> {
-        let ghosts = self.ghosts.iter_mut().chain(&mut self.before);
-        let ghosts = ghosts.flat_map(|ghost| ghost.beside.as_deref_mut());
-        let comparison = self.comparison.iter_mut();
-        comparison.map(|run| &mut run.beside).chain(ghosts)
+        let rival = self.rival.as_mut().map(|rival| &mut rival.run);
+        let ghosts = self.ghosts.iter_mut().chain(&mut self.before).chain(rival);
+        ghosts.flat_map(|ghost| ghost.beside.as_deref_mut())
     }
 
     /// Lets the visible companions catch up with the run.
@@ -73,23 +79,21 @@ impl Worker {
 
     /// Begins or ends the comparison with another method.
     pub fn compare_or_stop(&mut self) {
-        if self.comparison.take().is_none() {
-            self.compare(0, From::Now);
+        if self.rival.take().is_none() {
+            self.compare(0, Since::Now);
         }
     }
 
-    /// Starts a comparison, this many places after the previous one, from now or from the start.
-    pub(in crate::tui) fn compare(&mut self, places: isize, from: From) {
-        let before = self.comparison.as_ref();
-        let begun = ComparisonRun::beside(&self.run.session, before, places, from);
-        if let Some(comparison) = self.screen.or_notice(begun) {
-            let setup = comparison.beside.run.simulation().setup();
-            let name = name_of(setup.method, &setup.grid);
-            self.screen.notice(&match from {
-                From::Now => format!("comparing with {name} from here; C: from the start"),
-                From::Start => format!("comparing with {name} from the start"),
+    /// Lays a run by the `choice`th other method over the plots, which begins now or at the start.
+    pub(in crate::tui) fn compare(&mut self, choice: isize, since: Since) {
+        let run = Source::rival(&self.run.session, choice, since);
+        if let Some(run) = self.screen.or_notice(run) {
+            let name = run.name();
+            self.screen.notice(&match since {
+                Since::Now => format!("comparing with {name} from here; C: from the start"),
+                Since::Start => format!("comparing with {name} from the start"),
             });
-            self.comparison = Some(comparison);
+            self.rival = Some(Rival { run, choice, since });
         }
     }
 

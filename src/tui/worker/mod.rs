@@ -12,9 +12,9 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use super::autosave::ScreenAutosave;
-use super::beside::{ComparisonRun, Twin};
+use super::beside::Twin;
 use super::event::Event;
-use super::frame::{Activity, Facts, Frame};
+use super::frame::{Activity, Frame};
 use super::ghosts::Source;
 use super::loops::CycleLoads;
 use super::pace::Clock;
@@ -22,7 +22,8 @@ use super::trend::Recorded;
 use super::undo::Past;
 use crate::panics::locked;
 use crate::reading::Curves;
-use outlet::Outlet;
+use companions::Rival;
+use outlet::{Facts, Outlet};
 
 mod changes;
 mod companions;
@@ -70,16 +71,15 @@ impl Orders {
 /// The state of the worker.
 pub struct Worker {
     run: Recorded,
-    /// Facts about the scenario.
-    facts: Arc<Facts>,
+    facts: Facts,
     past: Past,
     kept_at: Instant,
     /// The cycles of this run's snapshots.
     snapshots: Vec<f64>,
     cycle_loads: CycleLoads,
-    comparison: Option<ComparisonRun>,
-    /// The ghosts over the plots.
+    /// The ghosts over the plots, and the run by another method.
     pub(super) ghosts: Vec<Source>,
+    rival: Option<Rival>,
     /// The coarser run that estimates the errors of this one.
     twin: Option<Twin>,
     activity: Activity,
@@ -110,8 +110,8 @@ impl Worker {
         let run = run.into();
         Self {
             facts: Facts::of(&run.session),
-            comparison: None,
             ghosts: Vec::new(),
+            rival: None,
             twin: Twin::of(&run.session),
             autosave: Arc::new(Mutex::new(ScreenAutosave::new(
                 None,

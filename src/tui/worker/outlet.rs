@@ -7,13 +7,15 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use super::Worker;
-use crate::charts::{Live, Medium, Run};
+use crate::charts::{Live, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
-use crate::reading::{Curves, CycleFigures, Observation};
-use crate::tui::beside::{COMPARED, ComparisonRun};
+use crate::reading::{Curves, Observation, Passed};
+use crate::scenario::Scenario;
+use crate::scenario::session::Session;
+use crate::studies::theory::Theory;
 use crate::tui::event::Event;
-use crate::tui::frame::{Activity, Facts, Frame, Slot};
+use crate::tui::frame::{Activity, Frame, Slot};
 use crate::tui::line::one_line;
 
 /// Sends frames through a slot, at most one per interval, and everything else as events.
@@ -101,25 +103,27 @@ impl Worker {
             self.facts = Facts::of(&self.run.session);
         }
         let simulation = self.run.simulation();
-        let curves = match self.comparison {
-            Some(_) => self.curves | COMPARED,
-            None => self.curves,
-        };
-        let observation = Arc::new(simulation.observe(curves));
-        let load = self.curves.contains(Curves::SPRINGS).then(|| {
+        let curves = self.curves;
+        let observation = simulation.observe(curves);
+        let load = curves.contains(Curves::SPRINGS).then(|| {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
         });
         let is_running = self.activity == Activity::Running;
-        let figures = self.run.session.cycle_figures();
+        let rival = self.rival.as_ref().map(|rival| &rival.run);
+        let ghosts = self.ghosts.iter().chain(&self.before).chain(rival);
         Frame {
-            run: self.charted(&observation, figures.as_ref(), curves),
-            facts: Arc::clone(&self.facts),
+            run: Run {
+                ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
+                theory: Some(Arc::clone(&self.facts.theory)),
+                indenter: Some(simulation.setup().indenter.clone()),
+                ..self.run.charted(&observation)
+            },
+            warnings: Arc::clone(&self.facts.warnings),
             load,
             cycle_loads: self.cycle_loads.all(),
             found_peaks: OnceLock::new(),
-            observation,
-            figures,
+            live: self.live(observation),
             shows_ends: self.clock.shows_ends(simulation),
             activity: self.activity.clone(),
             pace: self.clock.pace(),
@@ -130,43 +134,53 @@ impl Worker {
             snapshots: self.snapshots.clone(),
             errors: self.errors(),
             checks: self.run.session.checks(),
-            comparison: self.comparison.as_ref().map(ComparisonRun::seen),
+            compares: rival.is_some(),
         }
     }
 
-    /// Returns the data for charts: `seen` at the present moment, the past, and `curves` of the ghosts.
-    fn charted(
-        &self,
-        seen: &Arc<Observation>,
-        figures: Option<&CycleFigures>,
-        curves: Curves,
-    ) -> Run {
-        let (facts, trend) = (&self.facts, &self.run.trend);
-        let load = seen.normal_load();
-        let setup = self.run.simulation().setup();
-        let material = &setup.material;
-        let ghosts = self.ghosts.iter().chain(&self.before);
-        Run {
-            ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
-            theory: Some(Arc::clone(&facts.theory)),
-            indenter: Some(setup.indenter.clone()),
-            medium: Medium::Screen,
-            live: Some(Live {
-                seen: Arc::clone(seen),
-                friction: material.friction(),
-                planned_cycles: facts.scenario.run().cycles,
-                expected_wear: facts.expected_wear,
-                is_within_a_cycle: trend.is_within_a_cycle(),
-                regime: figures.map(|figures| figures.regime.title()),
-                slip_border: (!load.is_empty()).then(|| match setup.geometry {
-                    Geometry::Round => {
-                        largest(load) / (material.normal_modulus() * material.stick_ratio())
-                    }
-                    Geometry::Line { .. } => self.run.simulation().line_slip_border(),
-                }),
-                log: trend.loops.kept.clone(),
-            }),
-            ..self.run.charted(seen)
+    /// Returns the present moment with its `observation`.
+    fn live(&self, observation: Observation) -> Live {
+        let (simulation, trend) = (self.run.simulation(), &self.run.trend);
+        let material = &simulation.setup().material;
+        let load = observation.normal_load();
+        let slip_border = (!load.is_empty()).then(|| match observation.geometry {
+            Geometry::Round => largest(load) / (material.normal_modulus() * material.stick_ratio()),
+            Geometry::Line { .. } => simulation.line_slip_border(),
+        });
+        Live {
+            observation,
+            figures: self.run.session.cycle_figures(),
+            scenario: Arc::clone(&self.facts.scenario),
+            expected_wear: self.facts.expected_wear,
+            is_within_a_cycle: trend.is_within_a_cycle,
+            slip_border,
+            log: trend.loops.kept.clone(),
+        }
+    }
+}
+
+/// What frames have of the scenario; made when it changes.
+pub(super) struct Facts {
+    scenario: Arc<Scenario>,
+    theory: Arc<Theory>,
+    expected_wear: f64,
+    warnings: Arc<[String]>,
+    /// Where the pressure first exceeded the hardness, as the warnings say.
+    passed_hardness: Option<Passed>,
+}
+
+impl Facts {
+    /// Collects the facts of the scenario that `session` runs now.
+    pub fn of(session: &Session) -> Self {
+        let scenario = session.scenario();
+        let loaded = session.loaded().setup();
+        let expected_wear = Theory::of(loaded).expected_wear(loaded, scenario.run().cycles);
+        Self {
+            scenario: Arc::new(scenario.clone()),
+            theory: Arc::new(Theory::of(session.simulation().setup())),
+            expected_wear: expected_wear.unwrap_or(0.0),
+            warnings: session.warnings().into(),
+            passed_hardness: session.log().passed_hardness(),
         }
     }
 }

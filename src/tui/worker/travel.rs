@@ -3,10 +3,11 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::outlet::Facts;
 use super::{BROKEN_DOWN, Worker};
 use crate::panics::locked;
 use crate::scenario::Change;
-use crate::tui::frame::{Activity, Facts};
+use crate::tui::frame::Activity;
 use crate::tui::undo::{Kept, Past};
 
 impl Worker {
@@ -41,7 +42,7 @@ impl Worker {
         };
         self.run = kept.run.clone();
         self.stop_at = None;
-        self.comparison = None;
+        self.rival = None;
         self.activity = Activity::Paused;
         self.facts = Facts::of(&self.run.session);
     }

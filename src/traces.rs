@@ -79,7 +79,7 @@ impl Loop {
     }
 
     /// Reads the cycle that ends at `end`, or all rows, of a table; `None` if the table holds no loop.
-    pub fn of(table: &Table, end: Option<f64>) -> Option<Self> {
+    pub fn from_table(table: &Table, end: Option<f64>) -> Option<Self> {
         let cycles = table.column(Column::Cycle)?;
         let pairs = [
             [Column::Shift, Column::TangentialForce],

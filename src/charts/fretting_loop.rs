@@ -2,7 +2,7 @@
 //! dissipates. An arrow marks the present moment and its direction. On a compliant rig the loop that its sensor sees is
 //! drawn too; it has the same forces and the same area as the contact's loop.
 
-use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, named};
+use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, state_name};
 use crate::charts::{Live, Run};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
@@ -57,7 +57,7 @@ fn loops(run: &Run, view: &View) -> Vec<Curve> {
         let (sensed, forces): (Vec<f64>, Vec<f64>) = sensed.unzip();
         let is_sensed = sensed.len() >= fewest;
         let alone = if is_sensed { "contact" } else { "" };
-        let (name, role) = named(k, count, end, (alone, Role::Shear));
+        let (name, role) = state_name(k, count, end, (alone, Role::Shear));
         let (sensor, of_sensor) = match count {
             1 => ("rig's sensor".to_owned(), Role::Unworn),
             _ => (format!("{name} (rig's sensor)"), role),
@@ -88,7 +88,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         });
     }
     let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"))
-        .curves(ghosts::on(run, Axes::LOOP))
+        .curves(ghosts::curves_on(run, Axes::LOOP))
         .curves(loops);
     chart.margin = MARGIN;
     if let Some(live) = view.live() {
@@ -99,13 +99,13 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         let slip_per_depth = run.theory.as_ref().map(|theory| theory.slip_per_depth);
         chart.x.expects = slip_per_depth.unwrap_or(0.0) * live.observation.moment.depth;
         chart.y.expects = live.friction() * live.observation.moment.normal_force;
-        chart.points.push(here(run, live));
+        chart.points.push(present_point(run, live));
     }
     Ok(chart)
 }
 
 /// Returns an arrow at the present moment.
-fn here(run: &Run, live: &Live) -> Point {
+fn present_point(run: &Run, live: &Live) -> Point {
     Point {
         at: [
             live.observation.moment.shift,

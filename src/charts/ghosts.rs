@@ -28,7 +28,7 @@ fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
 }
 
 /// Returns the ghosts' curves on `axes`.
-pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
+pub fn curves_on(run: &Run, axes: Axes) -> Vec<Curve> {
     curves(run, |ghost| {
         let trace = ghost.trace(axes)?;
         let errors = trace.errors.unwrap_or_default();
@@ -40,7 +40,7 @@ pub fn on(run: &Run, axes: Axes) -> Vec<Curve> {
 /// Returns the ghosts' curves on both pairs of axes, the second ones modified by `change`. Each ghost has one legend
 /// entry.
 pub(super) fn both(run: &Run, axes: [Axes; 2], change: impl Fn(&mut Curve)) -> Vec<Curve> {
-    let [mut curves, mut second] = axes.map(|axes| on(run, axes));
+    let [mut curves, mut second] = axes.map(|axes| curves_on(run, axes));
     for curve in &mut second {
         if curves.iter().any(|other| other.role == curve.role) {
             curve.name.clear();

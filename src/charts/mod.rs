@@ -123,7 +123,7 @@ impl Recipe {
             chart.title = self.title.to_owned();
         }
         if run.geometry.is_line() {
-            let named = |name: &str| run.geometry.named(name);
+            let named = |name: &str| run.geometry.term(name);
             chart.title = named(&chart.title);
             for axis in [&mut chart.x, &mut chart.y] {
                 axis.label = named(&axis.label).into();
@@ -183,14 +183,14 @@ fn of_states(run: &Run, column: Column, alone: &str, role: Role) -> Vec<Curve> {
     let states = run.states.iter().enumerate();
     let curves = states.filter_map(|(k, state)| {
         let (radii, values) = (state.column(Column::Radius)?, state.column(column)?);
-        let (name, role) = named(k, count, state.cycle(), (alone, role));
+        let (name, role) = state_name(k, count, state.cycle(), (alone, role));
         Some(Curve::new(name, radii, values, role))
     });
     curves.collect()
 }
 
 /// Returns the name and the role of the `k`th of `count` states, which ends at `cycle`; a single state takes `alone`.
-fn named(k: usize, count: usize, cycle: f64, alone: (&str, Role)) -> (String, Role) {
+fn state_name(k: usize, count: usize, cycle: f64, alone: (&str, Role)) -> (String, Role) {
     match count {
         1 => (alone.0.to_owned(), alone.1),
         // The last state always has the same, darkest ink, whatever the number of states.

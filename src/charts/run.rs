@@ -35,10 +35,10 @@ pub struct Run {
 impl Run {
     /// Adds what follows from the scenario.
     #[must_use]
-    pub fn of(self, scenario: &Scenario) -> Self {
+    pub fn with_scenario(self, scenario: &Scenario) -> Self {
         let setup = scenario.setup();
         Self {
-            theory: Some(Arc::new(Theory::of(setup))),
+            theory: Some(Arc::new(Theory::new(setup))),
             indenter: Some(setup.indenter.clone()),
             geometry: setup.geometry,
             ..self
@@ -46,14 +46,14 @@ impl Run {
     }
 
     /// Adds a table, recognised by its columns; refuses a table that is not from a run.
-    pub fn take(&mut self, table: Table) -> Result<(), String> {
+    pub fn add_table(&mut self, table: Table) -> Result<(), String> {
         if table.has(&[Column::Radius, Column::Profile]) {
             self.states.push(table.into());
             self.states.sort_by(|a, b| a.cycle().total_cmp(&b.cycle()));
             self.states.dedup_by(|a, b| a.cycle() == b.cycle());
         } else if table.has(&[Column::Cycle, Column::ContactRadius, Column::WearVolume]) {
             self.history = Some(table.into());
-        } else if let Some(one) = Loop::of(&table, None) {
+        } else if let Some(one) = Loop::from_table(&table, None) {
             self.loops.push(one);
         } else if table.has(&[Column::X, Column::Z, Column::VonMises]) {
             self.field = Some(table);
@@ -67,7 +67,7 @@ impl Run {
     pub fn loop_at(&self, end: f64) -> Option<Loop> {
         let mut alone = self.loops.iter();
         let alone = alone.find(|one| (one.end - end).abs() < 1e-9).cloned();
-        let recorded = || Loop::of(self.history.as_deref()?, Some(end));
+        let recorded = || Loop::from_table(self.history.as_deref()?, Some(end));
         alone.or_else(recorded)
     }
 
@@ -78,7 +78,7 @@ impl Run {
             .tables
             .extend(self.states.last().into_iter().chain(&self.history).cloned());
         if let Some(one) = self.end().and_then(|end| self.loop_at(end)) {
-            ghost.take_loop(one.shifts, one.forces);
+            ghost.add_loop(one.shifts, one.forces);
         }
         ghost
     }

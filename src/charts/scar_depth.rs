@@ -40,6 +40,6 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .from_zero()
         .expecting(view.expected_wear());
     Ok(over_cycles(run, view, ordinate)
-        .curves(ghosts::on(run, Axes::DEPTH))
+        .curves(ghosts::curves_on(run, Axes::DEPTH))
         .curve(depth))
 }

@@ -20,9 +20,9 @@ const OVER_CYCLES: [Column; 7] = [
 
 impl Run {
     /// Adds the present state of `session`.
-    pub fn take_state(&mut self, session: &Session) {
+    pub fn add_state(&mut self, session: &Session) {
         let seen = session.simulation().observe(Curves::all());
-        let table = seen.columns.under(header::entries(session));
+        let table = seen.columns.with_header(header::entries(session));
         self.states.push(table.into());
     }
 
@@ -31,12 +31,12 @@ impl Run {
     ///
     /// # Errors
     /// If the run stops.
-    pub fn to(
+    pub fn simulate(
         session: &mut Session,
         cycles: &[f64],
         with_field: bool,
     ) -> Result<Self, SessionError> {
-        let mut data = Self::default().of(session.scenario());
+        let mut data = Self::default().with_scenario(session.scenario());
         let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
         let mut record = |session: &Session| {
             let reading = Reading::new(session);
@@ -59,7 +59,7 @@ impl Run {
                     true
                 })?;
             }
-            data.take_state(session);
+            data.add_state(session);
             let rows = last_loop::rows(session.simulation());
             data.loops.push(Loop::of_rows(end, rows.iter()));
         }

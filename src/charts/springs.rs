@@ -29,6 +29,6 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let springs = of_states(run, Column::Profile1d, view.pick("g", ""), Role::Profile);
     Ok(over_r(view, "x", ("g", "m"))
         .curves(depth)
-        .curves(ghosts::on(run, Axes::SPRINGS))
+        .curves(ghosts::curves_on(run, Axes::SPRINGS))
         .curves(springs))
 }

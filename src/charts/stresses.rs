@@ -50,7 +50,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         Some(_) => ghosts::both(run, [Axes::PRESSURE, Axes::SHEAR], |curve| {
             curve.scale(scaled);
         }),
-        None => ghosts::on(run, Axes::PRESSURE),
+        None => ghosts::curves_on(run, Axes::PRESSURE),
     };
     let mut chart = over_r(view, "r", ("stress", "Pa"))
         .curves(others)

@@ -30,5 +30,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         let work = format_value(live.observation.moment.dissipated_energy, "J", 4);
         chart.note = format!("E_d {work}");
     }
-    Ok(chart.curves(ghosts::on(run, Axes::VOLUME)).curve(volume))
+    Ok(chart
+        .curves(ghosts::curves_on(run, Axes::VOLUME))
+        .curve(volume))
 }

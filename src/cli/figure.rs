@@ -38,7 +38,7 @@ pub fn figure(options: &Figure) -> Result<()> {
     let mut files: Vec<(Target, Format)> = Vec::new();
     let mut data_files: Vec<Target> = Vec::new();
     for path in &options.out {
-        let format = Format::of(path).ok_or_else(|| {
+        let format = Format::from_path(path).ok_or_else(|| {
             let path = path.display();
             Refusal::new(format_args!("-o {path}"), "must end in .svg, .png or .pdf")
         })?;
@@ -181,7 +181,7 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
     slice.renew(record, source)?;
     for set in &options.changes.set {
         let (key, value) = set.split_once('=').unwrap_or((set, ""));
-        let held = slice.hold(key.trim(), value.trim());
+        let held = slice.fix_axis(key.trim(), value.trim());
         held.map_err(|why| Refusal::new(format_args!("--set {}", printable(set)), why))?;
     }
     Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Refusal::from)?)
@@ -232,7 +232,7 @@ fn ghost(given: &OsStr, naming: &Naming, run: &Run) -> Result<Ghost> {
     let name = scenario.stem();
     let session = accuracy::session(&scenario, Some(end), true);
     let mut session = session.with_context(|| shown)?;
-    Ok(Run::to(&mut session, &[end], false)?.ghost(&name))
+    Ok(Run::simulate(&mut session, &[end], false)?.ghost(&name))
 }
 
 /// Reads the tables of a run on disk, or runs a scenario now.
@@ -243,7 +243,7 @@ fn run(path: &Path, options: &Figure) -> Result<Run> {
     if path.is_dir() {
         run = from_directory(path)?;
     } else if ending.is_some_and(|end| end.eq_ignore_ascii_case("csv")) {
-        take(&mut run, path)?;
+        add_file(&mut run, path)?;
     } else {
         return from_scenario(path.as_os_str(), options);
     }
@@ -277,7 +277,7 @@ fn from_directory(directory: &Path) -> Result<Run> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let is_state = name.starts_with("state") && name.ends_with(".csv");
         if is_state || ["history.csv", "loop.csv", "field.csv"].contains(&&*name) {
-            take(&mut run, &path)?;
+            add_file(&mut run, &path)?;
         }
     }
     let is_empty = run.states.is_empty() && run.history.is_none() && run.field.is_none();
@@ -285,16 +285,16 @@ fn from_directory(directory: &Path) -> Result<Run> {
     ensure!(!is_empty, unread(directory, why));
     let scenario = directory.join("scenario.toml");
     if scenario.is_file() {
-        run = run.of(&Scenario::load(&scenario, &[])?);
+        run = run.with_scenario(&Scenario::load(&scenario, &[])?);
     }
     Ok(run)
 }
 
 /// Reads a table of a run.
-fn take(run: &mut Run, path: &Path) -> Result<()> {
+fn add_file(run: &mut Run, path: &Path) -> Result<()> {
     let table = Table::of_file(&Columns::read(path)?);
     let has_rows = table.rows() > 0;
-    run.take(table).map_err(|why| unread(path, why))?;
+    run.add_table(table).map_err(|why| unread(path, why))?;
     ensure!(has_rows, unread(path, "has no rows of numbers"));
     Ok(())
 }
@@ -318,5 +318,5 @@ fn from_scenario(name: &OsStr, options: &Figure) -> Result<Run> {
     let with_field = options.panel.iter().any(|panel| panel.needs_field);
     let session = accuracy::session(&scenario, cycles.last().copied(), options.quiet);
     let mut session = session.with_context(|| name.to_owned())?;
-    Ok(Run::to(&mut session, &cycles, with_field)?)
+    Ok(Run::simulate(&mut session, &cycles, with_field)?)
 }

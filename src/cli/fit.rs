@@ -27,7 +27,7 @@ pub fn fit(options: &args::Fit) -> Result<()> {
     if options.each {
         return fit_each(options, &scenario, data);
     }
-    let fit = Fit::new(scenario, data, &options.free, how(options))?;
+    let fit = Fit::new(scenario, data, &options.free, fit_options(options))?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let (fitted, runs) = run(&fit, options.quiet)?;
     if let Some(target) = target {
@@ -55,7 +55,7 @@ fn run(fit: &Fit, quiet: bool) -> Result<(Fitted, u64)> {
 }
 
 /// Translates the command-line options into options of the fit.
-fn how(options: &args::Fit) -> Options {
+fn fit_options(options: &args::Fit) -> Options {
     let switch = |beside: Beside| match beside {
         Beside::Auto => Switch::Auto,
         Beside::On => Switch::On,
@@ -74,7 +74,12 @@ fn how(options: &args::Fit) -> Options {
 fn fit_each(options: &args::Fit, scenario: &Scenario, data: Vec<Measured>) -> Result<()> {
     let outcomes = data.into_iter().map(|set| {
         let name = set.name.clone();
-        let fit = Fit::new(scenario.clone(), vec![set], &options.free, how(options));
+        let fit = Fit::new(
+            scenario.clone(),
+            vec![set],
+            &options.free,
+            fit_options(options),
+        );
         (name, fit.and_then(|fit| run(&fit, options.quiet)))
     });
     let outcomes: Vec<_> = outcomes.collect();

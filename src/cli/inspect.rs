@@ -62,7 +62,7 @@ struct CycleRow {
 /// Prints and draws how a file is understood.
 pub fn inspect(options: &Inspect) -> Result<()> {
     let columns = Columns::read_as(&options.file, &options.naming.of_columns())?;
-    let kind = Kind::of(&columns);
+    let kind = Kind::detect(&columns);
     let measured = match kind {
         Some(Kind::Loop) => Some(Measured::fretting_loop(&columns, options.pick)?),
         Some(Kind::History) => Some(Measured::history(&columns, Some(1.0))?),
@@ -73,10 +73,10 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         bail!(columns.refuse(format!(
             "holds no scar (r, wear or f), loop (u, F) or history (cycle, wear_volume or depth): its columns are {}; \
              --fields r=1,wear=2 --units um,nm says which is which",
-            columns.named()
+            columns.list_names()
         )));
     };
-    let mut understood = understood(&columns, &measured, kind);
+    let mut understood = interpret(&columns, &measured, kind);
     if kind == Some(Kind::Loop) {
         understood.cycles = cycles(&columns, options)?;
         understood.notes.extend(trends(&understood.cycles));
@@ -88,7 +88,7 @@ pub fn inspect(options: &Inspect) -> Result<()> {
     })
 }
 
-fn understood(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Understood {
+fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Understood {
     let all = columns.all();
     let described = columns
         .described()

@@ -57,7 +57,7 @@ impl RunJob {
             }
             None => planned(scenario),
         };
-        let history = History::with(&options.column);
+        let history = History::with_columns(&options.column);
         Self {
             cycles,
             every_step: options.history == HistoryChoice::EveryStep,

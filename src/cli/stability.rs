@@ -24,7 +24,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         let rule = "nothing wears: the scenario needs [wear], and contact at its start";
         bail!(Refusal::new(name, rule));
     };
-    let go_on = stop::signal().map(stop::unless)?;
+    let go_on = stop::signal().map(stop::until_stopped)?;
     let lines = lines(&study, options, &settings, &go_on)?;
     let interrupted = !go_on();
     let (cycles, steps) = (number(options.cycles), options.steps);
@@ -74,7 +74,7 @@ fn settings(options: &Stability, geometry: Geometry) -> Vec<Setting> {
         Guard::Both => &[false, true],
     };
     let mut settings = Vec::new();
-    let methods = AbelMethod::of(geometry);
+    let methods = AbelMethod::for_geometry(geometry);
     for &method in options.methods.iter().filter(|of| methods.contains(of)) {
         for &guard in guards {
             settings.extend(options.points.iter().map(|&points| Setting {

@@ -66,7 +66,7 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
 }
 
 /// Returns a function that says to continue until `stop` is set.
-pub fn unless(stop: Arc<AtomicBool>) -> impl Fn() -> bool {
+pub fn until_stopped(stop: Arc<AtomicBool>) -> impl Fn() -> bool {
     move || !stop.load(Ordering::Relaxed)
 }
 

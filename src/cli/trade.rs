@@ -37,7 +37,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let rule = "nothing wears, so there is no worn profile to compare; see mdr-tui verify";
     let wears = scenario.setup().wear.is_some();
     ensure!(wears, Refusal::new(&name, rule));
-    let go_on = stop::signal().map(stop::unless)?;
+    let go_on = stop::signal().map(stop::until_stopped)?;
     let found = run(&scenario, cycles, options, &go_on)?;
     let found = found.context("interrupted before the reference was computed: no results");
     let (trials, notes) = &found?;

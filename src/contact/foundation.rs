@@ -47,11 +47,11 @@ pub struct WinklerFoundation {
 impl WinklerFoundation {
     /// Places the springs of a round contact at the nodes of a grid.
     pub fn new(grid: &RadialGrid) -> Self {
-        Self::of(Geometry::Round, grid)
+        Self::for_geometry(Geometry::Round, grid)
     }
 
     /// Places the springs of a contact of this `geometry` at the nodes of a grid.
-    pub fn of(geometry: Geometry, grid: &RadialGrid) -> Self {
+    pub fn for_geometry(geometry: Geometry, grid: &RadialGrid) -> Self {
         Self {
             geometry,
             grid: grid.clone(),

@@ -125,7 +125,7 @@ pub fn slide(
 /// Corrects [`slide`] for springs that came into contact during the step, from the depth `before` to the depth `now`
 /// (m) with the 1D profile `g` (m): the indenter moves a spring only from the moment it touches, not over the whole
 /// `increment` (m).
-pub fn take_along_late(
+pub fn correct_late_contact(
     input: SlipInput<'_>,
     increment: f64,
     [before, now]: [f64; 2],

@@ -66,14 +66,14 @@ impl Autosave {
     }
 
     /// Time until the next checkpoint is due; `None` if only on request.
-    pub fn wait(&self) -> Option<Duration> {
+    pub fn time_until_due(&self) -> Option<Duration> {
         let left = self.every.saturating_sub(self.last.elapsed());
         (!self.every.is_zero()).then_some(left)
     }
 
     /// Whether the next checkpoint is due.
     pub fn is_due(&self) -> bool {
-        self.wait() == Some(Duration::ZERO)
+        self.time_until_due() == Some(Duration::ZERO)
     }
 
     /// Writes `checkpoint`, the state of `session`. Returns a message when saving begins to fail or moves to the
@@ -115,7 +115,7 @@ impl Autosave {
     ) -> Result<Option<PathBuf>, WriteError> {
         let place = match (self.elsewhere.take(), &self.directory) {
             (Some(place), _) => place,
-            (None, Some(directory)) => free(directory, stem)?,
+            (None, Some(directory)) => claim_new_file(directory, stem)?,
             (None, None) => return Ok(None),
         };
         let path = place.path().to_owned();
@@ -125,7 +125,7 @@ impl Autosave {
     }
 
     /// Continues with another session; keeps the checkpoint of the previous one.
-    pub fn turn_over(&mut self) {
+    pub fn begin_session(&mut self) {
         (self.elsewhere, self.kept) = (None, None);
     }
 
@@ -172,7 +172,7 @@ impl<T> Recent<T> {
 
 /// Claims a new file for a session on a scenario called `stem`, numbered above all checkpoints in the directory.
 /// Creates the directory, and removes old checkpoints of finished sessions from it.
-fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
+fn claim_new_file(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let failed = WriteError::io(directory);
     fs::create_dir_all(directory).map_err(failed)?;
     sweep(directory, INTERNAL, STALE);
@@ -184,7 +184,7 @@ fn free(directory: &Path, stem: &str) -> Result<Target, WriteError> {
         // What can be claimed belongs to no running session. The highest number stays, so that the next one is new.
         if excess > 0
             && Some(number) != highest
-            && let Ok(claimed) = Target::hold(&path)
+            && let Ok(claimed) = Target::claim_existing(&path)
         {
             // A file that cannot be removed does no harm.
             let _ = fs::remove_file(claimed.path());
@@ -227,7 +227,7 @@ mod tests {
 
     /// Makes the checkpoint of a short session and returns its path.
     fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
-        let place = free(directory, stem).expect("a place");
+        let place = claim_new_file(directory, stem).expect("a place");
         place.write(stem.as_bytes()).expect("a file");
         place.path().to_owned()
     }
@@ -251,9 +251,9 @@ mod tests {
     #[test]
     fn a_living_session_keeps_its_file_and_no_name_is_given_out_twice() {
         let base = tempfile::tempdir().expect("a directory");
-        let paused = free(base.path(), "hertz").expect("a place");
+        let paused = claim_new_file(base.path(), "hertz").expect("a place");
         paused.write(b"paused").expect("a file");
-        let unkept = free(base.path(), "hertz").expect("a place");
+        let unkept = claim_new_file(base.path(), "hertz").expect("a place");
         let mut names = vec![paused.path().to_owned(), unkept.path().to_owned()];
         for round in 0..60 {
             names.push(come_and_go(base.path(), ["hertz", "cone"][round % 2]));

@@ -43,7 +43,7 @@ struct Owner {
 }
 
 impl Owner {
-    fn this() -> Self {
+    fn this_process() -> Self {
         let host = nix::unistd::gethostname().unwrap_or_default();
         Self {
             process: std::process::id(),
@@ -52,7 +52,7 @@ impl Owner {
     }
 
     /// Returns who wrote this lock file, if anyone.
-    fn of(file: &mut File) -> Option<Self> {
+    fn read(file: &mut File) -> Option<Self> {
         let mut text = String::new();
         file.rewind().ok()?;
         file.take(1000).read_to_string(&mut text).ok()?;
@@ -64,7 +64,7 @@ impl Owner {
     }
 
     fn is_here(&self) -> bool {
-        self.host == Self::this().host
+        self.host == Self::this_process().host
     }
 
     /// Whether the process may still be alive. It cannot be checked on another machine.
@@ -74,7 +74,7 @@ impl Owner {
     }
 
     /// Names the process, in brackets.
-    fn named(&self) -> String {
+    fn describe(&self) -> String {
         let (process, host) = (self.process, printable(&self.host));
         let hint = match self.is_here() {
             true => "",
@@ -92,7 +92,7 @@ impl Claim {
     /// If another living process has claimed it, or no file can be created in it.
     pub fn of_directory(directory: &Path) -> Result<Self, WriteError> {
         let words = ["another run is writing there", "choose another directory"];
-        Self::by(directory.join(LOCK), directory, words)
+        Self::with_lock(directory.join(LOCK), directory, words)
     }
 
     /// Claims the file at `path`, whether it exists or not, for this process.
@@ -110,12 +110,12 @@ impl Claim {
             "another mdr-tui is writing this file",
             "choose another name",
         ];
-        Self::by(directory_of(path).join(name), path, words)
+        Self::with_lock(directory_of(path).join(name), path, words)
     }
 
     /// Claims what is at `path` with the file `lock`. If another process has it, the error says so in `words`, with
     /// what to do instead.
-    fn by(lock: PathBuf, path: &Path, words: [&str; 2]) -> Result<Self, WriteError> {
+    fn with_lock(lock: PathBuf, path: &Path, words: [&str; 2]) -> Result<Self, WriteError> {
         match Self::locked(&lock) {
             Ok(Ok(file)) => Ok(Self {
                 path: lock,
@@ -123,7 +123,7 @@ impl Claim {
                 file,
             }),
             Ok(Err(owner)) => {
-                let owner = owner.as_ref().map_or_else(String::new, Owner::named);
+                let owner = owner.as_ref().map_or_else(String::new, Owner::describe);
                 let rule = format!("{}{owner}; wait for it to end or {}", words[0], words[1]);
                 Err(WriteError::refused(path, rule))
             }
@@ -172,14 +172,14 @@ impl Claim {
             };
             let has_lock = match try_lock(&file) {
                 Ok(()) => true,
-                Err(TryLockError::WouldBlock) => return Ok(Err(Owner::of(&mut file))),
+                Err(TryLockError::WouldBlock) => return Ok(Err(Owner::read(&mut file))),
                 Err(TryLockError::Error(_)) => false,
             };
             if has_lock && !is_at(&file, path) {
                 continue;
             }
             if !has_lock && !is_made_here {
-                let owner = Owner::of(&mut file);
+                let owner = Owner::read(&mut file);
                 let may_live = match &owner {
                     Some(owner) => owner.may_live(),
                     None => is_young(&file),
@@ -187,10 +187,10 @@ impl Claim {
                 if may_live {
                     return Ok(Err(owner));
                 }
-                take_away(&file, path)?;
+                remove_stale(&file, path)?;
                 continue;
             }
-            let Owner { process, host } = Owner::this();
+            let Owner { process, host } = Owner::this_process();
             let written = file
                 .set_len(0)
                 .and_then(|()| file.rewind())
@@ -233,7 +233,7 @@ fn is_young(file: &File) -> bool {
 
 /// Removes a stale lock file. If several processes do so at once, only one of them succeeds in renaming it; if the
 /// renamed file turns out to be another process's new lock, it is put back.
-fn take_away(file: &File, path: &Path) -> io::Result<()> {
+fn remove_stale(file: &File, path: &Path) -> io::Result<()> {
     let aside = path.with_file_name(format!(".mdr-tui-{}.tmp", std::process::id()));
     match fs::rename(path, &aside) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),

@@ -46,7 +46,7 @@ pub fn rows(session: &Session) -> Vec<Vec<f64>> {
         contact if contact > 0.0 => contact,
         _ => seen.radii().last().copied().unwrap_or_default(),
     };
-    let cycle = StressCycle::of(simulation);
+    let cycle = StressCycle::simulate(simulation);
     let step = REACH * radius / f64::from(HALF_WIDTH);
     let mut rows = Vec::new();
     for k in 0..=DEPTH {

@@ -37,8 +37,8 @@ impl History {
     /// # Errors
     ///
     /// Names, in one line, the first of them that is not a scalar or is already a column.
-    pub fn with(further: &[String]) -> Result<Self, String> {
-        let further = further.iter().map(|name| scalars::named(name));
+    pub fn with_columns(further: &[String]) -> Result<Self, String> {
+        let further = further.iter().map(|name| scalars::find_scalar(name));
         let history = Self {
             further: further.collect::<Result<_, _>>()?,
             ..Self::default()

@@ -41,7 +41,7 @@ impl RunDirectory {
         }
         let is_new = !path.exists();
         fs::create_dir_all(path).map_err(failed)?;
-        let run = Self::hold(path, is_new)?;
+        let run = Self::claim_at(path, is_new)?;
         if !force {
             run.refuse_results()?;
         }
@@ -133,17 +133,17 @@ impl RunDirectory {
             number += 1;
             path = place(&format!("{stem}-{number}"));
         }
-        let run = Self::hold(&path, true)?;
+        let run = Self::claim_at(&path, true)?;
         run.refuse_results().map(|()| run)
     }
 
     /// Claims the directory of an interrupted run again and removes what a killed process left there. Checks now,
     /// rather than after an hour of computing, that files can be created there.
     pub fn reopen(path: &Path) -> Result<Self, WriteError> {
-        Self::hold(path, false)
+        Self::claim_at(path, false)
     }
 
-    fn hold(path: &Path, is_new: bool) -> Result<Self, WriteError> {
+    fn claim_at(path: &Path, is_new: bool) -> Result<Self, WriteError> {
         let path = path.to_owned();
         let mut claim = Claim::of_directory(&path)?;
         claim.is_new = is_new;

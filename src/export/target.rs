@@ -31,7 +31,7 @@ impl Target {
     ///
     /// If the file exists (without `force`), is not a regular file, or is being written by another process.
     pub fn claim(path: &Path, force: bool) -> Result<Self, WriteError> {
-        let target = Self::hold(path)?;
+        let target = Self::claim_existing(path)?;
         target.refuse_existing(force)?;
         Ok(target)
     }
@@ -50,7 +50,7 @@ impl Target {
     /// # Errors
     ///
     /// If it is not a regular file, or another process is writing it.
-    pub fn hold(path: &Path) -> Result<Self, WriteError> {
+    pub fn claim_existing(path: &Path) -> Result<Self, WriteError> {
         let mut target = Self {
             path: path.to_owned(),
             claim: None,
@@ -74,17 +74,17 @@ impl Target {
         Ok(target)
     }
 
-    /// Like [`hold`](Self::hold), but creates the directory if necessary. It is removed again if nothing is written
+    /// Like [`hold`](Self::claim_existing), but creates the directory if necessary. It is removed again if nothing is written
     /// into it.
     ///
     /// # Errors
     ///
-    /// As [`hold`](Self::hold), and if the directory cannot be created.
+    /// As [`hold`](Self::claim_existing), and if the directory cannot be created.
     pub fn hold_in_new_directory(path: &Path) -> Result<Self, WriteError> {
         let directory = directory_of(path);
         let is_new = !directory.exists();
         fs::create_dir_all(directory).map_err(WriteError::io(directory))?;
-        let mut target = Self::hold(path)?;
+        let mut target = Self::claim_existing(path)?;
         if let Some(claim) = &mut target.claim {
             claim.is_new = is_new;
         }

@@ -28,9 +28,9 @@ const INSET: [f64; 2] = [0.58, 0.5];
 impl Chart {
     /// Returns the height of the legend below the frame, mm. Only a map has its legend there, where it hides no
     /// colours.
-    pub(super) fn below(&self, look: &Look) -> f64 {
+    pub(super) fn height_below(&self, look: &Look) -> f64 {
         match self.map {
-            Some(_) => self.named().count() as f64 * LEGEND_LINE * look.font,
+            Some(_) => self.named_curves().count() as f64 * LEGEND_LINE * look.font,
             None => 0.0,
         }
     }
@@ -205,13 +205,15 @@ impl Chart {
     /// Draws the names of the curves in the corner where they cover the least of them, or below a map.
     fn legend(&self, frame: &Frame, drawn: &[[[f64; 2]; 2]], canvas: &mut Canvas, look: &Look) {
         let font = 0.9 * look.font;
-        if self.named().next().is_none() {
+        if self.named_curves().next().is_none() {
             return;
         }
         let (swatch, line, gap) = (2.6 * font, LEGEND_LINE * look.font, 0.6 * font);
-        let widest = self.named().map(|curve| font::set_width(&curve.name));
+        let widest = self
+            .named_curves()
+            .map(|curve| font::set_width(&curve.name));
         let width = swatch + 2.0 * gap + widest.fold(0.0, f64::max) * font;
-        let height = line * self.named().count() as f64 + gap;
+        let height = line * self.named_curves().count() as f64 + gap;
         let [left, top] = [frame.left + TICK, frame.top + TICK];
         let (right, bottom) = (frame.right() - TICK - width, frame.bottom() - TICK - height);
         // Counts the drawn length inside in half millimetres; a point or a short piece counts as one.
@@ -229,7 +231,7 @@ impl Chart {
             Some(_) => [frame.left, frame.bottom() + 3.0 * look.font],
             None => best.unwrap_or([right, top]),
         };
-        for (k, curve) in self.named().enumerate() {
+        for (k, curve) in self.named_curves().enumerate() {
             let middle = y + gap / 2.0 + line * (k as f64 + 0.5);
             let [from, to] = [x + gap / 2.0, x + gap / 2.0 + swatch];
             let ink = look.color(curve.role);

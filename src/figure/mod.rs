@@ -48,7 +48,7 @@ pub enum Format {
 
 impl Format {
     /// Returns the format for the extension of `path`.
-    pub fn of(path: &Path) -> Option<Self> {
+    pub fn from_path(path: &Path) -> Option<Self> {
         path.extension()?.to_str()?.parse().ok()
     }
 
@@ -158,7 +158,7 @@ impl Sheet {
         // Aligns the bottoms of frames in a row and the left edges of frames in a column.
         let lowest = |row: &[Chart]| {
             row.iter()
-                .map(|chart| chart.below(look))
+                .map(|chart| chart.height_below(look))
                 .fold(0.0, f64::max)
         };
         let below: Vec<f64> = charts.chunks(columns).map(lowest).collect();

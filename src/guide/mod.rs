@@ -10,7 +10,7 @@ macro_rules! topics {
 
         /// All topics, in the order in which a newcomer reads them.
         pub const TOPICS: &[Topic] = &[$(Topic {
-            name: Topic::named($file),
+            name: Topic::name_of_file($file),
             about: $about,
             text: include_str!($file),
         }),*];
@@ -30,7 +30,7 @@ pub struct Topic {
 
 impl Topic {
     /// The name of a file without its ending.
-    const fn named(file: &'static str) -> &'static str {
+    const fn name_of_file(file: &'static str) -> &'static str {
         let (name, ending) = file.split_at(file.len() - ".md".len());
         assert!(matches!(ending.as_bytes(), b".md"));
         name

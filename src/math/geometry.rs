@@ -111,7 +111,7 @@ impl Geometry {
     }
 
     /// A name or a text in the words of this geometry: what is a radius in a round contact is a half-width in a line.
-    pub fn named(self, name: &str) -> String {
+    pub fn term(self, name: &str) -> String {
         match self {
             Self::Round => name.to_owned(),
             Self::Line { .. } => LINE_WORDS

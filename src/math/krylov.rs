@@ -30,7 +30,7 @@ pub fn solve(
         let mut column = Vec::with_capacity(basis.len() + 1);
         for vector in &basis {
             let share = weighted(vector, &next);
-            take(&mut next, share, vector);
+            subtract(&mut next, share, vector);
             column.push(share);
         }
         let left = norm(&next);
@@ -59,7 +59,7 @@ pub fn solve(
         for (rest, entry) in rest.iter_mut().zip(&columns[k][..k]) {
             *rest -= share * entry;
         }
-        take(&mut x, -share, &basis[k]);
+        subtract(&mut x, -share, &basis[k]);
     }
     x
 }
@@ -69,7 +69,7 @@ fn norm(values: &[f64]) -> f64 {
 }
 
 /// Takes `share` times `vector` from `values`.
-fn take(values: &mut [f64], share: f64, vector: &[f64]) {
+fn subtract(values: &mut [f64], share: f64, vector: &[f64]) {
     for (value, part) in values.iter_mut().zip(vector) {
         *value -= share * part;
     }
@@ -99,7 +99,7 @@ mod tests {
             });
             let mut rest = vec![0.0; 40];
             product(&x, &mut rest);
-            take(&mut rest, 1.0, &b);
+            subtract(&mut rest, 1.0, &b);
             assert!(norm(&rest) <= 1.01 * tolerance * norm(&b), "{tolerance}");
             assert!(products <= 12, "{products}");
         }

@@ -239,7 +239,7 @@ impl Chart {
     }
 
     /// Returns the curves that the legend lists.
-    pub fn named(&self) -> impl Iterator<Item = &Curve> {
+    pub fn named_curves(&self) -> impl Iterator<Item = &Curve> {
         self.curves.iter().filter(|curve| !curve.name.is_empty())
     }
 

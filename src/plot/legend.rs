@@ -108,7 +108,7 @@ fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) 
         right: theme.printable(&with_unit(x, &chart.x, x_unit)),
         style: theme.style(Role::Quiet),
     });
-    let curves = chart.named().map(|curve| {
+    let curves = chart.named_curves().map(|curve| {
         let swatch = theme.printable(&curve.stroke().swatch().to_string());
         let name = theme.printable(&curve.name);
         let name: String = name.chars().take(LONGEST_NAME).collect();

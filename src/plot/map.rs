@@ -87,7 +87,7 @@ pub(super) fn ink_on(ground: Color) -> Color {
         Color::Rgb(red, green, blue) => [red, green, blue],
         _ => return Color::Black,
     };
-    match Look::on(rgb) {
+    match Look::for_background(rgb) {
         Look::Light => Color::Black,
         _ => Color::Indexed(231),
     }

@@ -46,7 +46,7 @@ const MARGIN: f64 = 8.0;
 const DIM: f64 = 0.55;
 
 /// Returns the RGB value of a terminal colour; `own` for the terminal's default.
-fn shown(color: Color, own: Rgb) -> Rgb {
+fn rgb(color: Color, own: Rgb) -> Rgb {
     let named = || NAMED.iter().find(|(name, _)| *name == color);
     match color {
         Color::Rgb(r, g, b) => [r, g, b],
@@ -64,8 +64,8 @@ struct Look {
 }
 
 impl Look {
-    fn of(cell: &Cell, ground: Ground) -> Self {
-        let (mut fore, mut back) = (shown(cell.fg, ground.fore), shown(cell.bg, ground.back));
+    fn from_cell(cell: &Cell, ground: Ground) -> Self {
+        let (mut fore, mut back) = (rgb(cell.fg, ground.fore), rgb(cell.bg, ground.back));
         if cell.modifier.contains(Modifier::REVERSED) {
             std::mem::swap(&mut fore, &mut back);
         }
@@ -101,7 +101,7 @@ struct Drawing(Vec<(String, String)>);
 
 impl Drawing {
     /// Returns the path data for this style.
-    fn of(&mut self, how: String) -> &mut String {
+    fn path(&mut self, how: String) -> &mut String {
         let at = self.0.iter().position(|(known, _)| *known == how);
         let at = at.unwrap_or_else(|| {
             self.0.push((how, String::new()));
@@ -111,12 +111,12 @@ impl Drawing {
     }
 
     fn area(&mut self, color: Rgb, (x, y): (f64, f64), height: f64) {
-        let data = self.of(format!("fill=\"{}\"", hex(color)));
+        let data = self.path(format!("fill=\"{}\"", hex(color)));
         let _ = write!(data, "M{x} {y}h{0}v{height}h-{0}z", CELL.0);
     }
 
     fn line(&mut self, color: Rgb, width: &str) -> &mut String {
-        self.of(format!("stroke=\"{}\" stroke-width={width}", hex(color)))
+        self.path(format!("stroke=\"{}\" stroke-width={width}", hex(color)))
     }
 
     /// Draws a cell's character as a shape; returns false if it is text.
@@ -211,7 +211,7 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
         let (mut is_open, mut covered) = (false, 0);
         for at in row.positions() {
             let (cell, column) = (&buffer[at], f64::from(at.x - buffer.area.x));
-            let look = Look::of(cell, ground);
+            let look = Look::from_cell(cell, ground);
             let x = MARGIN + column * w;
             let y = MARGIN + f64::from(at.y - buffer.area.y) * h;
             if look.back != ground.back {
@@ -293,7 +293,7 @@ mod tests {
             (Color::Indexed(255), [238, 238, 238]),
             (Color::White, [255, 255, 255]),
         ] {
-            assert_eq!(shown(color, [9, 9, 9]), rgb, "{color:?}");
+            assert_eq!(super::rgb(color, [9, 9, 9]), rgb, "{color:?}");
         }
     }
 }

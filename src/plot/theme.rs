@@ -82,7 +82,7 @@ pub enum Look {
 
 impl Look {
     /// Returns the look for a background of this red, green and blue.
-    pub fn on(background: [u8; 3]) -> Self {
+    pub fn for_background(background: [u8; 3]) -> Self {
         // At a luminance of 0.18, black and white text have the same contrast.
         if luminance(background) > 0.18 {
             Self::Light
@@ -119,7 +119,7 @@ pub enum Depth {
 
 impl Depth {
     /// Determines the number of colours from COLORTERM and TERM.
-    pub fn of(colorterm: &str, term: &str) -> Self {
+    pub fn detect(colorterm: &str, term: &str) -> Self {
         let is_true = matches!(colorterm, "truecolor" | "24bit") || term.ends_with("-direct");
         if is_true {
             Self::True
@@ -176,7 +176,7 @@ impl Theme {
     /// Adapts the look to the background that the terminal has reported, unless a look was chosen.
     pub fn follow(&mut self, background: [u8; 3]) {
         if self.follows_background {
-            self.look = Look::on(background);
+            self.look = Look::for_background(background);
         }
     }
 
@@ -320,7 +320,11 @@ mod tests {
                 let place = usize::from(pair[at]) - 16;
                 let color = [place / 36, place / 6 % 6, place % 6].map(|level| LEVELS[level]);
                 for ground in grounds {
-                    assert_eq!(Look::on(ground) == Look::Light, at == 1, "{ground:?}");
+                    assert_eq!(
+                        Look::for_background(ground) == Look::Light,
+                        at == 1,
+                        "{ground:?}"
+                    );
                     let found = contrast(color, ground);
                     assert!(found >= 3.0, "{color:?} on {ground:?}: {found:.2}");
                 }
@@ -337,7 +341,7 @@ mod tests {
             ("truecolor", "xterm", Depth::True),
             ("24bit", "xterm-256color", Depth::True),
         ] {
-            assert_eq!(Depth::of(colorterm, term), depth, "{colorterm} {term}");
+            assert_eq!(Depth::detect(colorterm, term), depth, "{colorterm} {term}");
         }
     }
 }

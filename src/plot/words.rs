@@ -120,7 +120,7 @@ impl Frame<'_> {
     fn names_at_ends(&self, raster: &Raster, all: bool) -> Option<Vec<(Rect, String, Style)>> {
         let (theme, inner) = (self.plot.theme, self.inner);
         let mut placed: Vec<(Rect, String, Style)> = Vec::new();
-        let curves: Vec<_> = self.plot.chart.named().collect();
+        let curves: Vec<_> = self.plot.chart.named_curves().collect();
         for curve in curves.into_iter().rev() {
             let name = theme.printable(&curve.name);
             let width = cells(&name);

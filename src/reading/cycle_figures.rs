@@ -255,7 +255,7 @@ impl Measured {
 
 impl CycleFigures {
     /// Computes the figures of a finely stepped period with the parts of `setup`.
-    pub fn of(period: &FinePeriod, setup: &Setup) -> Self {
+    pub fn from_period(period: &FinePeriod, setup: &Setup) -> Self {
         let points = &period.points;
         let length = period.cycles;
         let mean = |of: fn(&PeriodPoint) -> f64| {

@@ -61,7 +61,7 @@ pub struct Fatigue {
 impl Fatigue {
     /// Computes the parameters from the stresses of one place at
     /// the moments of a cycle, with ν; all zero without stresses.
-    pub fn of(stresses: &[Stress], poisson: f64) -> Self {
+    pub fn from_stresses(stresses: &[Stress], poisson: f64) -> Self {
         let hydrostatic = stresses.iter().map(|stress| -stress.pressure());
         Self {
             swt: swt(stresses, poisson),
@@ -231,7 +231,7 @@ impl StressCycle {
 
     /// Steps a copy of `simulation` through two periods of the motion without wear; the first one lets it settle.
     /// `None` if the two motions have no common period, or if the contact cannot be solved.
-    pub fn of(simulation: &Simulation) -> Option<Self> {
+    pub fn simulate(simulation: &Simulation) -> Option<Self> {
         let period = f64::from(simulation.setup().drive.repeats_after()?);
         let poisson = simulation.setup().material.poisson();
         let mut probe = simulation.without_wear()?;
@@ -265,7 +265,7 @@ impl StressCycle {
         let poisson = loads.clone().next().map_or(0.0, |load| load.poisson());
         let (right, left): (Vec<Stress>, Vec<Stress>) =
             loads.map(|load| load.mirrored(r, z).into()).unzip();
-        [right, left].map(|stresses| Fatigue::of(&stresses, poisson))
+        [right, left].map(|stresses| Fatigue::from_stresses(&stresses, poisson))
     }
 
     /// Finds where in the plane of motion a parameter is largest, below the widest contact of the cycle.

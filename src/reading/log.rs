@@ -38,14 +38,14 @@ pub struct Passed {
 
 impl Log {
     /// Begins a log of a simulation that has not stepped yet.
-    pub fn of(simulation: &Simulation) -> Self {
+    pub fn new(simulation: &Simulation) -> Self {
         let mut log = Self::default();
-        log.begin_anew(simulation);
+        log.restart(simulation);
         log
     }
 
     /// Forgets the figures and begins a new period, after a change of the parts or a jump over cycles.
-    pub fn begin_anew(&mut self, simulation: &Simulation) {
+    pub fn restart(&mut self, simulation: &Simulation) {
         self.figures = None;
         self.tally = LoopTally::begin(simulation);
         self.watch_hardness(simulation);
@@ -59,7 +59,7 @@ impl Log {
         }
         if simulation.has_jumped() {
             self.balance.close(simulation);
-            return self.begin_anew(simulation);
+            return self.restart(simulation);
         }
         self.tally.add(simulation);
         let period = period(simulation);
@@ -93,7 +93,7 @@ impl Log {
             return self.figures;
         }
         let period = simulation.fine_period()?;
-        Some(CycleFigures::of(&period, simulation.setup()))
+        Some(CycleFigures::from_period(&period, simulation.setup()))
     }
 
     /// Returns the figures of the last complete period if it was stepped.

@@ -180,7 +180,7 @@ impl Observation {
         let tangential = (self.tangential_load(), of_tangential);
         let [nodes, normal, tangential] = scar_end::divided(self.radii(), [normal, tangential]);
         let radius = self.moment.contact_radius;
-        SpringLoad::new(&nodes, &normal, &tangential, radius, poisson).of(self.geometry)
+        SpringLoad::new(&nodes, &normal, &tangential, radius, poisson).with_geometry(self.geometry)
     }
 }
 

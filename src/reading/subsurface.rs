@@ -214,7 +214,7 @@ impl SpringLoad {
 
     /// Returns the same load in a contact of this `geometry`.
     #[must_use]
-    pub fn of(self, geometry: Geometry) -> Self {
+    pub fn with_geometry(self, geometry: Geometry) -> Self {
         Self { geometry, ..self }
     }
 

@@ -53,7 +53,7 @@ impl Table {
 
     /// The same columns under another header.
     #[must_use]
-    pub fn under(&self, header: Vec<(String, String)>) -> Self {
+    pub fn with_header(&self, header: Vec<(String, String)>) -> Self {
         Self::of_columns(header, self.columns.iter().cloned())
     }
 

@@ -93,7 +93,7 @@ fn drop_keys_of_other_shapes(table: &mut Table, shape: &Value, origin: &Origin) 
     let is_punch = |shape: &str| shape == "flat-punch";
     let before: Option<String> = schema::read(table, "indenter.shape");
     let was_punch = before.is_some_and(|before| is_punch(&before));
-    let others = schema::parameters().filter(|key| !key.is_of(shape));
+    let others = schema::parameters().filter(|key| !key.belongs_to(shape));
     for key in others {
         values::remove(table, key.path);
     }

@@ -77,7 +77,7 @@ fn broken(value: &mut Value, parameter: &Parameter, is_force: bool) -> Option<St
     }
     if !parameter.kind.fits(value) {
         let wanted = format!("{}{}", parameter.kind.wanted(), parameter.allowed());
-        let instead = hints::instead(parameter, value);
+        let instead = hints::suggest(parameter, value);
         return Some(format!("must be {wanted}{instead}"));
     }
     let entries = value.as_array().map_or(0, Vec::len);

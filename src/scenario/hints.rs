@@ -63,7 +63,7 @@ pub(super) fn known_in(section: &str) -> String {
 }
 
 /// Returns a remark for a `value` that is not among a key's words: the word probably meant, if there is one.
-pub(super) fn instead(parameter: &Parameter, value: &Value) -> String {
+pub(super) fn suggest(parameter: &Parameter, value: &Value) -> String {
     let (Kind::Choice(words), Some(given)) = (parameter.kind, value.as_str()) else {
         return String::new();
     };

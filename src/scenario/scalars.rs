@@ -154,7 +154,9 @@ impl<'a> Reading<'a> {
     /// Returns the loads of a steady-state cycle, which is stepped once.
     fn stresses(&self) -> Option<&StressCycle> {
         let simulation = self.session.simulation();
-        let stresses = self.stresses.get_or_init(|| StressCycle::of(simulation));
+        let stresses = self
+            .stresses
+            .get_or_init(|| StressCycle::simulate(simulation));
         stresses.as_ref()
     }
 
@@ -200,7 +202,7 @@ pub fn all() -> impl Iterator<Item = Column> + Clone {
 /// # Errors
 ///
 /// In one line, the unknown name with the nearest known one.
-pub fn named(name: &str) -> Result<Column, String> {
+pub fn find_scalar(name: &str) -> Result<Column, String> {
     all().find(|scalar| scalar.name() == name).ok_or_else(|| {
         let hint = nearest::hint(name, all().map(Column::name));
         format!("unknown column {}; {hint}", printable(name))

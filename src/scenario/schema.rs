@@ -67,7 +67,7 @@ impl Parameter {
     }
 
     /// Whether an indenter of this shape takes the key.
-    pub(super) fn is_of(&self, shape: &str) -> bool {
+    pub(super) fn belongs_to(&self, shape: &str) -> bool {
         self.shapes.is_empty() || self.shapes.contains(&shape)
     }
 

@@ -69,7 +69,7 @@ impl Session {
         let simulation = Simulation::new(scenario.setup().clone())?;
         let mut session = Self {
             scenario: scenario.clone(),
-            log: Log::of(&simulation),
+            log: Log::new(&simulation),
             simulation,
             changes: Vec::new(),
             pending: scenario.changes().to_vec(),
@@ -252,7 +252,7 @@ impl Session {
         };
         simulation.reconfigure(scenario.setup().clone(), domain)?;
         self.log = before.log.clone();
-        self.log.begin_anew(&simulation);
+        self.log.restart(&simulation);
         self.simulation = simulation;
         self.scenario = scenario;
         self.changes = made;

@@ -61,7 +61,7 @@ pub const SHOWN_PREFIXES: [(&str, i32, f64); 8] = [
 const OTHER_PREFIXES: [(&str, i32); 2] = [("u", -6), ("c", -2)];
 
 impl Unit {
-    fn named(symbol: &str) -> Option<Self> {
+    fn find(symbol: &str) -> Option<Self> {
         let known = |symbol: &str| UNITS.iter().find(|(name, ..)| *name == symbol);
         if let Some((_, unit, _)) = known(symbol) {
             return Some(*unit);
@@ -74,13 +74,13 @@ impl Unit {
         })
     }
 
-    /// As [`named`](Self::named), but also accepts newtons and a length without a sign between them, as pin tests
+    /// As [`named`](Self::find), but also accepts newtons and a length without a sign between them, as pin tests
     /// report their wear: `mm³/Nm`.
     fn named_or_moment(symbol: &str) -> Option<Self> {
-        Self::named(symbol).or_else(|| {
-            let length = Self::named(symbol.strip_prefix('N')?)?;
-            length.is_like(Self::named("m")?).then_some(())?;
-            Some(length.times(Self::named("N")?))
+        Self::find(symbol).or_else(|| {
+            let length = Self::find(symbol.strip_prefix('N')?)?;
+            length.is_like(Self::find("m")?).then_some(())?;
+            Some(length.times(Self::find("N")?))
         })
     }
 
@@ -158,7 +158,7 @@ fn factor(rest: &mut &str) -> Option<Unit> {
     }
     if let Some(after) = rest.strip_prefix('1') {
         *rest = after;
-        return Unit::named("1");
+        return Unit::find("1");
     }
     let is_of_symbol = |c: char| c.is_alphabetic() || c == '°';
     let end = rest.find(|c| !is_of_symbol(c)).unwrap_or(rest.len());

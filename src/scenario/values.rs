@@ -97,20 +97,20 @@ pub(crate) fn literal(value: &Value) -> String {
             let list: Vec<String> = list.iter().map(literal).collect();
             format!("[{}]", list.join(", "))
         }
-        Value::String(text) if text.chars().any(is_rude) => escaped(text),
+        Value::String(text) if text.chars().any(is_unprintable) => escaped(text),
         other => other.to_string(),
     }
 }
 
 /// Whether a terminal or a header line would not show a character unchanged: controls, invisible spaces and marks, and
 /// characters that change the direction of text.
-fn is_rude(c: char) -> bool {
+fn is_unprintable(c: char) -> bool {
     !matches!(c, '"' | '\'' | '\\') && printable(&String::from_iter(['a', c])).chars().count() > 2
 }
 
 /// Formats a basic string on one line, escaping special characters: TOML has the escapes of JSON.
 fn escaped(text: &str) -> String {
-    let escaped = |c| match is_rude(c) {
+    let escaped = |c| match is_unprintable(c) {
         true => format!("\\U{:08X}", u32::from(c)),
         false => c.to_string(),
     };
@@ -138,7 +138,7 @@ mod tests {
     fn rude_text_reads_back_and_harms_no_terminal() {
         let text = "a\u{9b}2J\u{202e}\u{1b}\n\"\\\u{2066}\u{7f}b";
         let shown = literal(&Value::String(text.into()));
-        assert!(!shown.chars().any(is_rude), "{shown:?}");
+        assert!(!shown.chars().any(is_unprintable), "{shown:?}");
         let read = shown.parse::<Value>().expect("a TOML value");
         assert_eq!(read.as_str(), Some(text));
     }

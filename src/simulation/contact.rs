@@ -241,7 +241,7 @@ impl<'a> Problem<'a> {
         if model.setup.scheme == Scheme::Trapezoid {
             let depths = [before.depth, after.depth];
             let springs = (&mut spring.nodal[..], &mut *slip, &mut states[..]);
-            tangential::take_along_late(input, increment, depths, &profile.g, springs);
+            tangential::correct_late_contact(input, increment, depths, &profile.g, springs);
         }
         after.stick_radius = Some(tangential::borders(input, spring, slip, states));
     }

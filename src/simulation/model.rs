@@ -35,7 +35,7 @@ pub(crate) struct Operators {
 
 impl Operators {
     fn new(setup: &Setup) -> Self {
-        let plan = AbelPlan::of(setup.geometry, setup.method, &setup.grid);
+        let plan = AbelPlan::for_geometry(setup.geometry, setup.method, &setup.grid);
         let nodes = setup.grid.nodes();
         let unworn: Arc<[f64]> = nodes.iter().map(|&r| setup.indenter.profile(r)).collect();
         let mut unworn_1d = vec![0.0; nodes.len()];
@@ -48,7 +48,7 @@ impl Operators {
             _ => plan.profile(&unworn, &mut unworn_1d),
         }
         Self {
-            foundation: WinklerFoundation::of(setup.geometry, &setup.grid),
+            foundation: WinklerFoundation::for_geometry(setup.geometry, &setup.grid),
             per_width: setup.grid.widths().map(f64::recip).collect(),
             volume_weights: setup.geometry.volume_weights(&setup.grid),
             grid: setup.grid.clone(),

@@ -88,7 +88,7 @@ impl Ghost {
             let file = path.join(file);
             if file.is_file() {
                 let columns = Columns::read(&file)?;
-                ghost.take(Table::of_file(&columns));
+                ghost.add_table(Table::of_file(&columns));
             }
         }
         if ghost.tables.is_empty() {
@@ -110,13 +110,13 @@ impl Ghost {
             .into_iter()
             .any(has)
         {
-            ghost.take(Table::of_file(columns));
+            ghost.add_table(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
-            match Kind::of(columns) {
-                Some(Kind::Scar | Kind::Map) => ghost.take_measured(Measured::scar(columns)?),
-                Some(Kind::Loop) => ghost.take_measured(Measured::fretting_loop(columns, None)?),
-                Some(Kind::History) => ghost.take_measured(Measured::history(columns, None)?),
+            match Kind::detect(columns) {
+                Some(Kind::Scar | Kind::Map) => ghost.add_measured(Measured::scar(columns)?),
+                Some(Kind::Loop) => ghost.add_measured(Measured::fretting_loop(columns, None)?),
+                Some(Kind::History) => ghost.add_measured(Measured::history(columns, None)?),
                 None => {}
             }
         }
@@ -124,7 +124,7 @@ impl Ghost {
             true => Err(columns.refuse(format!(
                 "has nothing to draw: needs r_m with wear_m or f_m, u_m with F_N, or cycle with \
                  wear_volume_m3 or depth_m; the first line names {}",
-                columns.named()
+                columns.list_names()
             ))),
             false => Ok(ghost),
         }
@@ -185,21 +185,21 @@ impl Ghost {
     }
 
     /// Adds a closed loop: u, m, and F, N.
-    pub fn take_loop(&mut self, shifts: Vec<f64>, forces: Vec<f64>) {
+    pub fn add_loop(&mut self, shifts: Vec<f64>, forces: Vec<f64>) {
         if shifts.len() >= Loop::SHORTEST {
             self.add(Axes::LOOP, shifts, forces, None);
         }
     }
 
     /// Adds one of this program's own tables, and the loop of its last cycle, if any.
-    pub fn take(&mut self, table: Table) {
-        if let Some(one) = Loop::of(&table, table.last_cycle()) {
-            self.take_loop(one.shifts, one.forces);
+    pub fn add_table(&mut self, table: Table) {
+        if let Some(one) = Loop::from_table(&table, table.last_cycle()) {
+            self.add_loop(one.shifts, one.forces);
         }
         self.tables.push(table.into());
     }
 
-    fn take_measured(&mut self, mut measured: Measured) {
+    fn add_measured(&mut self, mut measured: Measured) {
         if measured.axes.over_r() {
             measured.at.iter_mut().for_each(|r| *r = r.abs());
         }

@@ -52,7 +52,7 @@ pub struct Table {
 impl Table {
     /// Makes a table without rows, from groups of columns: their shared heading, their names separated by blanks, and
     /// their format.
-    pub fn of(columns: &[Column]) -> Self {
+    pub fn with_columns(columns: &[Column]) -> Self {
         let columns = columns.iter().flat_map(|&(group, names, format)| {
             let names = names.split(' ');
             names.map(move |name| (group, name, format))
@@ -167,7 +167,7 @@ mod tests {
     use super::*;
 
     fn table() -> Table {
-        let mut table = Table::of(&[
+        let mut table = Table::with_columns(&[
             ("", "method", Format::Words),
             ("", "N", Format::Rough),
             ("g", "max", Format::Rough),

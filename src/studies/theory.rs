@@ -68,7 +68,7 @@ fn branch(cycle: f64) -> Branch {
 
 impl Theory {
     /// Finds the closed forms for the parts of a simulation.
-    pub fn of(setup: &Setup) -> Self {
+    pub fn new(setup: &Setup) -> Self {
         let e_star = setup.material.normal_modulus();
         if let Some(length) = setup.geometry.length() {
             return Self::of_line(setup, length);
@@ -258,7 +258,7 @@ mod tests {
     use crate::scenario::Scenario;
 
     fn of(preset: &str) -> Theory {
-        Theory::of(Scenario::load(preset, &[]).expect("a preset").setup())
+        Theory::new(Scenario::load(preset, &[]).expect("a preset").setup())
     }
 
     #[test]
@@ -283,7 +283,7 @@ mod tests {
             let a = (3.0 * load * radius / (4.0 * material.normal_modulus())).cbrt();
             let exact =
                 3.0 * material.friction() * load / (4.0 * a * material.tangential_modulus());
-            let border = Theory::of(setup)
+            let border = Theory::new(setup)
                 .gross_slip_amplitude(load)
                 .expect("a border");
             assert!((border / exact - 1.0).abs() < 1e-12, "{load}");

@@ -121,7 +121,7 @@ pub fn settings(
     let wants_jumps = wants_jumps(scenario);
     let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
     let mut settings = Vec::new();
-    let known = AbelMethod::of(setup.geometry);
+    let known = AbelMethod::for_geometry(setup.geometry);
     let of_method = |&method| Scheme::ALL.map(|scheme| (method, scheme));
     for (method, scheme) in methods
         .iter()
@@ -322,7 +322,7 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
 pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
     let of_run = "points steps_per_cycle tolerance time_s steps transforms";
     let errors = "error_rms volume_error work_error force_error stick_error";
-    let mut table = Table::of(&[
+    let mut table = Table::with_columns(&[
         ("", "method scheme integrator", Format::Words),
         ("", of_run, Format::Rough),
         ("against the reference", errors, Format::Rough),

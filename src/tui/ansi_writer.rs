@@ -34,7 +34,7 @@ struct Pen {
 impl Pen {
     /// Returns a cell's text and the pen to write it with. A full block in a colour becomes a blank on that background:
     /// one byte instead of three.
-    fn of(cell: &Cell) -> (&str, Self) {
+    fn from_cell(cell: &Cell) -> (&str, Self) {
         let is_block = cell.symbol() == "█" && cell.modifier.is_empty() && cell.fg != Color::Reset;
         let (symbol, fg, bg) = match is_block {
             true => (" ", Color::Reset, cell.fg),
@@ -57,13 +57,13 @@ impl Pen {
     }
 
     /// Returns the sequence that sets this pen, whatever the pen was: an empty code resets it.
-    fn anew(self) -> String {
+    fn full_sequence(self) -> String {
         format!("\x1b[{}m", self.codes(Self::default()))
     }
 
     /// Returns the shortest sequence that changes the pen `now` to this one.
     fn sequence(self, now: Self) -> String {
-        let (anew, codes) = (self.anew(), self.codes(now));
+        let (anew, codes) = (self.full_sequence(), self.codes(now));
         let adds = self.modifier.contains(now.modifier);
         match codes.strip_prefix(';').filter(|_| adds) {
             _ if now == self => String::new(),
@@ -86,7 +86,7 @@ fn code(color: Color, base: usize) -> String {
 }
 
 /// Returns the shortest sequence that moves the cursor from `at`, if known, to `goal`.
-fn way(at: Option<Position>, goal: Position) -> String {
+fn move_cursor(at: Option<Position>, goal: Position) -> String {
     let absolute = format!("\x1b[{};{}H", goal.y + 1, goal.x + 1);
     let Some(at) = at.filter(|at| at.y <= goal.y) else {
         return absolute;
@@ -141,13 +141,15 @@ impl AnsiWriter {
         let is_whole = self.cut(&mut changes, room);
         // A style takes more bytes than a move, so the cells of one style go out together. The status
         // line goes first: a slow line shows it at once, and it tells of a key.
-        changes.sort_by_cached_key(|&(x, y, cell)| (y > 0, Pen::of(cell).1.anew(), y, x));
+        changes.sort_by_cached_key(|&(x, y, cell)| {
+            (y > 0, Pen::from_cell(cell).1.full_sequence(), y, x)
+        });
         for (x, y, cell) in changes {
             let goal = Position::new(x, y);
             if self.at != Some(goal) {
-                text += &way(self.at, goal);
+                text += &move_cursor(self.at, goal);
             }
-            let (symbol, mut pen) = Pen::of(cell);
+            let (symbol, mut pen) = Pen::from_cell(cell);
             // Only the background of a blank is visible.
             if symbol == " " && !(self.pen.modifier | pen.modifier).intersects(ON_BLANKS) {
                 (pen.fg, pen.modifier) = (self.pen.fg, self.pen.modifier);
@@ -175,7 +177,7 @@ impl AnsiWriter {
         changes.sort_by_key(|&(x, y, _)| (!is_edge(y), (y, x) < self.place));
         let (mut taken, mut room, mut before) = (0, room.max(FEW), None);
         let next = changes.iter().position(|&(x, y, cell)| {
-            let pen = Pen::of(cell).1;
+            let pen = Pen::from_cell(cell).1;
             let is_run = before.replace((x + 1, y, pen)) == Some((x, y, pen));
             taken += cell.symbol().len() + if is_run { 0 } else { RUN };
             if is_edge(y) {
@@ -209,9 +211,9 @@ mod tests {
             ((70, 30), "\x1b[31;71H"),
             ((70, 3), "\x1b[4;71H"),
         ] {
-            assert_eq!(way(Some(at), goal.into()), expected, "{goal:?}");
+            assert_eq!(move_cursor(Some(at), goal.into()), expected, "{goal:?}");
         }
-        assert_eq!(way(None, at), "\x1b[13;41H");
+        assert_eq!(move_cursor(None, at), "\x1b[13;41H");
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub fn theme_of(marker: Option<Marker>, colored: Option<bool>, look: Option<Look
         None if light_background() => Look::Light,
         None => Look::Dark,
     };
-    let depth = Depth::of(&variable("COLORTERM"), &variable("TERM"));
+    let depth = Depth::detect(&variable("COLORTERM"), &variable("TERM"));
     Theme {
         follows_background,
         ..Theme::new(look, marker).with_depth(depth)

@@ -44,8 +44,11 @@ impl ScreenAutosave {
     }
 
     /// Returns the time until a checkpoint is due; `None` while there is nothing new to save.
-    pub fn wait(&self, session: &Session) -> Option<Duration> {
-        let wait = self.autosave.wait().filter(|_| !self.is_finished)?;
+    pub fn time_until_due(&self, session: &Session) -> Option<Duration> {
+        let wait = self
+            .autosave
+            .time_until_due()
+            .filter(|_| !self.is_finished)?;
         (self.kept != mark(session)).then_some(wait)
     }
 
@@ -55,19 +58,19 @@ impl ScreenAutosave {
             return None;
         }
         self.copy.refresh(|| session.clone());
-        match self.wait(session) {
+        match self.time_until_due(session) {
             Some(Duration::ZERO) => self.save(session),
             _ => None,
         }
     }
 
     /// Switches to another session; keeps the file of this one.
-    pub fn turn_over(&mut self, from: &Session, to: &Session) {
+    pub fn begin_session(&mut self, from: &Session, to: &Session) {
         if self.is_finished {
             return;
         }
         self.save(from);
-        self.autosave.turn_over();
+        self.autosave.begin_session();
         self.kept = mark(to);
         self.copy = Recent::new(to.clone());
     }

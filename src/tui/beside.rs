@@ -82,7 +82,7 @@ pub(super) struct Twin {
 impl Twin {
     /// Makes a twin of `session`, which has to catch up with it. `None` if nothing wears, or if the run is already too
     /// coarse.
-    pub fn of(session: &Session) -> Option<Self> {
+    pub fn new(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
             beside: Beside::new(refinement::twin(session)?.ok()?, false),
@@ -96,7 +96,7 @@ impl Twin {
 
     /// Returns the cycle of the last comparison and the run's estimated errors, or why there are none yet; the run is
     /// at `cycle`.
-    pub fn told(&self, cycle: f64) -> Result<(f64, Difference), String> {
+    pub fn errors(&self, cycle: f64) -> Result<(f64, Difference), String> {
         let waits = match self.lags(cycle) {
             true => "running ...",
             false => NOTHING_YET,

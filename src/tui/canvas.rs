@@ -67,14 +67,14 @@ impl<'a> Canvas<'a> {
     }
 
     /// Writes lines, each after a blank.
-    pub fn say(&mut self, text: &str, role: Role) {
+    pub fn write_text(&mut self, text: &str, role: Role) {
         let line = |line| Line::styled(format!(" {}", self.printable(line)), self.style(role));
         let lines: Text<'static> = text.lines().map(line).collect();
         self.show(lines);
     }
 
     /// Writes a text in as many rows as it needs; more than one extend upwards.
-    fn tell(&mut self, text: &str, role: Role) {
+    fn write_upwards(&mut self, text: &str, role: Role) {
         let text = self.printable(&text.replace('\n', " "));
         let lines = wrapped(&text, usize::from(self.area.width.saturating_sub(2)));
         let more = (lines.len().saturating_sub(1) as u16).min(self.area.y - self.buffer.area.y);
@@ -100,7 +100,7 @@ impl<'a> Canvas<'a> {
         always: &[[S; 2]],
     ) {
         if let Some((text, role)) = told {
-            return self.tell(text, role);
+            return self.write_upwards(text, role);
         }
         let width = |texts: &[S; 2]| -> usize {
             let widths = texts.iter().map(|text| text.as_ref().chars().count() + 1);
@@ -171,7 +171,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Writes at the right end of the last row how many entries below are hidden, if any.
-    pub fn more(&mut self, below: usize) {
+    pub fn write_more_below(&mut self, below: usize) {
         if below > 0 && !self.area.is_empty() {
             let text = self.printable(&format!(" {below} more ↓ "));
             let style = self.style(Role::Title);
@@ -197,7 +197,7 @@ impl<'a> Canvas<'a> {
         let mut state = selected.with_offset(first);
         let below = list.len().saturating_sub(first + rows);
         StatefulWidget::render(list, self.area, self.buffer, &mut state);
-        self.more(below);
+        self.write_more_below(below);
     }
 
     /// Draws a chart below a rule with its title, with a cursor if there is one.

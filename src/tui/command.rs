@@ -79,7 +79,7 @@ commands! {
     "run" {
         RunPause [Char(' ')] "run/pause", "run or pause the simulation", Work(Worker::run_or_pause);
         Step [Char('.')] "step", "pause and take one step", Work(Worker::step_once);
-        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(|run| run.step_by_hand(ends_cycle));
+        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(|run| run.step_manually(ends_cycle));
         Faster [Char('+'), Char('=')] "faster", "more cycles per second, up to full speed", Work(|run| run.change_pace(1));
         Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
         HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
@@ -140,7 +140,7 @@ commands! {
         TimeBack [Char('[')] "back in time", "back in time; running or editing branches from there",
             Work(|run| run.travel(Past::back, "this is the start of the run"));
         TimeForth [Char(']')] "forward in time", "forward in time, up to the present",
-            Work(|run| run.travel(Past::forth, "this is the present"));
+            Work(|run| run.travel(Past::forward, "this is the present"));
         TimeFarBack [Named(N::PageUp)] "far back", "ten states back in time",
             Work(|run| run.travel(|past| past.go(-10), "this is the start of the run"));
         TimeFarForth [Named(N::PageDown)] "far forward", "ten states forward in time",

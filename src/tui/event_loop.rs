@@ -67,7 +67,7 @@ pub fn run(
     let outcome = catch(|| handle_events(app, &mut screen, inbox, &waiting));
     ending();
     drain_replies(&mut screen, inbox);
-    let is_restored = screen.give_back();
+    let is_restored = screen.release();
     // Further keys belong to the next program on the terminal.
     waiting.close();
     let _ = listener.join();
@@ -115,7 +115,7 @@ fn handle_events(
                 Event::Suspend => suspends = true,
                 Event::Resize if is_away => {}
                 Event::Resize => {
-                    screen.start_afresh();
+                    screen.forget_contents();
                     app.explorer.resize(terminal::size()?);
                 }
                 Event::Continue => {
@@ -123,7 +123,7 @@ fn handle_events(
                     if waiting.is_over() {
                         return Ok(());
                     }
-                    screen.take_back()?;
+                    screen.acquire()?;
                     app.explorer.resize(terminal::size()?);
                     is_away = false;
                 }
@@ -144,7 +144,7 @@ fn handle_events(
                         Next::Suspend => (suspends, app.explorer.next) = (true, Next::Stay),
                         Next::Repaint => {
                             app.explorer.next = Next::Stay;
-                            screen.start_afresh();
+                            screen.forget_contents();
                         }
                         Next::Leave | Next::LeaveScreen => return Ok(()),
                     }
@@ -160,11 +160,11 @@ fn handle_events(
             if waiting.is_over() {
                 return Ok(());
             }
-            screen.give_back();
+            screen.release();
             is_away = suspend::stop();
             if !is_away {
                 app.handle(Event::Notice("there is no shell to return to".into()));
-                screen.take_back()?;
+                screen.acquire()?;
             }
         }
         if !is_away && is_due && screen.flow.delay(screen.now()) == Some(0.0) {

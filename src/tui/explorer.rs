@@ -119,7 +119,7 @@ impl Explorer {
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
         // The stress is drawn of the calm frame, so its range follows that one.
-        if self.calm.take(&frame, self.stage.shows_contact()) {
+        if self.calm.update(&frame, self.stage.shows_contact()) {
             self.stress.follow(&frame);
         }
         if self.speed_up.is_due(&frame, self.stage.presents) {
@@ -168,7 +168,7 @@ impl Explorer {
         let chart = chart.as_deref().and_then(|made| made.as_ref().ok());
         let place = chart.and_then(|chart| panels::abscissa_at(chart, &self.theme, place, at));
         let place = place.filter(|_| self.cursor.is_shown() && !is_second);
-        if let Some((place, whole)) = place.zip(self.charts.whole(panel)) {
+        if let Some((place, whole)) = place.zip(self.charts.whole_range(panel)) {
             self.cursor.put(abscissa(panel), whole, place);
         }
         self.stage.click(panel, is_second, place.is_some());
@@ -199,7 +199,7 @@ impl Explorer {
         let of = abscissa(self.stage.focus);
         let whole = match of {
             cursor::RADIUS => Some([0.0, self.frame.run.edge()]),
-            _ => self.charts.whole(self.stage.focus),
+            _ => self.charts.whole_range(self.stage.focus),
         };
         Some((of, whole?))
     }

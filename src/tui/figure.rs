@@ -20,13 +20,14 @@ const DPI: f64 = 300.0;
 /// In one line: an unknown format, a file that already exists or cannot be written.
 pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let shown = path.display();
-    let format = Format::of(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
+    let format =
+        Format::from_path(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
     let beside = path.with_extension("csv");
     let claim = |path: &Path| Target::claim(path, false).map_err(|error| error.to_string());
     let (target, data_target) = (claim(path)?, claim(&beside)?);
     let scenario = of.session.scenario();
-    let mut run = charts::Run::default().of(scenario);
-    run.take_state(&of.session);
+    let mut run = charts::Run::default().with_scenario(scenario);
+    run.add_state(&of.session);
     run.loops.push(of.trend.loops.last(of.cycle()));
     let charts = charts::USUAL.iter();
     let charts = charts.filter_map(|recipe| recipe.on_paper(&run).ok());

@@ -191,7 +191,7 @@ impl Flow {
     }
 
     /// Notes that the writer received a chunk of this many bytes, including its request.
-    pub fn sent(&mut self, now: f64, bytes: usize) {
+    pub fn note_sent(&mut self, now: f64, bytes: usize) {
         // An answer to a key was sent while the line was to become empty: keys in a row would keep it idle for long.
         if self.is_old(now) && !self.marks.is_empty() {
             self.confirmed = now - (1.0 - AGAIN) * self.refresh();

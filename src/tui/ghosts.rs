@@ -89,7 +89,11 @@ impl Source {
             }
         };
         let setup = session.simulation().setup();
-        let name = format!("{}, N = {}", setup.method.spoken(), setup.grid.cells());
+        let name = format!(
+            "{}, N = {}",
+            setup.method.display_name(),
+            setup.grid.cells()
+        );
         Ok(Self {
             ghost: Arc::new(Ghost::new(&name)),
             beside: Some(Box::new(Beside::new(session, false))),
@@ -97,7 +101,7 @@ impl Source {
     }
 
     /// Continues a run as it was before it was changed.
-    pub(super) fn before(session: Session) -> Self {
+    pub(super) fn unchanged(session: Session) -> Self {
         Self {
             ghost: Arc::new(Ghost::new("before")),
             beside: Some(Box::new(Beside::new(session, true))),
@@ -118,7 +122,7 @@ impl Source {
     }
 
     /// Returns its curves; if it is a run, those selected by `curves`.
-    pub(super) fn seen(&self, curves: Curves) -> Arc<Ghost> {
+    pub(super) fn curves(&self, curves: Curves) -> Arc<Ghost> {
         let Some(beside) = &self.beside else {
             return Arc::clone(&self.ghost);
         };
@@ -150,7 +154,7 @@ type Edit = Box<dyn Fn(&mut Spec)>;
 /// What a run can be compared with: every other method, and itself on half the cells.
 fn choices(session: &Session) -> Vec<Edit> {
     let setup = session.simulation().setup();
-    let mut others = AbelMethod::of(setup.geometry).to_vec();
+    let mut others = AbelMethod::for_geometry(setup.geometry).to_vec();
     others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
     others.sort_by_key(|method| *method != AbelMethod::B);

@@ -24,7 +24,7 @@ impl Held {
 
     /// Adds the range of a frame at `cycle`. The bounds grow at once, but shrink only if a whole period leaves half of
     /// them empty.
-    pub fn take(&mut self, [low, high]: [f64; 2], cycle: f64) {
+    pub fn include(&mut self, [low, high]: [f64; 2], cycle: f64) {
         if cycle < self.since {
             (self.seen, self.since) = ([low, high], cycle);
         }
@@ -61,7 +61,7 @@ mod tests {
         let mut held = Held::new([0.0, 7.0], 0.0);
         for step in 0..300 {
             let most = 7.0 + 0.01 * f64::from(step);
-            held.take([-most, most], f64::from(step) / 100.0);
+            held.include([-most, most], f64::from(step) / 100.0);
             let [low, high] = held.bounds;
             assert!(low == -high && high >= most && high < 16.0, "{held:?}");
         }
@@ -76,7 +76,7 @@ mod tests {
             let cycle = f64::from(step) / 100.0;
             let swing = (std::f64::consts::TAU * cycle).sin().abs();
             let before = held.bounds;
-            held.take([0.0, swing * (-cycle / 5.0).exp()], cycle);
+            held.include([0.0, swing * (-cycle / 5.0).exp()], cycle);
             if held.bounds != before {
                 changes.push(cycle);
             }

@@ -79,8 +79,8 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) 
             return;
         }
         let inputs = match come {
-            Ok(None) => reader.rest(),
-            Ok(Some(count @ 1..)) => reader.take(&bytes[..count]),
+            Ok(None) => reader.pause(),
+            Ok(Some(count @ 1..)) => reader.read(&bytes[..count]),
             Err(Errno::EINTR | Errno::EAGAIN) => continue,
             Ok(Some(0)) | Err(_) => {
                 waiting.end();
@@ -98,7 +98,7 @@ pub fn listen(events: &Sender<Event>, waiting: &Arc<Waiting>, with_mouse: bool) 
                 Input::Key(_) | Input::Paste(_) if !waiting.enter() => None,
                 Input::Point(_) if !with_mouse => None,
                 Input::Point(gesture) => {
-                    let gesture = mouse.together(gesture, Instant::now());
+                    let gesture = mouse.combine(gesture, Instant::now());
                     gesture.map(|gesture| Event::Input(Input::Point(gesture)))
                 }
                 input => Some(Event::Input(input)),

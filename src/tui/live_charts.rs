@@ -78,7 +78,7 @@ impl LiveCharts {
 
     /// Updates an axis with its range in a frame at `cycle`, and returns its bounds. While all values are zero, their
     /// size is unknown, and there are no bounds.
-    fn hold(
+    fn update_bounds(
         &mut self,
         axis: (Panel, Option<Scale>),
         range: Option<[f64; 2]>,
@@ -94,7 +94,7 @@ impl LiveCharts {
             };
             let first = || Held::new([low, high].map(|end| room * end), cycle);
             let held = self.held.entry(axis).or_insert_with(first);
-            held.take([low, high], cycle);
+            held.include([low, high], cycle);
         }
         self.held.get(&axis).map(|held| held.bounds)
     }
@@ -132,7 +132,7 @@ impl LiveCharts {
             let recipe = match panel.content() {
                 Content::Chart(recipe) => recipe,
                 Content::Picture(picture) => {
-                    self.hold(ordinate, (picture.make.extent)(frame), cycle);
+                    self.update_bounds(ordinate, (picture.make.extent)(frame), cycle);
                     continue;
                 }
             };
@@ -141,8 +141,8 @@ impl LiveCharts {
             let across = made.filter(|_| recipe.keeps_abscissa);
             let across = across.and_then(|chart| chart.x.bounds);
             let extent = made.and_then(|chart| extent(chart, recipe.has_spikes));
-            let along = self.hold(ordinate, extent, cycle);
-            let across = self.hold((panel, None), across, cycle);
+            let along = self.update_bounds(ordinate, extent, cycle);
+            let across = self.update_bounds((panel, None), across, cycle);
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = along;
                 chart.x.bounds = across.or(chart.x.bounds);
@@ -164,7 +164,7 @@ impl LiveCharts {
     }
 
     /// Returns the range of a panel's curves along the abscissa, if it has a chart.
-    pub(super) fn whole(&self, panel: Panel) -> Option<[f64; 2]> {
+    pub(super) fn whole_range(&self, panel: Panel) -> Option<[f64; 2]> {
         self.whole.get(&panel).copied()
     }
 
@@ -187,7 +187,7 @@ impl LiveCharts {
         if *ends != [low, high] {
             (*ends, *held) = ([low, high], Held::new(range, cycle));
         }
-        held.take(range, cycle);
+        held.include(range, cycle);
         chart.y.bounds = Some(held.bounds);
     }
 }
@@ -205,7 +205,7 @@ pub struct Calm(Option<(Arc<Frame>, u32)>);
 impl Calm {
     /// Holds its frame for a few frames, then takes `newest`; returns whether it has. In a `slow` view it is held for a
     /// whole cycle, so that a contact shown large has the stress of one phase of the motion.
-    pub fn take(&mut self, newest: &Arc<Frame>, slow: bool) -> bool {
+    pub fn update(&mut self, newest: &Arc<Frame>, slow: bool) -> bool {
         let begins = |frame: &Frame| frame.live.observation.moment.cycle.floor();
         let may_stay = |calm: &Frame, lasted| match slow {
             true => begins(calm) == begins(newest),
@@ -219,7 +219,7 @@ impl Calm {
     }
 
     /// Returns the frame for a calm panel when the others show `frame`.
-    pub fn of<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
+    pub fn frame_or<'a>(&'a self, frame: &'a Frame) -> &'a Frame {
         self.0.as_ref().map_or(frame, |(calm, _)| calm)
     }
 
@@ -228,7 +228,7 @@ impl Calm {
     pub fn shown<'a>(&'a self, panel: Panel, stage: &Stage, frame: &'a Frame) -> &'a Frame {
         let is_large = panel == Panel::Section && stage.shows_contact();
         match panel.recipe().is_calm && !is_large {
-            true => self.of(frame),
+            true => self.frame_or(frame),
             false => frame,
         }
     }
@@ -250,8 +250,14 @@ mod tests {
     fn zeros_are_not_held() {
         let mut charts = LiveCharts::default();
         let axis = (Panel::Loop, None);
-        assert_eq!(charts.hold(axis, Some([0.0, 0.0]), 0.0), None);
-        assert_eq!(charts.hold(axis, Some([0.0, 2e-7]), 0.1), Some([0.0, 2e-7]));
-        assert_eq!(charts.hold(axis, Some([0.0, 0.0]), 0.2), Some([0.0, 2e-7]));
+        assert_eq!(charts.update_bounds(axis, Some([0.0, 0.0]), 0.0), None);
+        assert_eq!(
+            charts.update_bounds(axis, Some([0.0, 2e-7]), 0.1),
+            Some([0.0, 2e-7])
+        );
+        assert_eq!(
+            charts.update_bounds(axis, Some([0.0, 0.0]), 0.2),
+            Some([0.0, 2e-7])
+        );
     }
 }

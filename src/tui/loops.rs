@@ -39,7 +39,7 @@ impl Loops {
         {
             self.steps.pop_front();
         }
-        self.keep(moment.cycle);
+        self.store_cycle(moment.cycle);
     }
 
     /// Records the moment after a jump over cycles by stepping the last cycle finely on the present profile.
@@ -47,11 +47,11 @@ impl Loops {
         let begin = simulation.cycle() - 1.0 - 1e-9;
         let rows = last_loop::rows(simulation).into_iter();
         self.steps = rows.filter(|row| row[0] >= begin).collect();
-        self.keep(simulation.cycle());
+        self.store_cycle(simulation.cycle());
     }
 
     /// Stores the loop of a complete cycle; when there are too many, drops every second one.
-    fn keep(&mut self, cycle: f64) {
+    fn store_cycle(&mut self, cycle: f64) {
         let whole = (cycle + 1e-9).floor();
         let last = self.kept.last().map_or(0.0, |kept| kept.end);
         let ends = cycle - whole < 1e-9 && whole >= last + self.apart.max(1.0);

@@ -163,7 +163,7 @@ pub fn run(options: Options) -> Result<Farewell> {
             let end = || worker.end();
             let shown = event_loop::run(&mut app, options.mouse, &events, &from_threads, end);
             if let Some(directory) = &looks_in {
-                Remembered::of(&app.explorer).write(directory);
+                Remembered::new(&app.explorer).write(directory);
             }
             shown.and_then(|is_restored| left_behind(&app, is_restored))
         }

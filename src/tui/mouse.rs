@@ -30,7 +30,7 @@ pub struct Mouse {
 
 impl Mouse {
     /// Combines a gesture at `now` with earlier ones; returns `None` for a third click.
-    pub fn together(&mut self, gesture: Gesture, now: Instant) -> Option<Gesture> {
+    pub fn combine(&mut self, gesture: Gesture, now: Instant) -> Option<Gesture> {
         let Gesture::Click(at) = gesture else {
             return Some(gesture);
         };
@@ -67,7 +67,7 @@ mod tests {
         ] {
             let now = start + Duration::from_millis(after);
             assert_eq!(
-                mouse.together(Gesture::Click(place), now),
+                mouse.combine(Gesture::Click(place), now),
                 expected,
                 "after {after} ms"
             );

@@ -67,7 +67,7 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
     }
     let below = Rect::new(area.x + 1, area.y + 1, area.width - 1, area.height - 1);
     let (_, words, role) = contact_state(&frame.live.observation.moment);
-    let words = frame.live.observation.geometry.named(words);
+    let words = frame.live.observation.geometry.term(words);
     let used = large(&words, role, canvas.at(below));
     let cycle = format!("CYCLE {:.0}", frame.live.observation.moment.cycle.floor());
     let width = 4 * cycle.len() as u16;

@@ -59,7 +59,7 @@ pub struct Reader {
 
 impl Reader {
     /// Takes in bytes that have come together, and returns what they mean.
-    pub fn take(&mut self, bytes: &[u8]) -> Vec<Input> {
+    pub fn read(&mut self, bytes: &[u8]) -> Vec<Input> {
         // Within a text that was pasted it is a character, unless a hand has typed it.
         if bytes.contains(&INTERRUPT) && (self.paste.is_none() || bytes == [INTERRUPT]) {
             *self = Self::default();
@@ -95,7 +95,7 @@ impl Reader {
             // A click in the encoding before mode 1006: button, column and row are one byte each.
             [ESCAPE, b'[', b'M', ..] if self.paste.is_none() => return bytes.len() == 6,
             [ESCAPE, b'[', numbers @ .., last @ b'@'..=b'~'] => self.sequence(numbers, *last),
-            [ESCAPE, b'O', last] => self.named(*last, 0),
+            [ESCAPE, b'O', last] => self.push_named(*last, 0),
             [ESCAPE, b']', text @ .., 7] | [ESCAPE, b']', text @ .., ESCAPE, b'\\'] => {
                 let color = text.strip_prefix(b"11;").and_then(color_of);
                 let color = color.filter(|_| self.paste.is_none());
@@ -122,7 +122,7 @@ impl Reader {
         }
     }
 
-    /// Returns how long to wait for more before [`rest`](Self::rest), milliseconds; `None` means forever.
+    /// Returns how long to wait for more before [`rest`](Self::pause), milliseconds; `None` means forever.
     pub fn patience(&self) -> Option<u16> {
         match self.begun[..] {
             [] => self.is_interrupted.then_some(GIVE_UP),
@@ -133,7 +133,7 @@ impl Reader {
     }
 
     /// Handles a pause of that length: bytes that look like the start of a sequence are keys.
-    pub fn rest(&mut self) -> Vec<Input> {
+    pub fn pause(&mut self) -> Vec<Input> {
         self.typed();
         self.interrupt();
         std::mem::take(&mut self.inputs)
@@ -154,7 +154,7 @@ impl Reader {
     }
 
     /// Adds the key for a sequence's last byte and first number.
-    fn named(&mut self, last: u8, number: u16) {
+    fn push_named(&mut self, last: u8, number: u16) {
         let named = match (last, number) {
             (b'A', _) => Named::Up,
             (b'B', _) => Named::Down,
@@ -222,7 +222,7 @@ impl Reader {
             }
             ("<", b'M', 64) => self.inputs.push(Input::Point(Gesture::WheelUp)),
             ("<", b'M', 65) => self.inputs.push(Input::Point(Gesture::WheelDown)),
-            ("", last, number) => self.named(last, number),
+            ("", last, number) => self.push_named(last, number),
             _ => {}
         }
     }
@@ -263,9 +263,9 @@ mod tests {
     /// Returns the inputs for bytes that arrive in these pieces, with silence at the end.
     fn read(pieces: &[&[u8]]) -> Vec<Input> {
         let mut reader = Reader::default();
-        let inputs = pieces.iter().flat_map(|piece| reader.take(piece));
+        let inputs = pieces.iter().flat_map(|piece| reader.read(piece));
         let mut inputs: Vec<Input> = inputs.collect();
-        inputs.extend(reader.rest());
+        inputs.extend(reader.pause());
         inputs
     }
 
@@ -425,10 +425,10 @@ mod tests {
             (b"\x1b[M ", 100),
         ] {
             let mut reader = Reader::default();
-            assert_eq!(reader.take(begun), []);
+            assert_eq!(reader.read(begun), []);
             assert!(reader.patience() >= Some(least), "{begun:?}");
-            assert_eq!(reader.rest(), []);
-            assert_eq!(reader.take(b"q"), [key(Key::Char('q'))], "{begun:?}");
+            assert_eq!(reader.pause(), []);
+            assert_eq!(reader.read(b"q"), [key(Key::Char('q'))], "{begun:?}");
         }
     }
 }

@@ -94,7 +94,7 @@ fn compared_axes(focus: Panel) -> Axes {
 
 /// Returns the position at which the panel compares (the radius, or the present displacement, cycle or work) and the
 /// run's value there.
-fn here(frame: &Frame, axes: Axes, r: f64) -> Option<(f64, f64)> {
+fn own_value(frame: &Frame, axes: Axes, r: f64) -> Option<(f64, f64)> {
     let run = &frame.run;
     if axes.over_r() {
         return Some((r, over_r(run, axes, r)?));
@@ -130,7 +130,7 @@ fn of_ghost(run: &Run, ghost: &Ghost, axes: Axes, place: f64) -> Option<f64> {
 fn compared(frame: &Frame, focus: Panel, r: f64) -> Vec<String> {
     let axes = compared_axes(focus);
     let run = &frame.run;
-    let Some((place, own)) = here(frame, axes, r) else {
+    let Some((place, own)) = own_value(frame, axes, r) else {
         return Vec::new();
     };
     let shown = |value: f64| format_value(value, axes.y.unit(), DIGITS);

@@ -35,7 +35,7 @@ impl Remembered {
     }
 
     /// Returns the state of an explorer on leaving; includes the theme only if the user changed it.
-    pub fn of(explorer: &Explorer) -> Self {
+    pub fn new(explorer: &Explorer) -> Self {
         let (stage, theme) = (&explorer.stage, &explorer.theme);
         Self {
             panel: stage.focus.recipe().title.to_owned(),

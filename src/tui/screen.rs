@@ -83,7 +83,7 @@ fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
         Content::Picture(picture) => {
             let shown = Shown {
                 frame: explorer.calm.shown(panel, &explorer.stage, frame),
-                calm: explorer.calm.of(frame),
+                calm: explorer.calm.frame_or(frame),
                 stress: explorer.stress,
                 drawn: &explorer.drawn,
                 bounds: charts.bounds(panel),
@@ -93,7 +93,9 @@ fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
         }
         Content::Chart(recipe) => match &*charts.get(panel, recipe, frame) {
             Ok(chart) => canvas.plot(chart, role, explorer.cursor_in(panel)),
-            Err(why) => canvas.titled(recipe.title, role).say(why, Role::Quiet),
+            Err(why) => canvas
+                .titled(recipe.title, role)
+                .write_text(why, Role::Quiet),
         },
     }
 }

@@ -25,12 +25,12 @@ impl Setting {
             .filter(|parameter| !fixed.contains(&parameter.section()))
             // Long lists come from files, not from the keyboard.
             .filter(|parameter| parameter.kind != Kind::Numbers)
-            .map(|parameter| Self::of(parameter, scenario))
+            .map(|parameter| Self::new(parameter, scenario))
             .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
             .collect()
     }
 
-    fn of(parameter: &'static Parameter, scenario: &Scenario) -> Self {
+    fn new(parameter: &'static Parameter, scenario: &Scenario) -> Self {
         let word = |path: &str| Some(scenario.value(path)?.trim_matches('"').to_owned());
         let control = word(&format!("{}.control", parameter.section()));
         Self {

@@ -235,7 +235,7 @@ impl Stage {
 
     /// Begins the tour of the scenario.
     fn begin_tour(&mut self, origin: &str) {
-        self.tour = Tour::of(origin);
+        self.tour = Tour::for_origin(origin);
         self.before_tour = self.focus;
         self.follow_tour();
     }

@@ -83,7 +83,7 @@ impl Screen {
             flow: Flow::default(),
             is_restored: true,
         };
-        screen.take_back()?;
+        screen.acquire()?;
         if asks {
             screen.output.send(BACKGROUND);
         }
@@ -97,12 +97,12 @@ impl Screen {
 
     /// Starts from an empty screen of the present size. Between two drawings a terminal can have
     /// become smaller and large again, so that its size says nothing of what is left on it.
-    pub fn start_afresh(&mut self) {
+    pub fn forget_contents(&mut self) {
         self.writer = AnsiWriter::default();
     }
 
     /// Restores the terminal, temporarily or finally, unless already done. Returns true if the terminal accepted it.
-    pub fn give_back(&mut self) -> bool {
+    pub fn release(&mut self) -> bool {
         if !self.is_restored {
             self.is_restored = self.output.finish(&[self.mouse[1], GIVE_BACK].concat());
             self.modes.restore();
@@ -111,14 +111,14 @@ impl Screen {
     }
 
     /// Takes over the terminal, also after a suspension, when it may be in any state.
-    pub fn take_back(&mut self) -> io::Result<()> {
+    pub fn acquire(&mut self) -> io::Result<()> {
         self.modes.set_raw()?;
         self.is_restored = false;
         self.flow.forget();
         let measures = self.flow.measure(self.now());
         self.output
             .send(&[measures, TAKE_OVER, self.mouse[0]].concat());
-        self.start_afresh();
+        self.forget_contents();
         Ok(())
     }
 
@@ -136,7 +136,7 @@ impl Screen {
                 self.output.send(self.flow.measure(now));
             }
             let bytes = self.output.frame(chunk);
-            self.flow.sent(now, bytes);
+            self.flow.note_sent(now, bytes);
         }
         Ok(is_whole)
     }
@@ -144,6 +144,6 @@ impl Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        self.give_back();
+        self.release();
     }
 }

@@ -53,7 +53,7 @@ pub struct Tour {
 
 impl Tour {
     /// Returns the tour of a scenario by its name; `None` if it has none.
-    pub fn of(origin: &str) -> Option<Self> {
+    pub fn for_origin(origin: &str) -> Option<Self> {
         let (origin, _) = TOURS.get_key_value(origin)?;
         Some(Self { origin, at: 0 })
     }
@@ -100,12 +100,12 @@ mod tests {
             }
         }
         assert_eq!(TOURS.len(), preset::ALL.len());
-        assert_eq!(Tour::of("mine.toml"), None);
+        assert_eq!(Tour::for_origin("mine.toml"), None);
     }
 
     #[test]
     fn a_tour_ends_after_its_last_caption() {
-        let mut tour = Tour::of("hertz");
+        let mut tour = Tour::for_origin("hertz");
         let mut seen = 0;
         while let Some(now) = tour {
             seen += 1;

@@ -78,7 +78,7 @@ pub(super) struct Past {
 
 impl Past {
     /// Stores the present state, but no state twice.
-    pub fn keep(&mut self, run: &Recorded) {
+    pub fn store(&mut self, run: &Recorded) {
         if self.at.is_some() || self.is_kept(run) {
             return;
         }
@@ -144,7 +144,7 @@ impl Past {
     }
 
     /// Goes forward one state; `None` at the present.
-    pub fn forth(&mut self) -> Option<Arc<Kept>> {
+    pub fn forward(&mut self) -> Option<Arc<Kept>> {
         self.go_to(self.at? + 1)
     }
 
@@ -252,7 +252,7 @@ mod tests {
 
     /// Stores a state without a recorded past.
     fn keep(past: &mut Past, session: &Session) {
-        past.keep(&Recorded {
+        past.store(&Recorded {
             session: session.clone(),
             trend: Trend::default(),
         });
@@ -332,12 +332,12 @@ mod tests {
     fn back_and_forth_end_at_the_ends() {
         let (_, mut past) = run_to(3);
         let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
-        assert!(past.forth().is_none());
+        assert!(past.forward().is_none());
         assert_eq!(at(past.back()), Some(2.0));
         assert_eq!(past.present(), Some(3.0));
         assert_eq!(at(past.back()), Some(1.0));
-        assert_eq!(at(past.forth()), Some(2.0));
-        assert_eq!(at(past.forth()), Some(3.0));
+        assert_eq!(at(past.forward()), Some(2.0));
+        assert_eq!(at(past.forward()), Some(3.0));
         assert_eq!(past.present(), None);
         assert!(past.branch().is_none());
         assert_eq!(at(past.back()), Some(2.0));

@@ -290,7 +290,7 @@ struct Balance {
 
 fn balance(scene: Scene, cycles: u32) -> Balance {
     let mut simulation = Simulation::new(ours(scene.clone())).expect("a contact");
-    let mut log = Log::of(&simulation);
+    let mut log = Log::new(&simulation);
     let residuals: Vec<f64> = (1..=cycles)
         .map(|cycle| {
             let stepped = log.advance(&mut simulation, f64::from(cycle));
@@ -346,7 +346,7 @@ fn an_edge_that_passes_many_cells_in_a_step_wears_what_it_has_worked() {
         ];
         let scenario = load(name, &keys.each_ref().map(String::as_str));
         let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        let mut log = Log::of(&simulation);
+        let mut log = Log::new(&simulation);
         log.advance(&mut simulation, 2.0).expect("two cycles");
         let residual = log.period_residual().expect("wear");
         holds(format!("residual of {name}"), residual.abs(), bound);
@@ -376,7 +376,7 @@ fn every_period_of_the_presets_wears_what_it_has_worked() {
     ] {
         let scenario = load(name, &[]);
         let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
-        let mut log = Log::of(&simulation);
+        let mut log = Log::new(&simulation);
         let end = scenario.run().cycles.expect("a length");
         let end = match scenario.setup().integrator {
             Integrator::Direct => end.min(100.0),

@@ -50,7 +50,7 @@ fn uniaxial_stress_is_its_own_amplitude() {
     };
     let along = [0.0, 0.4, 1.234, PI / 2.0].map(uniaxial);
     for stress in along.into_iter().chain([across]) {
-        let reversed = Fatigue::of(&swung(stress, 0.0, LIMITS.tension), POISSON);
+        let reversed = Fatigue::from_stresses(&swung(stress, 0.0, LIMITS.tension), POISSON);
         holds("SWT", (reversed.swt / LIMITS.tension - 1.0).abs(), 1e-6);
         let shear = reversed.shear_amplitude * 3.0_f64.sqrt() / LIMITS.tension;
         holds("√J₂", (shear - 1.0).abs(), 1e-6);
@@ -58,9 +58,9 @@ fn uniaxial_stress_is_its_own_amplitude() {
         let crossland = reversed.crossland(LIMITS) / LIMITS.shear;
         holds("Crossland", (crossland - 1.0).abs(), 1e-6);
         // SWT: √(σ_max σ_a).
-        let pulsating = Fatigue::of(&swung(stress, 3e8, 2e8), POISSON);
+        let pulsating = Fatigue::from_stresses(&swung(stress, 3e8, 2e8), POISSON);
         holds("mean", (pulsating.swt / 1e17_f64.sqrt() - 1.0).abs(), 1e-6);
-        let pressed = Fatigue::of(&swung(stress, -3e8, 2e8), POISSON);
+        let pressed = Fatigue::from_stresses(&swung(stress, -3e8, 2e8), POISSON);
         assert_eq!(pressed.swt, 0.0);
     }
 }
@@ -71,7 +71,7 @@ fn pure_shear_strains_its_diagonal() {
         xz: 1.0,
         ..Stress::default()
     };
-    let seen = Fatigue::of(&swung(shear, 0.0, LIMITS.shear), POISSON);
+    let seen = Fatigue::from_stresses(&swung(shear, 0.0, LIMITS.shear), POISSON);
     let exact = LIMITS.shear * (1.0 + POISSON).sqrt();
     holds("SWT", (seen.swt / exact - 1.0).abs(), 1e-6);
     let crossland = seen.crossland(LIMITS) / LIMITS.shear;
@@ -99,7 +99,7 @@ fn the_amplitude_of_shear_is_the_radius_of_the_path() {
             with_deviator(shifted, 1e7 * k as f64)
         });
         let stresses: Vec<Stress> = stresses.collect();
-        Fatigue::of(&stresses, POISSON).shear_amplitude / 1e8
+        Fatigue::from_stresses(&stresses, POISSON).shear_amplitude / 1e8
     };
     let circle = |k: usize| {
         let (sin, cos) = (2.0 * PI * k as f64 / 360.0).sin_cos();
@@ -204,7 +204,7 @@ fn a_hertz_load_that_moves_over_a_point_is_that_of_the_point_forces() {
         let exact: Vec<[f64; 4]> = exact.collect();
         let exact = by_trial(&exact, POISSON);
         assert!(exact[0] > 0.1 * P0, "{exact:?}");
-        agree(Fatigue::of(&seen, POISSON), exact);
+        agree(Fatigue::from_stresses(&seen, POISSON), exact);
     }
 }
 
@@ -213,7 +213,7 @@ fn a_hertz_load_that_moves_over_a_point_is_that_of_the_point_forces() {
 fn a_cycle_of_partial_slip_is_that_of_its_closed_tractions() {
     let amplitude = 0.4;
     let scene = Scene::default().friction(0.6).shaken(amplitude);
-    let cycle = StressCycle::of(&run_setup(ours(scene), 0.25)).expect("a cycle");
+    let cycle = StressCycle::simulate(&run_setup(ours(scene), 0.25)).expect("a cycle");
     let hertz = |b: f64, r: f64| P0 * (b * b - r * r).max(0.0).sqrt();
     let ratio = 2.0 * (1.0 - POISSON) / (2.0 - POISSON) / 0.6;
     let slip = |way: f64, r: f64| 0.6 * (hertz(1.0, r) - hertz((1.0 - ratio * way).sqrt(), r));

@@ -191,7 +191,7 @@ impl Session {
                     if measures {
                         ask(&mut flow, &mut wire, now);
                     }
-                    flow.sent(now, bytes);
+                    flow.note_sent(now, bytes);
                     flow.written();
                     let begin = wire.busy.max(now);
                     let waited = arrived.take().map(|arrived| begin - arrived);

@@ -26,7 +26,7 @@ fn on_rig(indenter: Indenter, amplitude: f64, compliance: f64) -> Setup {
 /// Two cycles, and the figures of the second.
 fn after_two_cycles(setup: Setup) -> (Simulation, CycleFigures) {
     let mut simulation = Simulation::new(setup).expect("a contact");
-    let mut log = Log::of(&simulation);
+    let mut log = Log::new(&simulation);
     log.advance(&mut simulation, 2.0).expect("two cycles");
     let figures = log.cycle_figures(&simulation).expect("figures");
     (simulation, figures)

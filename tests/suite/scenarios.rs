@@ -131,7 +131,7 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
         if scenario.value("numerics.grid").is_some() {
             continue;
         }
-        for &method in AbelMethod::of(scenario.setup().geometry) {
+        for &method in AbelMethod::for_geometry(scenario.setup().geometry) {
             let changed = scenario.with("numerics.method", method.name());
             let changed = changed.expect("a method");
             let setup = changed.setup();
@@ -334,7 +334,7 @@ proptest! {
             return Ok(());
         }
         let setup = load(preset::ALL[preset].name, &[]).setup().clone();
-        let methods = AbelMethod::of(setup.geometry);
+        let methods = AbelMethod::for_geometry(setup.geometry);
         // A bare text: escapes of TOML would be read as such.
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let number = |value: f64| format!("{value:?}");

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
-use super::values::{CycleAsGiven, cycles, named, within};
+use super::values::{CycleAsGiven, by_name, cycles, number_within};
 use super::{Changes, Naming};
 use crate::charts::{Recipe, field};
 use crate::cli::complete;
@@ -31,7 +31,7 @@ pub struct Figure {
     #[arg(long, value_enum)]
     pub figure: Option<PaperFigure>,
     /// Chart to draw; can be repeated; default: profiles, stresses and loop, if the data are there.
-    #[arg(long, value_name = "NAME", value_parser = named(on_paper().collect(), |chart| chart.name), conflicts_with = "figure")]
+    #[arg(long, value_name = "NAME", value_parser = by_name(on_paper().collect(), |chart| chart.name), conflicts_with = "figure")]
     pub panel: Vec<&'static Recipe>,
     /// Column of a sweep's table to draw; can be repeated; default: the first one and regime, or over one axis up to
     /// four. With more than two axes, --set KEY=VALUE holds some of them.
@@ -66,7 +66,7 @@ pub struct Figure {
     #[arg(long, value_enum, default_value_t = Style::Color)]
     pub style: Style,
     /// Font size in points.
-    #[arg(long, value_name = "PT", default_value = "8", value_parser = within(3.0..=72.0, FONT))]
+    #[arg(long, value_name = "PT", default_value = "8", value_parser = number_within(3.0..=72.0, FONT))]
     pub font_size: f64,
     /// Resolution of a PNG in dots per inch.
     #[arg(long, value_name = "DPI", default_value_t = 300, value_parser = clap::value_parser!(u16).range(20..=2400))]
@@ -98,6 +98,6 @@ pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
 fn size(text: &str) -> Result<[f64; 2], String> {
     let rule = "a size is WIDTHxHEIGHT in mm, each from 20 to 2000, e.g. 170x120";
     let (width, height) = text.split_once('x').ok_or(rule)?;
-    let side = within(20.0..=2000.0, rule);
+    let side = number_within(20.0..=2000.0, rule);
     Ok([side(width)?, side(height)?])
 }

@@ -7,7 +7,7 @@ use clap::builder::{RangedI64ValueParser, TypedValueParser};
 use clap::{Arg, Args, ValueEnum};
 
 use super::Changes;
-use super::values::{budget, cycles, load, named, points, within};
+use super::values::{budget, by_name, cycles, load, number_within, points};
 use crate::math::abel::AbelMethod;
 use crate::plot::Marker;
 use crate::scenario::columns::{self, Field};
@@ -28,7 +28,7 @@ const ACCURACY: &str =
 ]))]
 pub struct Verify {
     /// Run only this problem and print its table; can be repeated.
-    #[arg(long, value_name = "NAME", value_parser = named(Problem::ALL.to_vec(), Problem::name))]
+    #[arg(long, value_name = "NAME", value_parser = by_name(Problem::ALL.to_vec(), Problem::name))]
     pub problem: Vec<Problem>,
     /// Print the tables of all problems, not only the verdict.
     #[arg(long)]
@@ -77,7 +77,7 @@ pub struct Trade {
     pub steps: Vec<u32>,
     /// Print only the cheapest setting that passes its own checks and whose errors of depth, V, E_d and F_x are at
     /// most E.
-    #[arg(long, value_name = "E", value_parser = within(f64::MIN_POSITIVE..=1.0, ACCURACY))]
+    #[arg(long, value_name = "E", value_parser = number_within(f64::MIN_POSITIVE..=1.0, ACCURACY))]
     pub accuracy: Option<f64>,
     /// Print all settings, not only the Pareto front.
     #[arg(long)]
@@ -270,7 +270,7 @@ pub struct Inspect {
 }
 
 fn methods() -> impl TypedValueParser<Value = AbelMethod> {
-    named(AbelMethod::ALL.to_vec(), AbelMethod::name)
+    by_name(AbelMethod::ALL.to_vec(), AbelMethod::name)
 }
 
 /// Parses numbers of steps per cycle.
@@ -280,7 +280,7 @@ fn steps() -> RangedI64ValueParser<u32> {
 
 fn wear_numbers() -> impl Fn(&str) -> Result<f64, String> + Clone {
     let rule = "wear numbers are greater than 0 and at most 1e6, e.g. 0.3,3,30";
-    within(f64::MIN_POSITIVE..=1e6, rule)
+    number_within(f64::MIN_POSITIVE..=1e6, rule)
 }
 
 /// What `stability` does with stiff steps.

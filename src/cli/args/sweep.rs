@@ -49,19 +49,19 @@ pub struct Sweep {
     #[arg(long, requires = "shards", conflicts_with_all = ["resume", "force", "json", "merge"])]
     pub slurm: bool,
     /// With --slurm, the account that pays.
-    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word())]
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word_parser())]
     pub account: Option<String>,
     /// With --slurm, the partition.
-    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word())]
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word_parser())]
     pub partition: Option<String>,
     /// With --slurm, the time limit of a task, as Slurm reads it.
-    #[arg(long, value_name = "TIME", requires = "slurm", default_value = "01:00:00", value_parser = word())]
+    #[arg(long, value_name = "TIME", requires = "slurm", default_value = "01:00:00", value_parser = word_parser())]
     pub time: String,
     /// With --slurm, the memory of a task, as Slurm reads it.
-    #[arg(long, value_name = "SIZE", requires = "slurm", value_parser = word())]
+    #[arg(long, value_name = "SIZE", requires = "slurm", value_parser = word_parser())]
     pub mem: Option<String>,
     /// With --slurm, a module to load (repeatable).
-    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word())]
+    #[arg(long, value_name = "NAME", requires = "slurm", value_parser = word_parser())]
     pub module: Vec<String>,
     /// Print the scenario of this point as TOML, counted from 0 in the order of the rows.
     #[arg(long, value_name = "I", conflicts_with_all = ["slurm", "shard", "shards", "merge"])]
@@ -87,7 +87,7 @@ pub struct Sweep {
 }
 
 /// Parses a word that a job script can contain unquoted.
-fn word() -> impl TypedValueParser<Value = String> {
+fn word_parser() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|word| {
         let is_plain = |c: char| !c.is_whitespace() && !"#'\"\\$`;&|<>()".contains(c);
         match !word.is_empty() && printable(&word) == word && word.chars().all(is_plain) {

@@ -115,7 +115,7 @@ pub(super) fn listed(arg: Arg) -> Arg {
 }
 
 /// Parses a number within a range; the error is `rule`.
-pub(super) fn within<T: FromStr + PartialOrd>(
+pub(super) fn number_within<T: FromStr + PartialOrd>(
     range: RangeInclusive<T>,
     rule: impl Into<String>,
 ) -> impl Fn(&str) -> Result<T, String> + Clone
@@ -133,11 +133,11 @@ where
 pub(super) fn points() -> impl Fn(&str) -> Result<usize, String> + Clone {
     let (least, most) = (MIN_CELLS, MOST_DENSE_CELLS);
     let rule = format!("points are whole numbers from {least} to {most}, e.g. 100,1000");
-    within(least..=most, rule)
+    number_within(least..=most, rule)
 }
 
 /// Parses one of these values by its name.
-pub(super) fn named<T: Copy + Send + Sync + 'static>(
+pub(super) fn by_name<T: Copy + Send + Sync + 'static>(
     all: Vec<T>,
     name: fn(T) -> &'static str,
 ) -> impl TypedValueParser<Value = T> {

@@ -20,7 +20,7 @@ pub struct Forecast<'a> {
 
 impl<'a> Forecast<'a> {
     /// Returns the predictions for a scenario; `None` without a prescribed displacement.
-    pub fn of(scenario: &'a Scenario) -> Option<Self> {
+    pub fn from_scenario(scenario: &'a Scenario) -> Option<Self> {
         let setup = scenario.setup();
         let shift = setup.drive.tangential()?.displacement()?;
         Some(Self { setup, shift })
@@ -59,7 +59,7 @@ impl<'a> Forecast<'a> {
         };
         format!(
             "{} {}, {approach}load {}, {what} {}{place}",
-            self.setup.geometry.named("contact radius"),
+            self.setup.geometry.term("contact radius"),
             value(unworn.radius(depth), "m"),
             value(unworn.force(depth), "N"),
             value(pressure, "Pa"),
@@ -84,7 +84,7 @@ impl<'a> Forecast<'a> {
                     "a ring"
                 },
                 100.0 * ring.stick_radius / ring.contact_radius,
-                self.setup.geometry.named("contact radius"),
+                self.setup.geometry.term("contact radius"),
             ),
             None => format!("stick, but for the rim; all slips from an amplitude of {threshold}"),
         }
@@ -118,7 +118,9 @@ mod tests {
         let peak = 2.0 * 2.3077e11 * 1e-2 / std::f64::consts::PI;
         let found = 1.5 * unworn.mean_pressure(depth);
         assert!((found / peak - 1.0).abs() < 2e-3, "{found}");
-        let told = Forecast::of(&scenario).expect("a contact").contact();
+        let told = Forecast::from_scenario(&scenario)
+            .expect("a contact")
+            .contact();
         assert!(told.contains("Hertz pressure 1.47 GPa"), "{told}");
     }
 
@@ -127,7 +129,7 @@ mod tests {
         let regime = |amplitude: f64| {
             let amplitude = format!("motion.tangential.amplitude={amplitude}");
             let scenario = scenario(&["motion.normal.amplitude=0", &amplitude]);
-            let found = Forecast::of(&scenario).expect("a contact");
+            let found = Forecast::from_scenario(&scenario).expect("a contact");
             (found.threshold(), found.regime())
         };
         let (threshold, _) = regime(1e-7);

@@ -40,12 +40,12 @@ pub fn new(options: &New) -> Result<()> {
         options: serde_json::to_value(options)?,
         theme: asks.then(theme),
     };
-    let draft = interview.attended()?;
+    let draft = interview.ask_all()?;
     let scenario = draft.scenario(&options.file.to_string_lossy())?;
     Target::claim(path, options.force)?.write(draft.to_toml().as_bytes())?;
     let file = shell_path(path);
     let mut out = io::stdout().lock();
-    if let Some(forecast) = Forecast::of(&scenario) {
+    if let Some(forecast) = Forecast::from_scenario(&scenario) {
         writeln!(out, "{}: {}", scenario.title(), forecast.contact())?;
         writeln!(out, "  {}", forecast.regime())?;
         writeln!(out, "  {}", forecast.a_day())?;
@@ -121,7 +121,7 @@ struct Interview {
 
 impl Interview {
     /// Returns the answers; restores the terminal if a signal or a key interrupts the questions.
-    fn attended(&self) -> Result<Draft> {
+    fn ask_all(&self) -> Result<Draft> {
         if self.theme.is_none() {
             return self.answers();
         }
@@ -183,15 +183,15 @@ impl Interview {
             &["load", "depth"]
         };
         let (_, press) = self.one_of(presses, what, &mut draft)?;
-        self.tell(&draft, |of| of.contact())?;
+        self.show_forecast(&draft, |of| of.contact())?;
         let stroke = self.number("stroke", &mut draft)?;
         if is_line {
             self.number("gauge", &mut draft)?;
         }
         self.number("friction", &mut draft)?;
-        self.tell(&draft, |of| of.regime())?;
+        self.show_forecast(&draft, |of| of.regime())?;
         self.number("frequency", &mut draft)?;
-        self.tell(&draft, |of| of.a_day())?;
+        self.show_forecast(&draft, |of| of.a_day())?;
         let wear = question("wear");
         let coefficient = self.ask(wear, |text| match text.trim() {
             "none" => Ok(None),
@@ -292,10 +292,10 @@ impl Interview {
     }
 
     /// Shows the user what closed forms predict from the answers so far.
-    fn tell(&self, draft: &Draft, what: fn(&Forecast) -> String) -> Result<()> {
+    fn show_forecast(&self, draft: &Draft, what: fn(&Forecast) -> String) -> Result<()> {
         if self.theme.is_some()
             && let Ok(scenario) = draft.scenario("so far")
-            && let Some(forecast) = Forecast::of(&scenario)
+            && let Some(forecast) = Forecast::from_scenario(&scenario)
         {
             writeln!(io::stderr(), "  = {}", what(&forecast))?;
         }

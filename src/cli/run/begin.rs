@@ -93,7 +93,7 @@ impl<'a> Job<'a> {
             directory.clear(|name| is_at_home && past.is_own(name))?;
         }
         job.set_home(directory.path());
-        past.bring(&mut job, &directory, is_at_home)?;
+        past.copy_into(&mut job, &directory, is_at_home)?;
         let resumed = Self::new(options, name, session, job, directory);
         let cycle = resumed.session.simulation().cycle();
         locked(&resumed.safe).checkpoints.remember(file, cycle);

@@ -65,10 +65,10 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     };
     let told = remarks(&job.session);
     told.iter().for_each(remark);
-    guard.keeps(&job.safe);
+    guard.protect(&job.safe);
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&why_stop)));
-    guard.is_done();
+    guard.finish();
     let is_bug = outcome.is_err();
     let outcome = outcome.unwrap_or_else(|_| Ok(Some(job.go_back())));
     if matches!(outcome, Ok(Some(_))) {
@@ -148,12 +148,12 @@ impl Guard {
     }
 
     /// Saves the run in `safe` from now on.
-    fn keeps(&self, safe: &Arc<Mutex<Safe>>) {
+    fn protect(&self, safe: &Arc<Mutex<Safe>>) {
         let _ = self.safe.set(Arc::clone(safe));
     }
 
     /// Marks the end of the run; never returns if the process is already being ended.
-    fn is_done(&self) {
+    fn finish(&self) {
         while self.is_over.swap(true, Ordering::SeqCst) {
             thread::park();
         }
@@ -240,7 +240,7 @@ impl Job<'_> {
         match accuracy::estimated(&self.session, go_on) {
             Ok(statements) => {
                 self.session.state(statements);
-                self.restate();
+                self.update_snapshot_headers();
             }
             Err(word) => complain(&word),
         }
@@ -248,7 +248,7 @@ impl Job<'_> {
 
     /// Copies the errors stated at the end into the snapshots' headers, as if the run's `scenario.toml` had been run
     /// again.
-    fn restate(&mut self) {
+    fn update_snapshot_headers(&mut self) {
         let line = |(key, value): &(String, String)| header::line(key, value);
         let stated: String = self.session.statements().iter().map(line).collect();
         for name in self.job.snapshots.iter().map(file_of) {

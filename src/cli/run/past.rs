@@ -47,7 +47,7 @@ impl Past {
             let name = file_of(snapshot);
             // The explorer does not write these snapshots, so a file of this name is something else.
             if sum.is_some() {
-                let found = sum_of(&past.home.join(&name)).map(|found| Some(found) == sum);
+                let found = checksum_of(&past.home.join(&name)).map(|found| Some(found) == sum);
                 past.sort(name, found)?;
             }
         }
@@ -100,7 +100,7 @@ impl Past {
     /// # Errors
     ///
     /// If a file cannot be copied.
-    pub(super) fn bring(
+    pub(super) fn copy_into(
         &self,
         job: &mut RunJob,
         directory: &RunDirectory,
@@ -130,7 +130,7 @@ impl Past {
 }
 
 /// Returns the checksum of the rows in a file.
-fn sum_of(path: &Path) -> io::Result<u32> {
+fn checksum_of(path: &Path) -> io::Result<u32> {
     let mut table = Vec::new();
     safe_open::read(path)?.read_to_end(&mut table)?;
     Ok(rows_sum(&table))

@@ -74,7 +74,7 @@ impl Job<'_> {
         for (key, value) in stated {
             let mut quantities = Quantity::ALL.iter();
             let of = quantities.find(|quantity| quantity.column().name() == key);
-            let name = |of: &Quantity| setup.geometry.named(of.name());
+            let name = |of: &Quantity| setup.geometry.term(of.name());
             lines.extend(of.map(|of| (error, format!("{value}   of {}", name(of)))));
         }
         if let Some(verdict) = verdict(&self.session.checks()) {
@@ -92,7 +92,7 @@ impl Job<'_> {
         writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
         let width = if setup.geometry.is_line() { 26 } else { 22 };
         for (name, text) in lines {
-            let name = setup.geometry.named(name);
+            let name = setup.geometry.term(name);
             writeln!(out, "  {name:<width$}  {text}")?;
         }
         Ok(())

@@ -48,7 +48,10 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
             let row = row?;
             let (file, axes) = (file.display(), study.axes.len().min(row.len()));
             let values = row[..axes].join(", ");
-            match ledger.take(study, row).context("cannot keep the rows")? {
+            match ledger
+                .add_foreign(study, row)
+                .context("cannot keep the rows")?
+            {
                 Ok(()) => {}
                 Err(Refused::Double) => doubles.push(format!("{values} ({file})")),
                 Err(Refused::Contradiction) => contradictions.push(format!("{values} ({file})")),
@@ -60,12 +63,12 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     }
     let rows = &ledger;
     if !doubles.is_empty() {
-        let (count, named) = (doubles.len(), some(&doubles));
+        let (count, named) = (doubles.len(), first_names(&doubles));
         let word = format!("{count} identical duplicate rows were dropped: {named}");
         complain(&word);
     }
     if !contradictions.is_empty() {
-        let (count, named) = (contradictions.len(), some(&contradictions));
+        let (count, named) = (contradictions.len(), first_names(&contradictions));
         bail!("{shown}: {count} points have two rows that differ: {named}");
     }
     refuse_missing(&shown, study, rows, count)?;
@@ -112,7 +115,7 @@ fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Re
         return Ok(());
     }
     let names = missing().take(NAMED + 1).map(|point| study.name(point));
-    let names = some(&names.collect::<Vec<_>>());
+    let names = first_names(&names.collect::<Vec<_>>());
     let shards: BTreeSet<usize> = missing().map(|point| point % count).collect();
     let shards: Vec<String> = shards.iter().map(usize::to_string).collect();
     let shards = shards.join(",");
@@ -122,7 +125,7 @@ fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Re
 }
 
 /// Lists the first few names.
-fn some(names: &[String]) -> String {
+fn first_names(names: &[String]) -> String {
     let more = if names.len() > NAMED { ", ..." } else { "" };
     names[..names.len().min(NAMED)].join(", ") + more
 }

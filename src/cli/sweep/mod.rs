@@ -138,7 +138,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     let pool = pool(options, mine)?;
     refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
     let mut output = Output::open(&out, study, shard, options)?;
-    let go_on = stop::signal().map(stop::unless)?;
+    let go_on = stop::signal().map(stop::until_stopped)?;
     crate::panics::capture();
     let bar = progress::bar(mine, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
@@ -161,7 +161,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     if outcome.is_ok() {
         let todo = output.ledger.missing(study, shard);
         engine::run(study, todo, &pool, &go_on, |point, row| {
-            if !options.skip_invalid && Success::of(&row) == Success::Invalid {
+            if !options.skip_invalid && Success::from_row(&row) == Success::Invalid {
                 checked = engine::validated(study, point);
                 return false;
             }

@@ -69,11 +69,11 @@ impl Output {
                 let mut ledger = Ledger::new(study, file, target.directory()).map_err(failed)?;
                 for row in rows.into_iter().flatten() {
                     let row = row?;
-                    if options.failed && !Success::of(&row).has_result() {
+                    if options.failed && !Success::from_row(&row).has_result() {
                         continue;
                     }
                     let begins = row.join(",");
-                    if let Err(why) = ledger.take(study, row).map_err(failed)? {
+                    if let Err(why) = ledger.add_foreign(study, row).map_err(failed)? {
                         let why = format!("row {begins} does not belong to the study ({why:?})");
                         bail!(Refusal::new(path.display(), why));
                     }

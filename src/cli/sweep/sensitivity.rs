@@ -12,7 +12,7 @@ use crate::studies::sweep::{Study, record, sensitivity};
 pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let pool = super::pool(options, usize::MAX)?;
-    let go_on = stop::signal().map(stop::unless)?;
+    let go_on = stop::signal().map(stop::until_stopped)?;
     let found = sensitivity::run(study, &pool, &go_on)?;
     let found = found.context("interrupted before all runs had finished: nothing was saved")?;
     let table = &found.table;

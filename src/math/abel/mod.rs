@@ -110,7 +110,7 @@ impl AbelMethod {
     pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
 
     /// Returns the methods available for this `geometry`; the published ones are for round contacts only.
-    pub fn of(geometry: Geometry) -> &'static [Self] {
+    pub fn for_geometry(geometry: Geometry) -> &'static [Self] {
         match geometry {
             Geometry::Round => &Self::ALL,
             Geometry::Line { .. } => &[Self::Product],
@@ -136,7 +136,7 @@ impl AbelMethod {
     }
 
     /// Returns the name for use in a sentence, with the paper's capital letters.
-    pub fn spoken(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             Self::Product => "product",
             Self::Benad => "Benad",
@@ -189,7 +189,7 @@ pub struct AbelPlan {
 
 impl AbelPlan {
     /// Makes the plan of a contact of this `geometry`; a [`line`] uses the product method in the dense form.
-    pub fn of(geometry: Geometry, method: AbelMethod, grid: &RadialGrid) -> Self {
+    pub fn for_geometry(geometry: Geometry, method: AbelMethod, grid: &RadialGrid) -> Self {
         if !geometry.is_line() {
             return Self::new(method, grid);
         }

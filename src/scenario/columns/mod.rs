@@ -95,7 +95,7 @@ impl Columns {
         };
         let mut columns = Self {
             path: path.to_owned(),
-            header: text.lines().filter_map(said).collect(),
+            header: text.lines().filter_map(header_entry).collect(),
             written: format!("separated by {}{is_comma}", found.separator.name()),
             own: (0..fields)
                 .map(|at| {
@@ -106,7 +106,7 @@ impl Columns {
             names,
             rows: found.rows,
         };
-        columns.take(naming)?;
+        columns.rename(naming)?;
         if let (true, Some((line, _))) = (
             columns.names.is_empty() && naming.fields.is_empty(),
             columns.rows.first(),
@@ -142,7 +142,7 @@ impl Columns {
         let file = bounded_read::open(path)?.take(LARGEST_HEADER);
         let lines = BufReader::new(file).lines();
         let header = lines.map_while(|line| line.ok().filter(|line| line.starts_with('#')));
-        Ok(header.filter_map(|line| said(&line)).collect())
+        Ok(header.filter_map(|line| header_entry(&line)).collect())
     }
 
     /// The line of the file that holds `row`, counted from 1.
@@ -261,7 +261,7 @@ impl Columns {
     }
 
     /// The names of the columns, fit for a line.
-    pub fn named(&self) -> String {
+    pub fn list_names(&self) -> String {
         echo(&self.names.join(", "))
     }
 
@@ -285,7 +285,7 @@ impl Columns {
                     let example = if unit == "m" { "um" } else { unit };
                     format!("{} has no unit; name it as in {base}_{example}, or give --units, one per column", self.name(at))
                 }
-                _ => format!("the first line names {}; --fields {base}=1 says which it is", self.named()),
+                _ => format!("the first line names {}; --fields {base}=1 says which it is", self.list_names()),
             };
             self.refuse(format!("has no column {name}; {hint}"))
         })
@@ -304,7 +304,7 @@ impl Columns {
 }
 
 /// Key and value of a line `# key: value`. They reach screens, pictures and other files.
-fn said(line: &str) -> Option<(String, String)> {
+fn header_entry(line: &str) -> Option<(String, String)> {
     let (key, value) = line.strip_prefix('#')?.split_once(':')?;
     Some((printable(key.trim()), printable(value.trim())))
 }

@@ -41,7 +41,7 @@ impl FromStr for Field {
 
 impl Columns {
     /// Names columns as the user does.
-    pub(super) fn take(&mut self, naming: &Naming) -> Result<(), Refusal> {
+    pub(super) fn rename(&mut self, naming: &Naming) -> Result<(), Refusal> {
         let is_known = |unit: &str| names::is_unit(unit) || ["-", "1", "cycles"].contains(&unit);
         if let Some(unit) = naming.units.iter().find(|unit| !is_known(unit)) {
             let rule = "is not a unit such as um, nm, N, mm^3";
@@ -60,7 +60,7 @@ impl Columns {
                 .filter(|number| (1..=self.own.len()).contains(number));
             let by_name = || self.names.iter().position(|name| name == column);
             let Some(at) = by_number.map(|number: usize| number - 1).or_else(by_name) else {
-                let (count, named) = (self.own.len(), self.named());
+                let (count, named) = (self.own.len(), self.list_names());
                 return Err(self.refuse(format!(
                     "--fields {quantity}={column}: has {count} columns, {named}"
                 )));

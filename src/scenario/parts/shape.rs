@@ -42,7 +42,7 @@ impl Parts<'_> {
     }
 
     fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Refusal> {
-        let is_foreign = |key: &&Parameter| self.has(key.path) && !key.is_of(shape);
+        let is_foreign = |key: &&Parameter| self.has(key.path) && !key.belongs_to(shape);
         let Some(foreign) = schema::parameters().find(is_foreign) else {
             return Ok(());
         };

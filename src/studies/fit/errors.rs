@@ -83,7 +83,7 @@ impl Errors {
             let rows = jacobian.rows(points.start, points.len());
             let told = rows.transpose() * rows;
             let weighed = &told - &told * &inverse * &told;
-            let freedom = freedom(points.len(), spent);
+            let freedom = degrees_of_freedom(points.len(), spent);
             covariance += (4.0 / freedom) * (&inverse * weighed * &inverse);
         }
         covariance *= variance(z, seen.len(), robust);
@@ -96,7 +96,7 @@ impl Errors {
     }
 
     /// The standard error of a key; 0 where the data do not determine it.
-    pub fn of(&self, key: usize) -> f64 {
+    pub fn standard_error(&self, key: usize) -> f64 {
         self.covariance[(key, key)].sqrt()
     }
 
@@ -116,7 +116,7 @@ impl Errors {
 
 /// Returns ν of a data set of `points` that has `spent` Σh on the keys; at least 1, since a set that the keys fit at
 /// every point says nothing about its error.
-pub(super) fn freedom(points: usize, spent: f64) -> f64 {
+pub(super) fn degrees_of_freedom(points: usize, spent: f64) -> f64 {
     (points as f64 - spent).max(1.0)
 }
 

@@ -76,7 +76,7 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         let left: Vec<f64> = moved(LEFT);
         let is_less = |(i, free): (usize, &Free)| {
             let met = accuracy * free.size(found.theta[i]);
-            [left[i] <= SMALL * errors.of(i), left[i] <= met]
+            [left[i] <= SMALL * errors.standard_error(i), left[i] <= met]
         };
         let keys = search.fit.free.iter().enumerate().map(is_less);
         let [is_small, is_met] =

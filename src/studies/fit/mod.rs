@@ -104,7 +104,7 @@ impl Fit {
         options: Options,
     ) -> Result<Self> {
         let scenario = checked::with_stroke(scenario, &data, free, options.takes_stroke)?;
-        let free = free.iter().map(|key| Free::of(&scenario, key));
+        let free = free.iter().map(|key| Free::new(&scenario, key));
         let free: Vec<Free> = free.collect::<Result<_>>()?;
         let is_empty = free.is_empty() || data.is_empty();
         let rule = "needs a key to fit and a data set to fit it to".to_owned();
@@ -181,7 +181,7 @@ impl Fit {
             }
         }
         let (mut search, mut found) = best?;
-        if search.drop_vague(&found) {
+        if search.drop_undetermined(&found) {
             found = search.descend(&found.theta)?;
         }
         let errors = levels::refine(&mut search, &mut found)?;

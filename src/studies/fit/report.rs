@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-use super::errors::{Errors, freedom};
+use super::errors::{Errors, degrees_of_freedom};
 use super::nuisance::NAMES;
 use super::search::{Found, Search, residuals};
 use super::structure::Structure;
@@ -110,7 +110,7 @@ impl Fitted {
         };
         let keys = &search.fit.free;
         for (i, (free, &theta)) in keys.iter().zip(&found.theta).enumerate() {
-            let error = errors.of(i);
+            let error = errors.standard_error(i);
             let at_bound = free.is_at_bound(theta);
             let is_known = error.is_finite() && error > 0.0 && !at_bound;
             let numerical = numerical.as_ref().map(|numerical| numerical[i]);
@@ -173,7 +173,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
     let mut result = |i: usize, (set, place): (&Measured, Range<usize>), simulated: &Vec<f64>| {
         let left = residuals(set, simulated);
         let spent: f64 = errors.leverages[place].iter().sum();
-        let freedom = freedom(left.len(), spent);
+        let freedom = degrees_of_freedom(left.len(), spent);
         let (values, abscissae) = (set.axes.y.unit(), set.axes.x.unit());
         let column = usize::from(!set.axes.over_r());
         let mut nuisances = Vec::new();
@@ -187,7 +187,7 @@ fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
                     _ => format!("{values}/{abscissae}"),
                 },
                 value: found.nuisances[i][k],
-                stderr: errors.of(next),
+                stderr: errors.standard_error(next),
             });
             next += 1;
         }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use anyhow::{Result, anyhow};
 
-use super::errors::{Errors, freedom};
+use super::errors::{Errors, degrees_of_freedom};
 use super::model::{self, Response};
 use super::nuisance::{self, Nuisances};
 use super::solver::{self, Free};
@@ -209,7 +209,8 @@ impl<'a> Search<'a> {
         for ((set, place), (response, nuisance)) in
             self.places().zip(responses.iter().zip(&self.nuisances))
         {
-            let weigh = |values: &[f64]| self.weighed(set, &self.errors[place.clone()], values);
+            let weigh =
+                |values: &[f64]| self.weighted_residuals(set, &self.errors[place.clone()], values);
             let (at, values) = nuisance.solve(set, response, &weigh);
             let size = self.spread(&residuals(set, &values));
             let weighed = weigh(&values);
@@ -246,7 +247,7 @@ impl<'a> Search<'a> {
     }
 
     /// Deviations of simulated values in units of the errors, smaller ones for outliers if these count less.
-    fn weighed(&self, set: &Measured, errors: &[f64], simulated: &[f64]) -> Vec<f64> {
+    fn weighted_residuals(&self, set: &Measured, errors: &[f64], simulated: &[f64]) -> Vec<f64> {
         let mut all = deviations(set, errors, simulated);
         if self.fit.options.robust {
             for z in &mut all {
@@ -310,7 +311,7 @@ impl<'a> Search<'a> {
     }
 
     /// Leaves out baselines and tilts that the data cannot show, unless the user wants them.
-    pub fn drop_vague(&mut self, found: &Found) -> bool {
+    pub fn drop_undetermined(&mut self, found: &Found) -> bool {
         let Ok(responses) = self.responses(&found.theta) else {
             return false;
         };
@@ -408,7 +409,8 @@ impl<'a> Search<'a> {
             let points = set.values.len();
             let spent: f64 = leverages[place.clone()].iter().sum();
             let left = residuals(set, simulated);
-            let size = self.spread(&left) * (points as f64 / freedom(points, spent)).sqrt();
+            let size =
+                self.spread(&left) * (points as f64 / degrees_of_freedom(points, spent)).sqrt();
             let least = (LEAST_ERROR * rms(&set.values)).max(f64::MIN_POSITIVE);
             self.errors[place].fill(size.max(least));
         }

@@ -39,7 +39,7 @@ impl Free {
     ///
     /// # Errors
     /// A key that is unknown, is no physical number, or has no value to start from.
-    pub fn of(scenario: &Scenario, key: &str) -> Result<Self> {
+    pub fn new(scenario: &Scenario, key: &str) -> Result<Self> {
         let refused = |rule: &str| Refusal::from(format!("{key} {rule}"));
         let Some(parameter) = schema::find(key) else {
             // The scenario's own words for a key that is unknown.

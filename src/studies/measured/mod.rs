@@ -58,7 +58,7 @@ const WORN: [(Column, Column); 4] = [
 
 impl Kind {
     /// Determines the kind from the columns of a file; `None` if they are not measured data.
-    pub fn of(columns: &Columns) -> Option<Self> {
+    pub fn detect(columns: &Columns) -> Option<Self> {
         let has = |column: Column| columns.has(column);
         let is_own_loop =
             has(Column::Shift) && has(Column::TangentialForce) && !has(Axes::VOLUME.y);
@@ -108,7 +108,7 @@ impl Measured {
             true => Axes::WEAR,
             false => Axes::PROFILE,
         };
-        let mut scar = match Kind::of(columns) {
+        let mut scar = match Kind::detect(columns) {
             Some(Kind::Map) => map::read(columns, axes)?,
             _ => read(columns, axes, [axes.x, axes.y])?,
         };

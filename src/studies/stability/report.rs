@@ -32,7 +32,7 @@ fn guard(line: &Line) -> &'static str {
 
 /// Makes a table with one row per run.
 pub fn runs(lines: &[Line]) -> Table {
-    let mut table = Table::of(&[
+    let mut table = Table::with_columns(&[
         ("", "method guard", Words),
         ("", "points steps_per_cycle wear_number", Rough),
         ("", "outcome", Words),
@@ -55,7 +55,7 @@ pub fn runs(lines: &[Line]) -> Table {
 
 /// Makes a table with one row per method and grid: the predicted and the observed boundary.
 pub fn boundaries(lines: &[Line]) -> Table {
-    let mut table = Table::of(&[
+    let mut table = Table::with_columns(&[
         ("", "method guard", Words),
         ("", "points", Rough),
         ("critical K", "predicted seen", Rough),

@@ -53,7 +53,7 @@ pub enum Spacing {
 
 impl Spacing {
     /// Returns the spacing of axis number `axis` in a design.
-    pub(super) fn of(design: Design, axis: usize, seed: u32) -> Self {
+    pub(super) fn new(design: Design, axis: usize, seed: u32) -> Self {
         match design {
             Design::Sobol => Self::Sobol(axis as u32, seed),
             _ => Self::Strata(mix((u64::from(seed) << 32) | axis as u64)),
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     fn shares(design: Design, axis: usize, count: usize, seed: u32) -> Vec<f64> {
-        let spacing = Spacing::of(design, axis, seed);
+        let spacing = Spacing::new(design, axis, seed);
         (0..count)
             .map(|index| spacing.share(index, count))
             .collect()

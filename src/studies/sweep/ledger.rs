@@ -68,7 +68,7 @@ impl Ledger {
         }
         self.length += line.len() as u64;
         self.done[point / 64] |= 1 << (point % 64);
-        *self.counts.entry(Success::of(fields)).or_default() += 1;
+        *self.counts.entry(Success::from_row(fields)).or_default() += 1;
         Ok(())
     }
 
@@ -77,7 +77,7 @@ impl Ledger {
     /// # Errors
     ///
     /// If the system reports one; the inner error says why no point takes the row.
-    pub fn take(
+    pub fn add_foreign(
         &mut self,
         study: &Study,
         mut fields: Vec<String>,

@@ -38,7 +38,7 @@ pub enum Success {
 
 impl Success {
     /// Reads it from a row, whose last field is the status.
-    pub fn of(row: &[String]) -> Self {
+    pub fn from_row(row: &[String]) -> Self {
         match row.last().map(String::as_str) {
             Some(OK) => Self::Full,
             Some(status) if status.starts_with(INACCURATE) => Self::Inaccurate,

@@ -187,7 +187,7 @@ fn columns(names: Option<&[String]>) -> Result<Vec<Column>> {
     };
     let mut columns = Vec::new();
     for name in names {
-        let column = scalars::named(name);
+        let column = scalars::find_scalar(name);
         let column = column.map_err(|why| Refusal::from(format!("columns: {why}")))?;
         if columns.contains(&column) {
             return refuse("columns", Value::from(name.as_str()), "stands twice");
@@ -266,12 +266,13 @@ fn read_axis(
         "values" => Values::Listed(listed(&key, &named, list)?),
         _ => {
             let at = study.axes.len();
-            let sampled = samples.map(|(count, seed)| (count, Spacing::of(study.design, at, seed)));
+            let sampled =
+                samples.map(|(count, seed)| (count, Spacing::new(study.design, at, seed)));
             between(&named, &list, spread, sampled)?
         }
     };
     Ok(Axis {
-        tied: tied(&axis.tied, &format!("{place}.tied"), &values)?,
+        tied: read_tied_keys(&axis.tied, &format!("{place}.tied"), &values)?,
         key,
         values,
         spread,
@@ -325,7 +326,7 @@ fn between(
     }
 }
 
-fn tied(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
+fn read_tied_keys(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
     if let Values::Listed(values) = values {
         let are_numbers = values.iter().all(|value| values::number(value).is_some());
         let why = format!("{place}: needs an axis of numbers");

@@ -114,14 +114,14 @@ fn around(
     }
     let mut results: Vec<Vec<Option<f64>>> = Vec::new();
     for row in runs.into_iter().flatten() {
-        if !Success::of(&row).has_result() {
+        if !Success::from_row(&row).has_result() {
             let status = row.last().cloned().unwrap_or_default();
             return Err(Refusal::new("sensitivity", status));
         }
         let numbers = row.iter().map(|field| field.parse::<f64>().ok());
         results.push(numbers.collect());
     }
-    let mut table = Table::of(&[
+    let mut table = Table::with_columns(&[
         ("", "key", Format::Words),
         ("", "value", Format::Rough),
         ("", "column", Format::Words),

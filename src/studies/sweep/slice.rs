@@ -117,7 +117,7 @@ impl Slice {
     /// Returns the number of rows, and how many of them failed.
     pub fn count(&self) -> (usize, usize) {
         let rows = || self.rows.iter().flatten();
-        let failed = rows().filter(|row| !Success::of(row).has_result());
+        let failed = rows().filter(|row| !Success::from_row(row).has_result());
         (rows().count(), failed.count())
     }
 
@@ -126,7 +126,7 @@ impl Slice {
     /// # Errors
     ///
     /// In one line, if `key` is not an axis, the axis does not have that value, or no axis is left to show.
-    pub fn hold(&mut self, key: &str, value: &str) -> Result<(), String> {
+    pub fn fix_axis(&mut self, key: &str, value: &str) -> Result<(), String> {
         if self.study.design != Design::Grid {
             return Err("only a grid has axes to hold".into());
         }
@@ -208,7 +208,7 @@ impl Slice {
         let mut columns = self.study.columns.iter();
         let at = columns.position(|known| *known == column)?;
         let field = row.get(self.study.axes.len() + at)?;
-        (Success::of(row).has_result() && !field.is_empty()).then_some(field)
+        (Success::from_row(row).has_result() && !field.is_empty()).then_some(field)
     }
 
     /// The number in `column` of a point.

@@ -91,8 +91,10 @@ impl Problem {
     /// Returns the methods that solve it: the paper's methods only solve round contacts.
     pub fn methods(self) -> &'static [AbelMethod] {
         match self {
-            Self::Cylinder | Self::CylinderLimit => AbelMethod::of(Geometry::Line { length: 1.0 }),
-            _ => AbelMethod::of(Geometry::Round),
+            Self::Cylinder | Self::CylinderLimit => {
+                AbelMethod::for_geometry(Geometry::Line { length: 1.0 })
+            }
+            _ => AbelMethod::for_geometry(Geometry::Round),
         }
     }
 

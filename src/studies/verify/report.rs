@@ -20,7 +20,7 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
         let shown = shown(quantity, roomy).iter();
         columns.extend(shown.map(|&(name, format)| (*quantity, name, format)));
     }
-    let mut table = Table::of(&columns);
+    let mut table = Table::with_columns(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
         let task = outcome.task;
         let mut row = vec![task.method.name().into(), task.points.into()];
@@ -87,7 +87,7 @@ fn order(
 
 /// Makes a table of all problems, with one row per quantity.
 pub fn all_rows(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::of(&[
+    let mut table = Table::with_columns(&[
         ("", "problem quantity method", Format::Words),
         ("", "points max", Format::Rough),
         ("", "max_order", Format::Fixed),
@@ -120,7 +120,7 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
 
 /// Makes a table of the errors at all nodes.
 pub fn all_nodes(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::of(&[
+    let mut table = Table::with_columns(&[
         ("", "problem quantity method", Format::Words),
         ("", "points", Format::Rough),
         ("", "r_over_a", Format::Fixed),

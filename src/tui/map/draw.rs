@@ -79,7 +79,7 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     let names =
         lines.map(|(line, point)| format!("{} {}", point.sign, std::mem::take(&mut line.name)));
     let mut names: Vec<String> = names.collect();
-    let here = view.here();
+    let here = view.position();
     names.extend(here.map(|_| format!("{HERE} you are here")));
     let point = view.point();
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
@@ -122,7 +122,7 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
 /// Adds the marks of the screen to the chart: the base scenario and, on a map, points without a value, the words of
 /// regions, and the cursor.
 fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
-    let (mut signs, here) = (Vec::new(), view.here());
+    let (mut signs, here) = (Vec::new(), view.position());
     let mut add = |at, sign, role| signs.push(Point { at, sign, role });
     let Some(map) = &chart.map else {
         let base = here.and_then(|[x, _]| Some([x, chart.curves.first()?.value_at(x)?]));

@@ -75,7 +75,7 @@ impl Live {
                 }
                 // A file that is just being replaced is read again the next time.
                 let _ = Record::of_file(&file)
-                    .map(|rows| shared.with(|view| view.slice.renew(rows, &view.name)));
+                    .map(|rows| shared.with_view(|view| view.slice.renew(rows, &view.name)));
                 if !tell() {
                     return;
                 }
@@ -107,7 +107,7 @@ impl Live {
             // All points have been checked already.
             let go_on = || !shared.halt.load(Ordering::Relaxed);
             engine::run(&study, todo, &pool, &go_on, |point, row| {
-                shared.with(|view| view.slice.rows[point] = Some(row));
+                shared.with_view(|view| view.slice.rows[point] = Some(row));
                 tell();
                 true
             });
@@ -118,7 +118,7 @@ impl Live {
     }
 
     /// Reads or changes the view.
-    pub fn with<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
+    pub fn with_view<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
         act(&mut locked(&self.view))
     }
 

@@ -48,7 +48,7 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
             )));
             let geometry = frame.live.observation.geometry;
             lines.extend(Quantity::ALL.iter().map(|&number| {
-                let name = geometry.named(number.name());
+                let name = geometry.term(number.name());
                 error(of[number], &format!("error of {name}"))
             }));
         }

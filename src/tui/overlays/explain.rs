@@ -22,7 +22,7 @@ pub(super) const WATCHED: &[Command] = &[
 ];
 
 /// Returns the larger area above or below the focused panel; the whole area if the panel is zoomed.
-fn beside(stage: &Stage, area: Rect) -> Rect {
+fn free_area(stage: &Stage, area: Rect) -> Rect {
     let mut places = stage.places(area).into_iter();
     let focused = places.find(|(panel, _)| *panel == stage.focus && !stage.zoomed);
     let Some((_, place)) = focused else {
@@ -44,7 +44,7 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
         ..
     } = *focus.recipe();
     let geometry = explorer.frame.live.observation.geometry;
-    let spelled = |text: &str| theme.printable(&geometry.named(text));
+    let spelled = |text: &str| theme.printable(&geometry.term(text));
     let mut lines = vec![Line::raw(spelled(text)), Line::default()];
     lines.extend(symbols.iter().map(|(symbol, meaning)| {
         Line::from(vec![
@@ -64,7 +64,7 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
     }
     let width = area.width.min(80);
     // If the full text would cover the panel, it is shortened to running text without the captions.
-    let mut place = beside(&explorer.stage, area);
+    let mut place = free_area(&explorer.stage, area);
     if rows(&lines, width) > place.height {
         let symbols = symbols
             .iter()

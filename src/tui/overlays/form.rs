@@ -59,7 +59,10 @@ impl Form {
     }
 
     /// Returns the selected setting with its index, and its value if being typed; `None` if the list is empty.
-    fn seen<'a>(&self, settings: &[&'a Setting]) -> Option<(usize, &'a Setting, Option<LineEdit>)> {
+    fn selected<'a>(
+        &self,
+        settings: &[&'a Setting],
+    ) -> Option<(usize, &'a Setting, Option<LineEdit>)> {
         // Another indenter shape has other keys, so the list may have become shorter.
         let at = self.at.min(settings.len().checked_sub(1)?);
         let setting = settings[at];
@@ -72,8 +75,8 @@ impl Form {
     pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
         let known = explorer.frame.settings();
         let settings = self.fitting(&known);
-        let Some((at, setting, typed)) = self.seen(&settings) else {
-            return self.find(key);
+        let Some((at, setting, typed)) = self.selected(&settings) else {
+            return self.edit_filter(key);
         };
         (self.at, self.typed) = (at, typed);
         match (&mut self.typed, key) {
@@ -96,7 +99,7 @@ impl Form {
     }
 
     /// Handles a key that filters the parameters or closes the list.
-    fn find(&mut self, key: Key) -> Answer {
+    fn edit_filter(&mut self, key: Key) -> Answer {
         if command::of_key(key) == Some(Command::Back) {
             return Answer::Close;
         }
@@ -129,7 +132,7 @@ impl Form {
             (_, Some(watched)) if is_free && WATCHED.contains(&watched) => {
                 return Answer::Watch(watched);
             }
-            _ => return self.find(key),
+            _ => return self.edit_filter(key),
         }
         Answer::Stay
     }
@@ -151,7 +154,7 @@ impl Form {
     pub(super) fn draw(&self, explorer: &Explorer, mut canvas: Canvas) {
         let known = explorer.frame.settings();
         let settings = self.fitting(&known);
-        let seen = self.seen(&settings);
+        let seen = self.selected(&settings);
         let filter = self.filter.text();
         let is_typed = matches!(seen, Some((.., Some(_))));
         let is_beside = canvas.area.width <= LIST;
@@ -167,7 +170,7 @@ impl Form {
             false => (canvas.docked(&title, rows + BELOW), BELOW),
         };
         let Some((at, setting, line)) = seen else {
-            return inside.say("no parameter has that", Role::Quiet);
+            return inside.write_text("no parameter has that", Role::Quiet);
         };
         let theme = inside.theme;
         let rows = [Fill(1), Length(told.min(inside.area.height))];
@@ -184,7 +187,7 @@ impl Form {
             style = Style::new();
         }
         inside.at(above).list(lines, at, style);
-        let about = about_it(setting, explorer.notice.as_deref(), &theme);
+        let about = describe(setting, explorer.notice.as_deref(), &theme);
         inside.at(below).indented().write(about);
     }
 }
@@ -235,7 +238,7 @@ fn typed(
 }
 
 /// Returns the meaning and range of a setting, its effect, and the answer to the last change.
-fn about_it(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'static>> {
+fn describe(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'static>> {
     let quiet = theme.style(Role::Quiet);
     let told = match (told, setting.fixed()) {
         (Some(text), _) => Span::styled(theme.printable(text), theme.style(Role::Notice)),

@@ -170,7 +170,7 @@ impl Library {
         let mut at = self.at;
         match (key, command::of_key(key)) {
             _ if select(&mut at, self.fitting().len(), key) => self.select(at),
-            (Key::Named(Named::Enter), _) => return self.take(explorer),
+            (Key::Named(Named::Enter), _) => return self.accept(explorer),
             (_, Some(Command::Back)) => return Answer::Close,
             _ if self.filter.filter(key) => self.select(0),
             _ => {}
@@ -179,7 +179,7 @@ impl Library {
     }
 
     /// Loads the selected scenario, or opens the selected directory.
-    fn take(&mut self, explorer: &mut Explorer) -> Answer {
+    fn accept(&mut self, explorer: &mut Explorer) -> Answer {
         let fitting = self.fitting();
         let Some(entry) = fitting.get(self.at) else {
             return Answer::Stay;

@@ -158,7 +158,7 @@ impl Palette {
         let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside.area);
         let mut below_line = inside.at(below);
         if found.is_empty() {
-            return below_line.say("no such command", Role::Quiet);
+            return below_line.write_text("no such command", Role::Quiet);
         }
         // Completions of a value omit the key, which is visible in the line above.
         let typed = self.line.text();

@@ -25,7 +25,7 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
             return Answer::Close;
         }
         (Key::Named(Named::Enter), _) => {
-            match live.with(|view| view.slice.study.scenario(view.point())) {
+            match live.with_view(|view| view.slice.study.scenario(view.point())) {
                 Ok(scenario) => {
                     live.halt();
                     explorer.notice = Some(OPENING.to_owned());
@@ -34,7 +34,7 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
                 Err(error) => explorer.notice = Some(error.to_string()),
             }
         }
-        _ => live.with(|view| view.press(key)),
+        _ => live.with_view(|view| view.press(key)),
     }
     Answer::Stay
 }
@@ -43,10 +43,10 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
 pub(super) fn draw_keys(mut canvas: Canvas) {
     let lines = draw::ALL_KEYS.map(|[keys, help]| format!("{keys:>12}  {help}"));
     let mut inside = canvas.popup("keys of the map (Esc closes)", (72, lines.len() as u16 + 2));
-    inside.say(&lines.join("\n"), Role::Quiet);
+    inside.write_text(&lines.join("\n"), Role::Quiet);
 }
 
 /// Draws the study, with a message for the user if there is one.
 pub(super) fn draw(live: &Live, told: Option<&str>, canvas: Canvas) {
-    live.with(|view| draw::draw(view, told, canvas));
+    live.with_view(|view| draw::draw(view, told, canvas));
 }

@@ -32,7 +32,7 @@ const LONGEST: u16 = 54;
 const TELLING: u16 = 9;
 
 /// Returns the areas of the picture and of its captions.
-pub fn beside(area: Rect) -> [Rect; 2] {
+pub fn split(area: Rect) -> [Rect; 2] {
     let is_roomy = area.width >= ROOMY[0] && area.height >= ROOMY[1];
     let rows = ROWS * u16::from(is_roomy);
     Layout::vertical([Min(0), Length(rows)]).areas(area)
@@ -134,7 +134,7 @@ pub fn take_ground(cell: &mut Cell) {
 }
 
 /// Writes over what is already drawn, keeping its background.
-fn on(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
+fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     let (text, buffer) = (&*canvas.theme.printable(text), &mut *canvas.buffer);
     let style = match has_blocks(&canvas.theme) {
         true => ink(&canvas.theme).remove_modifier(Modifier::REVERSED),
@@ -168,13 +168,13 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     }
     let tells = area.width > LONGEST && area.height >= TELLING;
     if tells {
-        said(frame, &forces, &mut canvas);
+        write_phase(frame, &forces, &mut canvas);
     }
     if is_brief {
         let forces = format!(" {forces} ");
         let spare = area.width.checked_sub(Line::raw(&forces).width() as u16);
         if let Some(spare) = spare.filter(|_| !tells) {
-            on(&mut canvas, area.x + spare / 2, area.y, &forces);
+            write_over(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
         // A wide picture has room for the meaning of all colours.
         let mut key = match area.width >= ROOMY[0] {
@@ -191,11 +191,8 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     }
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
-    let worn = frame
-        .live
-        .observation
-        .geometry
-        .named(&worn(seen, |depth| value(depth, "m")));
+    let geometry = frame.live.observation.geometry;
+    let worn = geometry.term(&worn(seen, |depth| value(depth, "m")));
     let worn = canvas.printable(&worn);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
@@ -210,25 +207,21 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     canvas.at(second).show(key);
 }
 
-/// Says at the top of the picture what the contact does, and below it the `forces`.
-fn said(frame: &Frame, forces: &str, canvas: &mut Canvas) {
+/// Writes at the top of the picture what the contact does, and below it the `forces`.
+fn write_phase(frame: &Frame, forces: &str, canvas: &mut Canvas) {
     let (area, speed) = (canvas.area, speed(frame));
-    let said = phase(&frame.live.observation.moment, speed);
+    let seen = &frame.live.observation;
+    let said = seen.geometry.term(&phase(&seen.moment, speed));
     // The words stay where they are when the motion turns.
     let start = area.x + (area.width - LONGEST) / 2;
-    on(
-        canvas,
-        start,
-        area.y,
-        &frame.live.observation.geometry.named(&said),
-    );
+    write_over(canvas, start, area.y, &said);
     match speed {
         _ if area.width < LONGEST + 10 => {}
-        Some(speed) if speed >= TURNS => on(canvas, start + LONGEST + 2, area.y, "━━▶"),
-        Some(speed) if speed <= -TURNS => on(canvas, start - 5, area.y, "◀━━"),
+        Some(speed) if speed >= TURNS => write_over(canvas, start + LONGEST + 2, area.y, "━━▶"),
+        Some(speed) if speed <= -TURNS => write_over(canvas, start - 5, area.y, "◀━━"),
         _ => {}
     }
-    on(canvas, start, area.y + 1, forces);
+    write_over(canvas, start, area.y + 1, forces);
 }
 
 /// Draws c and a: a short line over each border, and its name.
@@ -240,8 +233,8 @@ fn radii(section: &Section, canvas: &mut Canvas) {
         for x in [-r, r] {
             if let (Some(column), Some([row, _])) = (section.column(x), section.rows_above(x)) {
                 let above = row.saturating_sub(1).max(section.area.y);
-                on(canvas, column, above, name);
-                on(canvas, column, row, "┊");
+                write_over(canvas, column, above, name);
+                write_over(canvas, column, row, "┊");
             }
         }
     }

@@ -116,7 +116,7 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// Makes the cut; `None` if there is nothing to draw.
-    pub fn of(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
+    pub fn new(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;
         let seen = &frame.live.observation;
         let ([low, high], &edge) = (of.bounds?, seen.radii().last()?);
@@ -146,16 +146,16 @@ impl<'a> Section<'a> {
             high,
             wear: if seen.law.is_some() { wear } else { 1.0 },
             motion,
-            shift: whole(motion * seen.moment.shift, width),
-            flanks: whole(motion * seen.moment.shift, STRIDE * width),
+            shift: round_to_step(motion * seen.moment.shift, width),
+            flanks: round_to_step(motion * seen.moment.shift, STRIDE * width),
             resting,
-            level: whole(resting.live.observation.moment.depth, 2.0 * half),
+            level: round_to_step(resting.live.observation.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
             stress: of.drawn.shares(of.stress, of.calm, room, width),
         };
-        section.tall = whole(high - section.cut(0.0).surface, 2.0 * half).max(half);
+        section.tall = round_to_step(high - section.cut(0.0).surface, 2.0 * half).max(half);
         Some(section)
     }
 
@@ -195,7 +195,7 @@ impl<'a> Section<'a> {
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
         // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
-        let along = (x - self.given_way(r)).abs();
+        let along = (x - self.shift_at(r)).abs();
         let unworn = match (x - self.flanks).abs() > rim {
             true => f64::INFINITY,
             false => indenter.profile(along.min(rim)) - self.level,
@@ -210,7 +210,7 @@ impl<'a> Section<'a> {
     }
 
     /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
-    fn given_way(&self, r: f64) -> f64 {
+    fn shift_at(&self, r: f64) -> f64 {
         let contact = self.resting.live.observation.moment.contact_radius;
         let way = 4.0 * self.flanks.abs();
         match r - contact {
@@ -257,7 +257,7 @@ impl<'a> Section<'a> {
 }
 
 /// Returns the nearest multiple of a step.
-pub fn whole(value: f64, step: f64) -> f64 {
+pub fn round_to_step(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }
 

@@ -48,7 +48,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
-        let name = shown.frame.live.observation.geometry.named(name);
+        let name = shown.frame.live.observation.geometry.term(name);
         let [name, value] = [&name, &value].map(|text| canvas.printable(text));
         // The name is cut rather than the value: its last words and the symbol say the most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
@@ -64,7 +64,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
     }
     // Writes into the rule, since every row is needed.
     let rule = Rect::new(area.x, area.y.saturating_sub(1), area.width, 1);
-    canvas.at(rule).more(below);
+    canvas.at(rule).write_more_below(below);
 }
 
 /// Returns all of them, one per line.

@@ -46,7 +46,7 @@ const TWO_LINES: u16 = 10;
 
 /// Returns the colour of the disc at `x` and `y` from its centre (m), and the character that replaces it without
 /// colours. The colours of depths range from 0 to `deepest`.
-fn shown(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
+fn look_at(frame: &Frame, theme: &Theme, deepest: f64, [x, y]: [f64; 2]) -> (Option<Color>, char) {
     let seen = &frame.live.observation;
     let r = if seen.geometry.is_line() {
         x.abs()
@@ -80,7 +80,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
         return;
     };
     if area.height < 4 || area.width < 12 {
-        return canvas.say("too small for the scar", Role::Quiet);
+        return canvas.write_text("too small for the scar", Role::Quiet);
     }
     let lines = legend_lines(area);
     let disc = Rect::new(area.x, area.y, area.width, area.height - lines);
@@ -99,7 +99,7 @@ fn draw(of: &Shown, mut canvas: Canvas) {
         let x = (column + 0.5 - f64::from(disc.width) / 2.0) * size;
         let halves = [0.5, 1.5].map(|half| {
             let y = (2.0 * row + half - f64::from(disc.height)) * size;
-            shown(frame, &theme, deepest, [x, y])
+            look_at(frame, &theme, deepest, [x, y])
         });
         let cell = &mut canvas.buffer[at];
         match has_blocks(&theme) {

@@ -17,7 +17,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::cut::{Cut, LARGE, Matter, Section, heights, whole};
+use super::cut::{Cut, LARGE, Matter, Section, heights, round_to_step};
 use super::{Picture, Shown, caption};
 use crate::charts::{Recipe, U_X};
 use crate::math::grid::interpolate;
@@ -95,7 +95,7 @@ impl Section<'_> {
         let places = (-7..=7).map(|k| f64::from(k) * apart);
         for x in places.filter(|x| x.abs() < seen.moment.contact_radius) {
             let surface = interpolate(seen.radii(), seen.surface(), x.abs());
-            let moved = whole(self.motion * surface, self.width);
+            let moved = round_to_step(self.motion * surface, self.width);
             let Some([above, below]) = self.rows_above(x) else {
                 continue;
             };
@@ -217,8 +217,8 @@ impl Section<'_> {
 fn draw(shown: &Shown, mut canvas: Canvas) {
     let room = usize::from(canvas.area.width.saturating_sub(2));
     let inner = canvas.titled(RECIPE.title, shown.role).area;
-    let [picture, below] = caption::beside(inner);
-    let Some(section) = Section::of(shown, &canvas.theme, picture) else {
+    let [picture, below] = caption::split(inner);
+    let Some(section) = Section::new(shown, &canvas.theme, picture) else {
         return;
     };
     canvas.titled(&section.title(RECIPE.title, room), shown.role);

@@ -108,7 +108,7 @@ impl StressMap {
             return;
         };
         let held = self.held.get_or_insert_with(|| Held::new(range, cycle));
-        held.take(range, cycle);
+        held.include(range, cycle);
         if before.is_none_or(|before| before.since != held.since || before.bounds != held.bounds) {
             self.beyond = [false; 2];
         }

@@ -29,7 +29,7 @@ impl Worker {
             return self.compare(rival.choice + places, rival.since);
         }
         let setup = self.run.simulation().setup();
-        let methods = AbelMethod::of(setup.geometry);
+        let methods = AbelMethod::for_geometry(setup.geometry);
         if methods.len() < 2 {
             return self
                 .screen
@@ -95,7 +95,7 @@ impl Worker {
         let made = self.run.session.changes().len();
         self.change(key, value);
         if self.run.session.changes().len() != made {
-            self.before = before.map(Source::before).or(self.before.take());
+            self.before = before.map(Source::unchanged).or(self.before.take());
         }
     }
 
@@ -106,7 +106,7 @@ impl Worker {
 
     /// Has `change` change the run from here on, and tells the user what it has done.
     fn change_by(&mut self, change: impl FnOnce(&mut Session) -> Result<String, SessionError>) {
-        self.keep();
+        self.store();
         let changed = change(&mut self.run.session);
         let Some(done) = self.screen.or_notice(changed) else {
             return;
@@ -122,8 +122,8 @@ impl Worker {
 
     /// Updates the facts and the twin after a change of the scenario.
     pub(super) fn renew(&mut self) {
-        self.facts = Facts::of(&self.run.session);
-        self.twin = Twin::of(&self.run.session);
+        self.facts = Facts::new(&self.run.session);
+        self.twin = Twin::new(&self.run.session);
     }
 
     /// Restarts the scenario as it was loaded; the user can go back to the run so far.
@@ -160,9 +160,9 @@ impl Worker {
 
     /// Replaces this run by another one, new or read from a file.
     pub fn replace_run(&mut self, run: Recorded) {
-        self.keep();
+        self.store();
         let left = &self.past.line(&self.run).session;
-        locked(&self.autosave).turn_over(left, &run.session);
+        locked(&self.autosave).begin_session(left, &run.session);
         self.past.leave();
         self.snapshots.clear();
         self.run = run;

@@ -21,7 +21,7 @@ pub(super) const CATCH_UP: Duration = Duration::from_millis(10);
 
 impl Worker {
     /// Returns the visible companions.
-    fn seen(&mut self) -> impl Iterator<Item = &mut Beside> {
+    fn followers(&mut self) -> impl Iterator<Item = &mut Beside> {
         let rival = self.rival.as_mut().map(|rival| &mut rival.run);
         let ghosts = self.ghosts.iter_mut().chain(&mut self.before).chain(rival);
         ghosts.flat_map(|ghost| ghost.beside.as_deref_mut())
@@ -30,7 +30,7 @@ impl Worker {
     /// Lets the visible companions catch up with the run.
     pub(super) fn follow(&mut self) {
         let cycle = self.run.cycle();
-        self.seen()
+        self.followers()
             .for_each(|beside| beside.follow(cycle, cycle, CATCH_UP));
     }
 
@@ -47,7 +47,7 @@ impl Worker {
         let twin = self.twin.as_ref();
         let twin = twin.filter(|_| self.activity != Activity::Running);
         let twin_lags = twin.is_some_and(|twin| twin.lags(cycle));
-        twin_lags || self.seen().any(|beside| beside.lags(cycle))
+        twin_lags || self.followers().any(|beside| beside.lags(cycle))
     }
 
     /// Lets all companions catch up for a moment.
@@ -72,7 +72,7 @@ impl Worker {
         match &self.twin {
             // The twin has compared with the present, not with the past.
             _ if self.past.present().is_some() => Err("of the present: ] leads there".into()),
-            Some(twin) => twin.told(self.run.cycle()),
+            Some(twin) => twin.errors(self.run.cycle()),
             None => Err("this run is too coarse to be halved".into()),
         }
     }

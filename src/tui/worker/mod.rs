@@ -109,10 +109,10 @@ impl Worker {
     ) -> Self {
         let run = run.into();
         Self {
-            facts: Facts::of(&run.session),
+            facts: Facts::new(&run.session),
             ghosts: Vec::new(),
             rival: None,
-            twin: Twin::of(&run.session),
+            twin: Twin::new(&run.session),
             autosave: Arc::new(Mutex::new(ScreenAutosave::new(
                 None,
                 Duration::ZERO,
@@ -175,7 +175,7 @@ impl Worker {
                 }
                 Err(RecvTimeoutError::Timeout) if self.is_awaited() => self.catch_up(),
                 Err(RecvTimeoutError::Timeout) if self.activity != Activity::Running => {}
-                Err(RecvTimeoutError::Timeout) => self.step_for_a_stint(),
+                Err(RecvTimeoutError::Timeout) => self.step_for_a_while(),
             }
         }
     }
@@ -190,7 +190,7 @@ impl Worker {
 
     /// Takes one step and pauses.
     pub fn step_once(&mut self) {
-        self.step_by_hand(|_, _| true);
+        self.step_manually(|_, _| true);
     }
 
     /// Changes the pace by this many rungs.

@@ -100,7 +100,7 @@ impl Worker {
     pub fn frame(&mut self) -> Frame {
         // The pressure may exceed the hardness in any step, and may not have done so yet in an earlier state.
         if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
-            self.facts = Facts::of(&self.run.session);
+            self.facts = Facts::new(&self.run.session);
         }
         let simulation = self.run.simulation();
         let curves = self.curves;
@@ -114,7 +114,7 @@ impl Worker {
         let ghosts = self.ghosts.iter().chain(&self.before).chain(rival);
         Frame {
             run: Run {
-                ghosts: ghosts.map(|ghost| ghost.seen(curves)).collect(),
+                ghosts: ghosts.map(|ghost| ghost.curves(curves)).collect(),
                 theory: Some(Arc::clone(&self.facts.theory)),
                 indenter: Some(simulation.setup().indenter.clone()),
                 ..self.run.charted(&observation)
@@ -171,13 +171,13 @@ pub(super) struct Facts {
 
 impl Facts {
     /// Collects the facts of the scenario that `session` runs now.
-    pub fn of(session: &Session) -> Self {
+    pub fn new(session: &Session) -> Self {
         let scenario = session.scenario();
         let loaded = session.loaded().setup();
-        let expected_wear = Theory::of(loaded).expected_wear(loaded, scenario.run().cycles);
+        let expected_wear = Theory::new(loaded).expected_wear(loaded, scenario.run().cycles);
         Self {
             scenario: Arc::new(scenario.clone()),
-            theory: Arc::new(Theory::of(session.simulation().setup())),
+            theory: Arc::new(Theory::new(session.simulation().setup())),
             expected_wear: expected_wear.unwrap_or(0.0),
             warnings: session.warnings().into(),
             passed_hardness: session.log().passed_hardness(),

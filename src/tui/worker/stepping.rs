@@ -58,12 +58,12 @@ impl Worker {
             };
             return Duration::from_secs_f64(ahead.clamp(0.0, 0.1));
         }
-        let wait = locked(&self.autosave).wait(&self.past.line(&self.run).session);
+        let wait = locked(&self.autosave).time_until_due(&self.past.line(&self.run).session);
         wait.unwrap_or(Duration::MAX)
     }
 
     /// Steps while the pace allows, but no longer than orders may wait.
-    pub(super) fn step_for_a_stint(&mut self) {
+    pub(super) fn step_for_a_while(&mut self) {
         let start = Instant::now();
         while self.activity == Activity::Running && start.elapsed() < STINT {
             let simulation = self.run.simulation();
@@ -102,7 +102,7 @@ impl Worker {
             self.screen.notice(&word);
         }
         if self.run.simulation().steps() == 0 {
-            self.keep();
+            self.store();
         }
         self.clock.stepped = Instant::now();
         let before = self.run.cycle();
@@ -123,7 +123,7 @@ impl Worker {
         }
         self.follow();
         if ends_cycle && self.kept_at.elapsed() > APART {
-            self.keep();
+            self.store();
         }
         let goes_on = self.stop_at.is_some_and(|stop| stop > cycle);
         if is_end && is_running && !goes_on {
@@ -133,7 +133,7 @@ impl Worker {
             if self.activity == Activity::Running {
                 self.activity = Activity::Paused;
             }
-            self.keep();
+            self.store();
         }
     }
 
@@ -160,7 +160,7 @@ impl Worker {
     }
 
     /// Pauses and steps until `done`, called with the cycles before and now, returns true.
-    pub(in crate::tui) fn step_by_hand(&mut self, done: impl Fn(f64, f64) -> bool) {
+    pub(in crate::tui) fn step_manually(&mut self, done: impl Fn(f64, f64) -> bool) {
         if matches!(self.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);
         }
@@ -173,6 +173,6 @@ impl Worker {
                 break;
             }
         }
-        self.keep();
+        self.store();
     }
 }

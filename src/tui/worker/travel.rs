@@ -12,8 +12,8 @@ use crate::tui::undo::{Kept, Past};
 
 impl Worker {
     /// Stores the present state.
-    pub(super) fn keep(&mut self) {
-        self.past.keep(&self.run);
+    pub(super) fn store(&mut self) {
+        self.past.store(&self.run);
         self.kept_at = Instant::now();
     }
 
@@ -23,7 +23,7 @@ impl Worker {
         let left = self.past.branch()?;
         let (cycle, end) = (self.run.cycle(), left.end.run.cycle());
         if left.is_other_run {
-            locked(&self.autosave).turn_over(&left.end.run.session, &self.run.session);
+            locked(&self.autosave).begin_session(&left.end.run.session, &self.run.session);
         }
         Some(format!(
             "branch at cycle {cycle:.2}; [ leads back to the run up to {end:.2}"
@@ -36,7 +36,7 @@ impl Worker {
         way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>,
         end: &str,
     ) {
-        self.keep();
+        self.store();
         let Some(kept) = way(&mut self.past) else {
             return self.screen.notice(end);
         };
@@ -44,7 +44,7 @@ impl Worker {
         self.stop_at = None;
         self.rival = None;
         self.activity = Activity::Paused;
-        self.facts = Facts::of(&self.run.session);
+        self.facts = Facts::new(&self.run.session);
     }
 }
 
@@ -97,7 +97,7 @@ impl Worker {
         if run.cycle() > before || !due.is_empty() {
             self.past.insert(run.clone());
             self.run = run;
-            self.facts = Facts::of(&self.run.session);
+            self.facts = Facts::new(&self.run.session);
         }
     }
 

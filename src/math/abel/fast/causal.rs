@@ -33,7 +33,7 @@ pub(super) struct Causal {
 }
 
 /// Returns the distance between two radii: ln of the ratio of their squares; infinite if one is 0.
-pub(super) fn apart(one: f64, other: f64) -> f64 {
+pub(super) fn log_distance(one: f64, other: f64) -> f64 {
     let (inner, outer) = (one.min(other), one.max(other));
     2.0 * ((outer - inner) / inner).ln_1p()
 }
@@ -46,7 +46,9 @@ impl Causal {
             _ => (-exponent * step).exp(),
         };
         let decays_of = |j: usize| {
-            let step = j.checked_sub(1).map_or(0.0, |i| apart(radii[i], radii[j]));
+            let step = j
+                .checked_sub(1)
+                .map_or(0.0, |i| log_distance(radii[i], radii[j]));
             let exponents = powers.exponents.iter();
             exponents.map(move |&exponent| decay(step, exponent))
         };
@@ -57,7 +59,7 @@ impl Causal {
             let mut left = powers.factors.clone();
             for distance in 1..=REACH.min(j) {
                 let (one, other) = (radii[j - distance], radii[j]);
-                if one.min(other) == 0.0 || apart(one, other) >= powers.nearest {
+                if one.min(other) == 0.0 || log_distance(one, other) >= powers.nearest {
                     break;
                 }
                 let row = &decays[(j + 1 - distance) * count..][..count];

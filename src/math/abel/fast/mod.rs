@@ -47,7 +47,7 @@ mod powers;
 #[cfg(test)]
 mod tests;
 
-use causal::{BLOCK, Causal, REACH, apart};
+use causal::{BLOCK, Causal, REACH, log_distance};
 pub(super) use powers::{ARC, ROOT};
 use powers::{Kernel, Powers, WORN, fit};
 
@@ -63,7 +63,7 @@ pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 pub(super) fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
     let pairs = pairs.filter(|(inner, _)| **inner > 0.0);
-    let least = pairs.map(|(&a, &b)| apart(a, b)).fold(1.0, f64::min);
+    let least = pairs.map(|(&a, &b)| log_distance(a, b)).fold(1.0, f64::min);
     // Neighbours at exactly this distance count as far.
     fit(kernel, least * (1.0 - 1e-9), tolerance)
 }

@@ -57,7 +57,7 @@ fn variation(values: &[f64]) -> Vec<f64> {
 }
 
 /// Compares the two on dirty buffers; `scale` is what the tolerance refers to, row by row.
-fn hold(
+fn compare_forms(
     name: &str,
     dense: &DMatrix<f64>,
     values: &[f64],
@@ -94,10 +94,10 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
             for values in data(&grid) {
                 let all = variation(&values);
                 let scale = apply(&g, &all);
-                hold("g", &g, &values, tolerance, &scale, &|f, g| {
+                compare_forms("g", &g, &values, tolerance, &scale, &|f, g| {
                     fast.profile(f, g)
                 });
-                hold("w", &w, &values, tolerance, &all, &|u, w| {
+                compare_forms("w", &w, &values, tolerance, &all, &|u, w| {
                     fast.displacement(u, w)
                 });
                 let last = all[grid.cells()];
@@ -106,7 +106,7 @@ fn every_operator_is_the_dense_one_within_its_tolerance() {
                 // Stress has the unit of the load per length; convert it to the unit of the data.
                 let l = grid.radius();
                 let scaled: Vec<f64> = scale.iter().map(|scale| scale * l).collect();
-                hold("p", &(&p * l), &values, tolerance, &scaled, &|q, p| {
+                compare_forms("p", &(&p * l), &values, tolerance, &scaled, &|q, p| {
                     fast.stress_from(0, q, p);
                     p.iter_mut().for_each(|p| *p *= l);
                 });
@@ -147,7 +147,7 @@ fn the_worn_depth_is_the_dense_one_within_its_tolerance() {
                 let inside = all[border];
                 all.extend((1..z.len()).map(|i| inside + z[i] * (first + shares[i - 1])));
                 let scale = apply(&dense, &all);
-                hold("worn", &dense, &values, tolerance, &scale, &|f, g| {
+                compare_forms("worn", &dense, &values, tolerance, &scale, &|f, g| {
                     fast.image(f, g)
                 });
             }

@@ -43,9 +43,12 @@ impl WearLaw {
 
     /// The power law; exponents from 0.1 to 10, references greater than 0.
     pub fn power(coefficient: f64, powers: Powers) -> Result<Self, Invalid> {
-        let exponent = |field, value: f64| match (0.1..=10.0).contains(&value) {
-            true => Ok(value),
-            false => Err(Invalid::new(field, value, "must be from 0.1 to 10")),
+        let exponent = |field, value: f64| {
+            if (0.1..=10.0).contains(&value) {
+                Ok(value)
+            } else {
+                Err(Invalid::new(field, value, "must be from 0.1 to 10"))
+            }
         };
         let archard = Self::archard(coefficient)?;
         exponent("stress_exponent", powers.stress_exponent)?;

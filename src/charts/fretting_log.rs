@@ -43,9 +43,10 @@ fn make(_: &Run, view: &View) -> Result<Chart, &'static str> {
     // Draws the newest loop last, on top of the others.
     Ok(chart.curves(loops.iter().enumerate().map(|(k, one)| {
         let heights = one.forces.iter().map(|force| one.end + scale * force);
-        let role = match k + 1 == loops.len() {
-            true => Role::Shear,
-            false => Role::Unworn,
+        let role = if k + 1 == loops.len() {
+            Role::Shear
+        } else {
+            Role::Unworn
         };
         let heights: Vec<f64> = heights.collect();
         let mut curve = Curve::new("", one.shifts.clone(), heights, role);

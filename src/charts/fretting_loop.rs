@@ -79,12 +79,11 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let loops = loops(run, view);
     let moves = |curve: &Curve| curve.xs.iter().any(|&x| x != curve.xs[0]);
     if !view.is_on_screen() && !loops.iter().any(moves) {
-        return Err(match loops.is_empty() {
-            true => {
-                "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \
-                 tangential motion, and run --history every-step records all loops"
-            }
-            false => "the indenter does not move tangentially",
+        return Err(if loops.is_empty() {
+            "there is no loop.csv, and the history has one row per cycle; run writes loop.csv if there is a \
+             tangential motion, and run --history every-step records all loops"
+        } else {
+            "the indenter does not move tangentially"
         });
     }
     let mut chart = Chart::new("", Axis::new("u_x", "m"), Axis::new("F_x", "N"))
@@ -111,9 +110,10 @@ fn present_point(run: &Run, live: &Live) -> Point {
             live.observation.moment.shift,
             live.observation.moment.tangential_force,
         ],
-        sign: match run.loops.last().is_none_or(Loop::rises) {
-            true => '▶',
-            false => '◀',
+        sign: if run.loops.last().is_none_or(Loop::rises) {
+            '▶'
+        } else {
+            '◀'
         },
         role: Role::Alarm,
     }

@@ -18,9 +18,10 @@ fn curves(run: &Run, of: impl Fn(&Ghost) -> Option<Points>) -> Vec<Curve> {
         let (xs, ys, errors, true_values) = of(ghost)?;
         let mut curve = Curve::new(ghost.name.clone(), xs, ys, Role::Ghost(k));
         curve.true_values = true_values;
-        Some(match ghost.is_measured {
-            true => curve.scattered(errors),
-            false => curve.dashed(),
+        Some(if ghost.is_measured {
+            curve.scattered(errors)
+        } else {
+            curve.dashed()
         })
     });
     let is_there = |curve: &Curve| curve.ys.iter().any(|y| y.is_finite());

@@ -57,7 +57,7 @@ const NO_HISTORY: &str = "there is no history.csv";
 /// Makes a chart of a run, or returns why there is nothing to show.
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
-/// Everything that there is to know of a chart, or of another panel, but its data.
+/// Everything about a chart or another panel, except its data.
 #[derive(Debug, Clone, Copy)]
 pub struct Recipe<M: ?Sized = Make> {
     /// The name on the command line, for charts that a paper can have.
@@ -108,7 +108,7 @@ impl<M> Recipe<M> {
     }
 }
 
-/// What is said of a chart or of another panel, however it is made.
+/// The description of a chart or of another panel, however it is made.
 pub type About = Recipe<dyn Sync>;
 
 impl Recipe {

@@ -35,9 +35,9 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         names[1],
         Role::Stick,
     )
-    .ok();
-    let stick = stick.filter(|stick| stick.ys.iter().any(|radius| radius.is_finite()));
-    let stick = stick.map(|stick| stick.dashed_if(view.is_on_screen()));
+    .ok()
+    .filter(|stick| stick.ys.iter().any(|radius| radius.is_finite()))
+    .map(|stick| stick.dashed_if(view.is_on_screen()));
     let theory = view.theory(run).and_then(|theory| theory.stick_radius);
     let theory = theory
         .zip(cycles_shown(run, view))

@@ -110,9 +110,10 @@ impl Run {
         let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
         let rows = 0..cycles.len();
         let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
-        let rows = match 2 * whole.len() > cycles.len() && whole.len() > 1 {
-            true if !view.is_on_screen() => whole,
-            _ => rows.collect(),
+        let rows = if 2 * whole.len() > cycles.len() && whole.len() > 1 && !view.is_on_screen() {
+            whole
+        } else {
+            rows.collect()
         };
         let mut columns = [(); N].map(|()| Vec::new());
         for (values, one) in columns.iter_mut().zip(wanted) {

@@ -48,9 +48,10 @@ impl Run {
         for &end in cycles {
             while session.simulation().cycle() < end {
                 let simulation = session.simulation();
-                let next = match simulation.may_jump() {
-                    true => end,
-                    false => end.min(simulation.cycle().floor() + 1.0),
+                let next = if simulation.may_jump() {
+                    end
+                } else {
+                    end.min(simulation.cycle().floor() + 1.0)
                 };
                 session.advance_while(next, |session| {
                     if session.simulation().cycle().fract() == 0.0 {

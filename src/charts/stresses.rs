@@ -34,7 +34,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         .zip(state.column(Column::Pressure));
     let (radii, pressure) = columns.ok_or("the state has no column p_Pa")?;
     let is_log = view.scale == Scale::Log;
-    // What τ is divided by; on paper it is drawn as it is.
+    // What τ is divided by; on paper, nothing.
     let (name, divisor) = match view.medium {
         Medium::Paper => ("τ", Some(1.0)),
         Medium::Screen(_) if is_log => ("|τ|/μ", view.friction()),

@@ -269,9 +269,10 @@ fn from_directory(directory: &Path) -> Result<Run> {
     let mut run = Run::default();
     let failed = |error| Refusal::unread(directory.display(), &Unread::Io(error));
     let entries = fs::read_dir(directory).map_err(failed)?;
-    let paths = entries.map(|entry| entry.map(|entry| entry.path()));
-    let paths: io::Result<Vec<PathBuf>> = paths.collect();
-    let mut paths = paths.map_err(failed)?;
+    let paths = entries.map(|entry| Ok(entry?.path()));
+    let mut paths = paths
+        .collect::<io::Result<Vec<PathBuf>>>()
+        .map_err(failed)?;
     paths.sort();
     for path in paths {
         let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -17,9 +17,10 @@ pub fn guide(options: &Guide) -> Result<()> {
         return Ok(io::stdout().write_all(list().as_bytes())?);
     };
     let topic = Topic::find(name).ok_or_else(|| unknown(name))?;
-    let shown = match io::stdout().is_terminal() {
-        true => page(&markdown::rendered(topic.text, columns())),
-        false => io::stdout().write_all(topic.text.as_bytes()),
+    let shown = if io::stdout().is_terminal() {
+        page(&markdown::rendered(topic.text, columns()))
+    } else {
+        io::stdout().write_all(topic.text.as_bytes())
     };
     Ok(shown?)
 }

@@ -86,9 +86,10 @@ fn plain(text: &str) -> String {
     let mut rest = text.replace("**", "");
     let mut out = String::new();
     while let Some((before, label, address, after)) = link(&rest) {
-        out.push_str(&match address.starts_with("http") {
-            true => format!("{before}{label} ({address})"),
-            false => format!("{before}{label}"),
+        out.push_str(&if address.starts_with("http") {
+            format!("{before}{label} ({address})")
+        } else {
+            format!("{before}{label}")
         });
         rest = after.to_owned();
     }

@@ -112,9 +112,10 @@ fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
 
 /// Returns the exit code of a study.
 fn succeeded(has_succeeded: bool) -> ExitCode {
-    match has_succeeded {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::from(FAILED),
+    if has_succeeded {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(FAILED)
     }
 }
 
@@ -155,9 +156,10 @@ fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.is::<NoTerminal>()
             || written.is_some_and(WriteError::is_misuse)
     };
-    match error.chain().any(is_misuse) {
-        true => MISUSED,
-        false => FAILED,
+    if error.chain().any(is_misuse) {
+        MISUSED
+    } else {
+        FAILED
     }
 }
 
@@ -207,9 +209,9 @@ fn refuse(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     let is_end =
         |line: &&str| line.starts_with("Usage:") || line.starts_with("For more information");
-    let words = text.lines().take_while(|line| !is_end(line)).map(str::trim);
-    let words: Vec<&str> = words.filter(|line| !line.is_empty()).collect();
-    let words = words.join(" ").replace(" tip: ", "; ");
+    let lines = text.lines().take_while(|line| !is_end(line)).map(str::trim);
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
+    let words = lines.join(" ").replace(" tip: ", "; ");
     let command = match Arguments::command().find_subcommand(&*first) {
         Some(_) => format!("mdr-tui {first}"),
         None => "mdr-tui".into(),

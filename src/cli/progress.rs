@@ -44,9 +44,10 @@ pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
 
 /// Returns where progress is drawn, or a hidden target.
 fn target(quiet: bool) -> ProgressDrawTarget {
-    match quiet || !io::stderr().is_terminal() {
-        true => ProgressDrawTarget::hidden(),
-        false => ProgressDrawTarget::stderr(),
+    if quiet || !io::stderr().is_terminal() {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
     }
 }
 

@@ -10,7 +10,7 @@ use super::stop;
 use crate::export::file::WriteError;
 use crate::export::target::Target;
 use crate::scenario::escape;
-use crate::studies::table::Table;
+use crate::studies::table::Report;
 
 impl Output {
     /// Claims the output file, if there is one, before anything is computed.
@@ -25,7 +25,7 @@ pub fn write(
     target: Option<&Target>,
     study: &str,
     notes: &[String],
-    rows: &Table,
+    rows: &Report,
 ) -> Result<(), WriteError> {
     let Some(target) = target else {
         return Ok(());

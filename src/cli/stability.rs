@@ -11,7 +11,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
 use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
-use crate::studies::stability::{Line, Setting, Study};
+use crate::studies::stability::{Limit, Study, Variant};
 
 /// Runs the study and prints and writes its results.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
@@ -49,9 +49,9 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
 fn lines(
     study: &Study,
     options: &Stability,
-    settings: &[Setting],
+    settings: &[Variant],
     go_on: &dyn Fn() -> bool,
-) -> Result<Vec<Line>> {
+) -> Result<Vec<Limit>> {
     let mut wear_numbers = options.wear_numbers.clone();
     wear_numbers.sort_by(f64::total_cmp);
     let length = settings.len() * wear_numbers.len();
@@ -67,7 +67,7 @@ fn lines(
 }
 
 /// Returns all settings: by method, then guard, then grid.
-fn settings(options: &Stability, geometry: Geometry) -> Vec<Setting> {
+fn settings(options: &Stability, geometry: Geometry) -> Vec<Variant> {
     let guards: &[bool] = match options.guard {
         Guard::Off => &[false],
         Guard::On => &[true],
@@ -77,7 +77,7 @@ fn settings(options: &Stability, geometry: Geometry) -> Vec<Setting> {
     let methods = AbelMethod::for_geometry(geometry);
     for &method in options.methods.iter().filter(|of| methods.contains(of)) {
         for &guard in guards {
-            settings.extend(options.points.iter().map(|&points| Setting {
+            settings.extend(options.points.iter().map(|&points| Variant {
                 method,
                 points,
                 steps: options.steps,

@@ -14,7 +14,7 @@ use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement::{Budget, Level, Reached, SearchError, Verdict, run_to_accuracy};
-use crate::studies::trade::{self, Reference, Setting, Timed, Trial, cheapest, front, table};
+use crate::studies::trade::{self, Candidate, Reference, Timed, Trial, cheapest, front, table};
 
 /// Accuracies for which the search for a level is timed, in addition to the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
@@ -94,7 +94,7 @@ fn run(
 ) -> Result<Option<(Vec<Trial>, Vec<String>)>> {
     let settings = trade::settings(scenario, &options.methods, &options.points, &options.steps);
     let bar = progress::bar(settings.len(), progress::COUNTS, options.output.quiet);
-    let measure = |setting: &Setting| {
+    let measure = |setting: &Candidate| {
         bar.set_message(format!("{setting} by {}", setting.scheme));
         bar.tick();
         setting.run(scenario, cycles, go_on)
@@ -143,7 +143,7 @@ fn run(
 /// Describes what an accuracy cost, compared with the cheapest fixed setting that meets it.
 fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reference) -> String {
     let (seconds, Level { points, steps, .. }) = (reached.seconds, &reached.rung.level);
-    let errors = reached.rung.outcome.against(&reference.outcome);
+    let errors = reached.rung.outcome.difference_from(&reference.outcome);
     let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",

@@ -10,7 +10,7 @@ use crate::plot::{Axis, Chart, Curve, Marker, Scale};
 use crate::scenario::Refusal;
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
-use crate::studies::verify::{Outcome, Problem, STICK_RADIUS, Task, tasks};
+use crate::studies::verify::{Problem, STICK_RADIUS, Solved, Task, tasks};
 
 /// Runs the study and prints, draws and writes its results.
 pub fn verify(options: &Verify) -> Result<()> {
@@ -27,13 +27,16 @@ pub fn verify(options: &Verify) -> Result<()> {
     results::write(target.as_ref(), "verify", &notes, &nodes)?;
     let rows = options.output.json.then(|| all_rows(&outcomes));
     let is_whole = options.all || options.drawing.plot || !options.problem.is_empty();
-    results::print(rows.as_ref(), || match is_whole {
-        true => format!("{}\n{}\n", text(&outcomes, options), verdict(&outcomes)),
-        false => verdict(&outcomes) + "\n",
+    results::print(rows.as_ref(), || {
+        if is_whole {
+            format!("{}\n{}\n", text(&outcomes, options), verdict(&outcomes))
+        } else {
+            verdict(&outcomes) + "\n"
+        }
     })
 }
 
-fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
+fn run(tasks: &[Task], quiet: bool) -> Vec<Solved> {
     let bar = progress::bar(tasks.len(), progress::COUNTS, quiet);
     let outcomes = tasks.iter().map(|task| {
         let (problem, method, points) = (task.problem, task.method, task.points);
@@ -49,21 +52,21 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Outcome> {
 }
 
 /// Groups the outcomes by problem.
-fn by_problem(outcomes: &[Outcome]) -> impl Iterator<Item = (Problem, &[Outcome])> {
+fn by_problem(outcomes: &[Solved]) -> impl Iterator<Item = (Problem, &[Solved])> {
     let groups = outcomes.chunk_by(|a, b| a.task.problem == b.task.problem);
     groups.map(|group| (group[0].task.problem, group))
 }
 
 /// Returns every table below its description, with the curves below the table.
-fn text(outcomes: &[Outcome], options: &Verify) -> String {
-    let of_problem = |(problem, outcomes): (Problem, &[Outcome])| {
+fn text(outcomes: &[Solved], options: &Verify) -> String {
+    let of_problem = |(problem, outcomes): (Problem, &[Solved])| {
         let mut text = format!("{problem}\n");
         for line in &problem.facts().description {
             text += &format!("  {line}\n");
         }
         text += &problem_table(problem, outcomes).text();
-        let left = options.points.iter();
-        let left = left.filter(|&&points| !options.long && problem.is_long(points));
+        let points = options.points.iter();
+        let left = points.filter(|&&points| !options.long && problem.is_long(points));
         let left: Vec<String> = left.map(usize::to_string).collect();
         if !left.is_empty() {
             text += &format!("N = {} only with --long\n", left.join(", "));
@@ -78,7 +81,7 @@ fn text(outcomes: &[Outcome], options: &Verify) -> String {
 }
 
 /// Says in one line how far the best method is from theory: its worst problem, on the finest grid of each.
-fn verdict(outcomes: &[Outcome]) -> String {
+fn verdict(outcomes: &[Solved]) -> String {
     let stopped = match outcomes.iter().filter(|o| o.errors.is_err()).count() {
         0 => String::new(),
         count => format!("; {count} runs stopped"),
@@ -100,7 +103,7 @@ fn verdict(outcomes: &[Outcome]) -> String {
 }
 
 /// Describes the errors of each problem.
-fn notes(outcomes: &[Outcome]) -> Vec<String> {
+fn notes(outcomes: &[Solved]) -> Vec<String> {
     let problems = by_problem(outcomes).map(|(problem, _)| problem);
     let note = |problem: Problem| format!("{problem}: {}", problem.facts().description.join(" "));
     problems.map(note).collect()
@@ -115,7 +118,7 @@ fn notes(outcomes: &[Outcome]) -> Vec<String> {
 /// 1e-3 ┤⠈⠒⠤⢄⣀⣀⣀⣀⣀⣀⣀⣀                     1e-3 ┤⠈⠒⠤⢄⣀⣀⣀⣀⣀⣀⣀⣀
 ///      0               1                      0               1   r/a
 /// ```
-fn error_curves(problem: Problem, outcomes: &[Outcome], marker: Marker) -> String {
+fn error_curves(problem: Problem, outcomes: &[Solved], marker: Marker) -> String {
     let quantities = problem.facts().quantities.iter().enumerate();
     let drawn = quantities.filter(|(_, quantity)| **quantity != STICK_RADIUS);
     let plots = drawn.map(|(at, quantity)| {

@@ -98,7 +98,7 @@ impl WinklerFoundation {
         weighted_first(&self.weights, values, touching) / all
     }
 
-    /// A dome with what its integral has beyond that of its polyline.
+    /// A dome with the difference between its integral and its polyline's.
     pub fn measured(&self, dome: Dome) -> Dome {
         let Dome { edge, last, .. } = dome;
         if self.geometry.is_line() {

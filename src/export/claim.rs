@@ -76,9 +76,10 @@ impl Owner {
     /// Names the process, in brackets.
     fn describe(&self) -> String {
         let (process, host) = (self.process, printable(&self.host));
-        let hint = match self.is_here() {
-            true => "",
-            false => "; if it is gone, remove the lock file",
+        let hint = if self.is_here() {
+            ""
+        } else {
+            "; if it is gone, remove the lock file"
         };
         format!(" (process {process} on {host}{hint})")
     }
@@ -141,13 +142,12 @@ impl Claim {
     ///
     /// If the lock file is no longer at its place.
     pub fn check(&self) -> Result<(), WriteError> {
-        match is_at(&self.file, &self.path) {
-            true => Ok(()),
-            false => {
-                let rule =
-                    "was moved, removed or cleared meanwhile, and may belong to another run by now";
-                Err(WriteError::refused(directory_of(&self.path), rule))
-            }
+        if is_at(&self.file, &self.path) {
+            Ok(())
+        } else {
+            let rule =
+                "was moved, removed or cleared meanwhile, and may belong to another run by now";
+            Err(WriteError::refused(directory_of(&self.path), rule))
         }
     }
 

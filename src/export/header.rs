@@ -102,9 +102,10 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
 pub fn arithmetic() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
-        match is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            true => "x86_64, fused multiply-add",
-            false => "x86_64, separate multiply and add",
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            "x86_64, fused multiply-add"
+        } else {
+            "x86_64, separate multiply and add"
         }
     }
     #[cfg(not(target_arch = "x86_64"))]
@@ -116,9 +117,10 @@ pub fn arithmetic() -> &'static str {
 /// Returns the grid's spacing: a graded grid without anything to refine towards is in fact uniform.
 fn grid(setup: &Setup) -> &'static str {
     let even = RadialGrid::uniform(setup.grid.cells(), setup.grid.radius());
-    match even.is_ok_and(|even| even.nodes() == setup.grid.nodes()) {
-        true => Spacing::Uniform.name(),
-        false => setup.spacing.name(),
+    if even.is_ok_and(|even| even.nodes() == setup.grid.nodes()) {
+        Spacing::Uniform.name()
+    } else {
+        setup.spacing.name()
     }
 }
 

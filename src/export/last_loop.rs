@@ -23,9 +23,10 @@ pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
     let Some(period) = simulation.fine_period() else {
         return Vec::new();
     };
-    let begin = match period.cycles > LONGEST {
-        true => simulation.cycle() - 1.0,
-        false => f64::NEG_INFINITY,
+    let begin = if period.cycles > LONGEST {
+        simulation.cycle() - 1.0
+    } else {
+        f64::NEG_INFINITY
     };
     let points = period.points.iter().filter(|point| point.cycle >= begin);
     let row = |point: &PeriodPoint| {

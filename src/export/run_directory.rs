@@ -59,9 +59,10 @@ impl RunDirectory {
             return Err(WriteError::refused(&self.path, rule));
         }
         let rule = "not empty; choose another directory or add --force";
-        match is_empty {
-            true => Ok(()),
-            false => Err(WriteError::refused(&self.path, rule)),
+        if is_empty {
+            Ok(())
+        } else {
+            Err(WriteError::refused(&self.path, rule))
         }
     }
 
@@ -94,9 +95,10 @@ impl RunDirectory {
         let checkpoint = run.checkpoint();
         if checkpoint.symlink_metadata().is_err() {
             let is_own = |name: OsString| name.to_str().is_some_and(&is_own);
-            return match run.results()?.into_iter().all(is_own) {
-                true => Ok(run),
-                false => run.refuse_results().map(|()| run),
+            return if run.results()?.into_iter().all(is_own) {
+                Ok(run)
+            } else {
+                run.refuse_results().map(|()| run)
             };
         }
         let (resume, hint) = (

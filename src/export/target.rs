@@ -98,9 +98,10 @@ impl Target {
     /// If the file exists.
     pub fn refuse_existing(&self, force: bool) -> Result<(), WriteError> {
         let rule = "already exists; choose another name or add --force";
-        match self.exists() && !force {
-            true => Err(WriteError::refused(&self.path, rule)),
-            false => Ok(()),
+        if self.exists() && !force {
+            Err(WriteError::refused(&self.path, rule))
+        } else {
+            Ok(())
         }
     }
 
@@ -128,7 +129,7 @@ impl Target {
     ///
     /// # Errors
     ///
-    /// If the system refuses, or the directory is another one by now; what was there before is then there still.
+    /// If the system refuses, or the directory has been replaced; the old file then stays.
     pub fn write(&self, contents: &[u8]) -> Result<(), WriteError> {
         self.write_with(|out| out.write_all(contents))
     }

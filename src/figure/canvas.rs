@@ -34,7 +34,7 @@ impl Anchor {
 
 /// A line through points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct Stroke {
     /// The points, mm.
     pub points: Vec<[f64; 2]>,
     /// Its colour.
@@ -64,7 +64,7 @@ pub struct Text {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A line through points.
-    Line(Line),
+    Line(Stroke),
     /// A filled rectangle.
     Area {
         /// Its upper left corner, mm.
@@ -94,7 +94,7 @@ pub struct Canvas {
 impl Canvas {
     /// Draws a line.
     pub fn line(&mut self, points: Vec<[f64; 2]>, ink: Rgb, width: f64, dashes: &'static [f64]) {
-        let line = Line {
+        let line = Stroke {
             points,
             ink,
             width,

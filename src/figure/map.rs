@@ -72,9 +72,12 @@ impl<'a> Key<'a> {
         let range = map.range();
         let is_there = |value: &f64| value.is_finite();
         let color = |value: f64| {
-            is_there(&value).then(|| match map.words.is_empty() {
-                true => look.mapped(map.colors, map.share(value, range)),
-                false => look.regime(value as usize),
+            is_there(&value).then(|| {
+                if map.words.is_empty() {
+                    look.mapped(map.colors, map.share(value, range))
+                } else {
+                    look.regime(value as usize)
+                }
             })
         };
         let within = |k: usize| {

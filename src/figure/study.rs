@@ -11,7 +11,7 @@ use crate::reading::column::unit_of;
 use crate::reading::{Column, Regime};
 use crate::scenario::nearest::nearest;
 use crate::scenario::{printable, schema};
-use crate::studies::sweep::slice::{Line, Slice};
+use crate::studies::sweep::slice::{Contour, Slice};
 use crate::studies::sweep::{self, Design};
 
 /// Maximum number of charts by default.
@@ -79,7 +79,7 @@ pub fn sheet(slice: &Slice, columns: &[String], name: &str) -> Result<Sheet, Str
     })
 }
 
-/// The columns of a sheet that nobody chose: of a map the first one and the regimes, of curves all but errors.
+/// The default columns of a sheet: for a map the first one and the regimes, for curves all except errors.
 fn usual(slice: &Slice) -> Vec<Column> {
     let named = slice.study.columns.iter().copied();
     let regime = named.clone().filter(|name| *name == REGIME);
@@ -147,7 +147,7 @@ pub fn quantity(name: &str, values: &[f64]) -> Axis {
     })
 }
 
-/// The values of a column at points; those of the regimes are the numbers of their words.
+/// The values of a column at points; regimes count as the numbers of their words.
 fn values(slice: &Slice, column: Column, points: impl Iterator<Item = usize>) -> Vec<f64> {
     let value = |point| match column {
         REGIME => slice.regime(point).map(|regime| f64::from(regime as u8)),
@@ -159,7 +159,7 @@ fn values(slice: &Slice, column: Column, points: impl Iterator<Item = usize>) ->
 }
 
 /// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
-pub fn chart(slice: &Slice, column: Column, lines: [Vec<Line>; 2]) -> Chart {
+pub fn chart(slice: &Slice, column: Column, lines: [Vec<Contour>; 2]) -> Chart {
     match slice.y() {
         Some(upwards) => map(slice, upwards, column, lines),
         None => points(slice, column),
@@ -180,7 +180,7 @@ fn map(
     slice: &Slice,
     upwards: &sweep::Axis,
     column: Column,
-    [borders, criteria]: [Vec<Line>; 2],
+    [borders, criteria]: [Vec<Contour>; 2],
 ) -> Chart {
     let [(x, xs, _), (y, ys, _)] = [slice.x(), upwards].map(|axis| gridded(slice, axis));
     let values = values(slice, column, slice.points());
@@ -191,9 +191,10 @@ fn map(
         quantity: quantity(column.name(), if is_regime { &[] } else { &values }),
         values,
         colors: ColorMap::Sequential,
-        words: match is_regime {
-            true => Regime::ALL.map(Regime::title).to_vec(),
-            false => Vec::new(),
+        words: if is_regime {
+            Regime::ALL.map(Regime::title).to_vec()
+        } else {
+            Vec::new()
         },
         places: [xs, ys],
     });

@@ -30,9 +30,10 @@ fn element(shape: &Shape) -> String {
             let points = line.points.iter().map(|point| point.map(length).join(","));
             let points: Vec<String> = points.collect();
             let dashes: Vec<String> = line.dashes.iter().map(|&dash| length(dash)).collect();
-            let dashes = match dashes.is_empty() {
-                true => String::new(),
-                false => format!(" stroke-dasharray=\"{}\"", dashes.join(" ")),
+            let dashes = if dashes.is_empty() {
+                String::new()
+            } else {
+                format!(" stroke-dasharray=\"{}\"", dashes.join(" "))
             };
             format!(
                 "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
@@ -52,9 +53,10 @@ fn element(shape: &Shape) -> String {
         }
         Shape::Text(text) => {
             let [x, y] = text.at.map(length);
-            let turned = match text.upwards {
-                true => format!(" transform=\"rotate(-90 {x} {y})\""),
-                false => String::new(),
+            let turned = if text.upwards {
+                format!(" transform=\"rotate(-90 {x} {y})\"")
+            } else {
+                String::new()
             };
             format!(
                 "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{}\"{turned}>{}</text>",

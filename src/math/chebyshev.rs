@@ -52,7 +52,7 @@ pub fn reach(stages: usize) -> f64 {
     (1.0 - 1e-9) * (W0 + 1.0) * one[2] / one[1]
 }
 
-/// T, T′ and T″ of a degree at w₀ from those of the two before it.
+/// T, T′ and T″ of a degree at w₀ from the two degrees before it.
 fn next(one: [f64; 3], two: [f64; 3]) -> [f64; 3] {
     [
         2.0 * W0 * one[0] - two[0],

@@ -123,9 +123,10 @@ impl Geometry {
     /// Tells what forces and volumes refer to; `None` for a round contact.
     pub fn remark(self) -> Option<String> {
         let length = self.length()?;
-        Some(match length == 1.0 {
-            true => "line, plane strain: forces, volumes and energies are per metre".into(),
-            false => format!("line, plane strain, {length:e} m long"),
+        Some(if length == 1.0 {
+            "line, plane strain: forces, volumes and energies are per metre".into()
+        } else {
+            format!("line, plane strain, {length:e} m long")
         })
     }
 }

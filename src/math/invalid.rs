@@ -43,9 +43,10 @@ pub fn non_negative(field: &'static str, value: f64) -> Result<f64, Invalid> {
 }
 
 fn checked(field: &'static str, value: f64, holds: bool, rule: &str) -> Result<f64, Invalid> {
-    match value.is_finite() && holds {
-        true => Ok(value),
-        false => Err(Invalid::new(field, value, rule)),
+    if value.is_finite() && holds {
+        Ok(value)
+    } else {
+        Err(Invalid::new(field, value, rule))
     }
 }
 

@@ -40,9 +40,10 @@ impl Fusing {
     ) -> [f64; LANES] {
         let mut sums = *c;
         for lane in 0..LANES {
-            sums[lane] = match self.0 {
-                true => a[lane].mul_add(b[lane], sums[lane]),
-                false => a[lane] * b[lane] + sums[lane],
+            sums[lane] = if self.0 {
+                a[lane].mul_add(b[lane], sums[lane])
+            } else {
+                a[lane] * b[lane] + sums[lane]
             };
         }
         sums

@@ -75,9 +75,10 @@ impl Axis {
     pub fn unit_for(&self, [low, high]: [f64; 2]) -> AxisUnit {
         let most = low.abs().max(high.abs());
         let expected = axis_unit(self.expects.max(most), self.unit);
-        match most >= LEAST * expected.factor {
-            true => expected,
-            false => axis_unit(most, self.unit),
+        if most >= LEAST * expected.factor {
+            expected
+        } else {
+            axis_unit(most, self.unit)
         }
     }
 

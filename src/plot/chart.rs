@@ -114,18 +114,20 @@ impl Curve {
     /// Returns the value at `x`: at a point of the curve, or interpolated linearly between the first two neighbouring
     /// points with `x` between them. `None` in gaps and outside.
     pub fn value_at(&self, x: f64) -> Option<f64> {
-        let values = match self.true_values.is_empty() {
-            true => &self.ys,
-            false => &self.true_values,
+        let values = if self.true_values.is_empty() {
+            &self.ys
+        } else {
+            &self.true_values
         };
         value_at(&self.xs, values, x)
     }
 
     /// Returns all values at `x`, in the order of the points; a loop has two almost everywhere.
     pub fn values_at(&self, x: f64) -> impl Iterator<Item = f64> {
-        let values = match self.true_values.is_empty() {
-            true => &self.ys,
-            false => &self.true_values,
+        let values = if self.true_values.is_empty() {
+            &self.ys
+        } else {
+            &self.true_values
         };
         let pairs = self.xs.windows(2).zip(values.windows(2));
         pairs.filter_map(move |(xs, ys)| {
@@ -255,8 +257,8 @@ impl Chart {
             let axis = [&self.x, &self.y][k];
             let points = curves().flat_map(|curve| curve.points().chain(curve.bars()));
             let points = points.filter(|at| across.has(at.0) && up.has(at.1) && seen(at.0));
-            let places = self.map.iter().flat_map(|map| &map.places[k]);
-            let places = places.chain(&axis.holds).copied();
+            let of_map = self.map.iter().flat_map(|map| &map.places[k]);
+            let places = of_map.chain(&axis.holds).copied();
             let places = places.filter(|place| axis.scale.has(*place));
             range(points.map(|at| [at.0, at.1][k]).chain(places))
         })

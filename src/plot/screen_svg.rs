@@ -57,13 +57,13 @@ fn rgb(color: Color, own: Rgb) -> Rgb {
 
 /// How a cell looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Look {
+struct CellStyle {
     fore: Rgb,
     back: Rgb,
     bold: bool,
 }
 
-impl Look {
+impl CellStyle {
     fn from_cell(cell: &Cell, ground: Ground) -> Self {
         let (mut fore, mut back) = (rgb(cell.fg, ground.fore), rgb(cell.bg, ground.back));
         if cell.modifier.contains(Modifier::REVERSED) {
@@ -120,7 +120,7 @@ impl Drawing {
     }
 
     /// Draws a cell's character as a shape; returns false if it is text.
-    fn sign(&mut self, sign: char, look: Look, (x, y): (f64, f64)) -> bool {
+    fn sign(&mut self, sign: char, look: CellStyle, (x, y): (f64, f64)) -> bool {
         let ((w, h), color) = (CELL, look.fore);
         if let Some(bits) = BRAILLE.iter().position(|&dots| dots == sign) {
             let dots = self.line(color, "\"3\" stroke-linecap=\"round\"");
@@ -170,7 +170,7 @@ pub fn hex([red, green, blue]: Rgb) -> String {
 
 /// A run of letters in one style, starting at a point on its baseline.
 struct Run {
-    look: Look,
+    look: CellStyle,
     at: (f64, f64),
     text: String,
 }
@@ -179,9 +179,10 @@ impl Run {
     fn write(&self, svg: &mut String) {
         let (text, (x, y)) = (self.text.trim_end(), self.at);
         let width = Line::raw(text).width() as f64 * CELL.0;
-        let bold = match self.look.bold {
-            true => " font-weight=\"bold\"",
-            false => "",
+        let bold = if self.look.bold {
+            " font-weight=\"bold\""
+        } else {
+            ""
         };
         let _ = writeln!(
             svg,
@@ -211,7 +212,7 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
         let (mut is_open, mut covered) = (false, 0);
         for at in row.positions() {
             let (cell, column) = (&buffer[at], f64::from(at.x - buffer.area.x));
-            let look = Look::from_cell(cell, ground);
+            let look = CellStyle::from_cell(cell, ground);
             let x = MARGIN + column * w;
             let y = MARGIN + f64::from(at.y - buffer.area.y) * h;
             if look.back != ground.back {

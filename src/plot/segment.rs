@@ -29,9 +29,10 @@ pub(super) fn walk(
     for along in nearest(k, a[k])..=nearest(k, b[k]) {
         let from_start = (along as f64).clamp(a[k], b[k]) - a[k];
         let across = nearest(other, a[other] + from_start * slope);
-        match is_steep {
-            true => visit(across, along, true),
-            false => visit(along, across, false),
+        if is_steep {
+            visit(across, along, true)
+        } else {
+            visit(along, across, false)
         }
     }
 }

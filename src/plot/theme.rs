@@ -193,9 +193,10 @@ impl Theme {
     /// Returns a text as this terminal can show it: without control characters, and in ASCII if necessary.
     pub fn printable(&self, text: &str) -> String {
         let text = text.replace(char::is_control, " ");
-        match self.ascii() {
-            true => to_ascii(&text).into_owned(),
-            false => text,
+        if self.ascii() {
+            to_ascii(&text).into_owned()
+        } else {
+            text
         }
     }
 

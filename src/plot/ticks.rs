@@ -191,9 +191,10 @@ fn log_ticks(window: &Window, factor: f64, labels: Labels) -> Option<Vec<Tick>> 
     let tick = |step: Step| {
         let value = step.value();
         let cell = window.cell(value)?;
-        let label = match plain {
-            true => Step(step.0 - 3 * shift).label(1.0),
-            false => format!("{}e{}", step.mantissa(), step.exponent() - shift),
+        let label = if plain {
+            Step(step.0 - 3 * shift).label(1.0)
+        } else {
+            format!("{}e{}", step.mantissa(), step.exponent() - shift)
         };
         Some(Tick { value, cell, label })
     };

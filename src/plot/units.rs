@@ -122,9 +122,10 @@ pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
             (format!("{symbol}{unit}"), factor)
         }
     };
-    let unit = match ascii {
-        true => to_ascii(&unit.replace('³', "^3")).into_owned(),
-        false => unit,
+    let unit = if ascii {
+        to_ascii(&unit.replace('³', "^3")).into_owned()
+    } else {
+        unit
     };
     (plain(value / factor), unit)
 }

@@ -313,9 +313,10 @@ impl<'p> Frame<'p> {
             let Some(&first) = painted.first() else {
                 continue;
             };
-            let sign = match style.fg.is_some() && !theme.ascii() {
-                true => '▀',
-                false => letter,
+            let sign = if style.fg.is_some() && !theme.ascii() {
+                '▀'
+            } else {
+                letter
             };
             let width = painted.len() as u16;
             for cell in painted {

@@ -138,7 +138,7 @@ impl Simulation {
             return None;
         }
         let figures = log.stepped_figures()?;
-        let ring = Unworn::of(self.setup()).ring()?;
+        let ring = Unworn::new(self.setup()).ring()?;
         let of = |seen: f64, due: f64| seen / due - 1.0;
         let both = [
             of(figures.force_amplitude, ring.force),

@@ -173,7 +173,7 @@ impl Column {
         TABLE[self as usize].2
     }
 
-    /// The unit as it is written.
+    /// The unit as written in files.
     pub fn unit(self) -> &'static str {
         unit_of(self.name())
     }

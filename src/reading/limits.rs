@@ -99,7 +99,7 @@ impl Simulation {
 }
 
 fn warnings(setup: &Setup) -> Vec<String> {
-    let unworn = Unworn::of(setup);
+    let unworn = Unworn::new(setup);
     let depth = unworn.deepest();
     let radius = unworn.radius(depth);
     let mut lines = Vec::new();
@@ -239,7 +239,7 @@ fn at_deepest(setup: &Setup) -> Result<Setup, Invalid> {
             },
             None,
         )
-        .on(setup.geometry, &setup.material, gauge),
+        .in_geometry(setup.geometry, &setup.material, gauge),
         wear: None,
         running_in: None,
         hardness: None,

@@ -28,9 +28,10 @@ pub(super) fn divided(nodes: &[f64], loads: [Load<'_>; 2]) -> [Vec<f64>; 3] {
         let root = |t: f64| dome.map_or(0.0, |dome| dome.at(t));
         let j = (first..last).find(|&j| square(j + 1) >= t).unwrap_or(last);
         let is_rim = end.edge >= square(last + 1);
-        let (to, there) = match j < last || is_rim {
-            true => (square(j + 1), load[j + 1]),
-            false => (end.edge, 0.0),
+        let (to, there) = if j < last || is_rim {
+            (square(j + 1), load[j + 1])
+        } else {
+            (end.edge, 0.0)
         };
         let [from, to_rest] = [load[j] - root(square(j)), there - root(to)];
         root(t) + from + (to_rest - from) * (t - square(j)) / (to - square(j))

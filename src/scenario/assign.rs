@@ -45,7 +45,7 @@ pub(super) fn assign(
     Ok(())
 }
 
-/// Puts `value` at a known `path`, in the place of what does not go with it.
+/// Puts `value` at a known `path`, and removes what it excludes.
 pub(super) fn put(table: &mut Table, origin: &mut Origin, path: &str, value: Value, written: &str) {
     drop_replaced(table, path);
     origin.assign(path, written);

@@ -113,9 +113,10 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
 fn bytes_from(from: impl Read, most: u64) -> Result<Vec<u8>, Unread> {
     let mut bytes = Vec::new();
     from.take(most + 1).read_to_end(&mut bytes)?;
-    match bytes.len() as u64 > most {
-        true => Err(Unread::TooLarge(most)),
-        false => Ok(bytes),
+    if bytes.len() as u64 > most {
+        Err(Unread::TooLarge(most))
+    } else {
+        Ok(bytes)
     }
 }
 

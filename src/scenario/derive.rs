@@ -21,9 +21,10 @@ const WORN_LINE: f64 = 2.0;
 
 /// Default grid and scheme: the published methods run as published.
 pub fn choices(method: AbelMethod) -> (Spacing, Scheme) {
-    match AbelMethod::PUBLISHED.contains(&method) {
-        true => (Spacing::Uniform, Scheme::Euler),
-        false => (Spacing::Graded, Scheme::Trapezoid),
+    if AbelMethod::PUBLISHED.contains(&method) {
+        (Spacing::Uniform, Scheme::Euler)
+    } else {
+        (Spacing::Graded, Scheme::Trapezoid)
     }
 }
 

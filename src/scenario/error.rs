@@ -195,7 +195,7 @@ impl Origin {
         Refusal::new(self.place(path, value), rule)
     }
 
-    /// Reports that there is no value at `path`, which means `meaning`.
+    /// Reports that the value at `path`, which means `meaning`, is missing.
     pub fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
         Refusal::missing(&self.name, path, meaning)
     }

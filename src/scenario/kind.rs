@@ -127,9 +127,12 @@ impl fmt::Display for Range {
             Self::Positive => f.write_str("greater than 0"),
             Self::NotNegative => f.write_str("0 or greater"),
             Self::Within(least, most) => {
-                let short = |end: f64| match end == 0.0 || (1e-3..1e9).contains(&end) {
-                    true => end.to_string(),
-                    false => format!("{end:e}"),
+                let short = |end: f64| {
+                    if end == 0.0 || (1e-3..1e9).contains(&end) {
+                        end.to_string()
+                    } else {
+                        format!("{end:e}")
+                    }
                 };
                 write!(f, "from {} to {}", short(*least), short(*most))
             }

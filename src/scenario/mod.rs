@@ -206,9 +206,10 @@ impl Scenario {
     /// Where the domain radius comes from.
     pub fn domain(&self) -> Domain {
         let is_given = self.spec.numerics.domain_radius.is_some();
-        match is_given || self.setup.indenter.rim().is_some() {
-            true => Domain::Given,
-            false => Domain::Derived,
+        if is_given || self.setup.indenter.rim().is_some() {
+            Domain::Given
+        } else {
+            Domain::Derived
         }
     }
 
@@ -274,9 +275,9 @@ impl Scenario {
 
     /// Returns the origin without directories and extension, in characters valid in any file name.
     pub fn stem(&self) -> String {
-        let stem = Path::new(&self.origin).file_stem();
-        let stem = stem.map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
-        let mut stem = stem.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-");
+        let name = Path::new(&self.origin).file_stem();
+        let name = name.map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
+        let mut stem = name.replace(|c: char| !c.is_alphanumeric() && !"-_.+".contains(c), "-");
         // Leaves room for a number and an extension, so that file systems accept the name.
         let mut ends = (0..=LONGEST_STEM.min(stem.len())).rev();
         stem.truncate(ends.find(|&end| stem.is_char_boundary(end)).unwrap_or(0));

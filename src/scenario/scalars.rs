@@ -191,7 +191,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// The columns that are scalars; those of `history.csv` stand first, in their order.
+/// The columns that are scalars, beginning with the columns of `history.csv` in their order.
 pub fn all() -> impl Iterator<Item = Column> + Clone {
     let history = Column::HISTORY.into_iter();
     history.chain(Column::FURTHER).chain(Column::ERRORS)

@@ -246,9 +246,10 @@ impl Session {
         let mut simulation = before.simulation.clone();
         // If no key changes the domain, it may have grown.
         let radius = |scenario: &Scenario| scenario.setup().grid.radius();
-        let domain = match radius(&scenario) == radius(&before.scenario) {
-            true => Domain::Derived,
-            false => scenario.domain(),
+        let domain = if radius(&scenario) == radius(&before.scenario) {
+            Domain::Derived
+        } else {
+            scenario.domain()
         };
         simulation.reconfigure(scenario.setup().clone(), domain)?;
         self.log = before.log.clone();

@@ -110,9 +110,12 @@ fn is_unprintable(c: char) -> bool {
 
 /// Formats a basic string on one line, escaping special characters: TOML has the escapes of JSON.
 fn escaped(text: &str) -> String {
-    let escaped = |c| match is_unprintable(c) {
-        true => format!("\\U{:08X}", u32::from(c)),
-        false => c.to_string(),
+    let escaped = |c| {
+        if is_unprintable(c) {
+            format!("\\U{:08X}", u32::from(c))
+        } else {
+            c.to_string()
+        }
     };
     let quoted = serde_json::Value::from(text).to_string();
     quoted.chars().map(escaped).collect()

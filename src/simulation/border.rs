@@ -45,7 +45,7 @@ const RING_CELLS: usize = 20;
 const THINNEST: f64 = 1e-7;
 
 /// Whether a grid graded for `before` also suits `after`.
-pub(super) fn stays(before: &Setup, after: &Setup) -> bool {
+pub(super) fn suits_both(before: &Setup, after: &Setup) -> bool {
     let alike = |setup: &Setup| {
         (
             setup.grid.cells(),
@@ -97,7 +97,7 @@ fn around_border(
 /// Grades the grid for a held normal load, towards the border of the unworn contact: if wear will move that border
 /// under a held force, and if the ring of slip is too thin for uniform cells. No node counts as the border.
 fn around_ring(uniform: &Setup) -> Option<Setup> {
-    let ring = Unworn::of(uniform).ring()?;
+    let ring = Unworn::new(uniform).ring()?;
     let (border, edge, grid) = (ring.stick_radius, ring.contact_radius, &uniform.grid);
     let (cells, radius) = (grid.cells(), grid.radius());
     let is_held = matches!(uniform.drive.normal(), Control::Force(_));
@@ -106,7 +106,7 @@ fn around_ring(uniform: &Setup) -> Option<Setup> {
         None if is_held && uniform.wear.is_some() => RadialGrid::graded(cells, border, radius),
         None => return None,
     };
-    Some(uniform.on(graded.ok()?.without_border()))
+    Some(uniform.with_grid(graded.ok()?.without_border()))
 }
 
 /// Places cells by the scar of a coarser run.
@@ -115,9 +115,9 @@ fn around_scar(uniform: &Setup, from: Option<&Simulation>) -> Option<Setup> {
     uniform.drive.tangential()?;
     let (cells, radius) = (uniform.grid.cells(), uniform.grid.radius());
     let coarse = RadialGrid::uniform(cells_of_pilot(cells), radius).ok()?;
-    let run = pilot(&uniform.on(coarse), from, SCAR_PERIODS, SCAR_STEPS)?;
+    let run = pilot(&uniform.with_grid(coarse), from, SCAR_PERIODS, SCAR_STEPS)?;
     let grid = placing::place(&run.setup().grid, &run.state.wear, cells, &uniform.indenter);
-    Some(uniform.on(grid?))
+    Some(uniform.with_grid(grid?))
 }
 
 fn cells_of_pilot(cells: usize) -> usize {
@@ -138,14 +138,14 @@ fn thin_ring(grid: &RadialGrid, border: f64, edge: f64) -> Option<usize> {
 
 /// Returns the width, m, of the ring of slip of a held load, if it is thinner than any cell can be.
 pub(crate) fn unseen_ring(setup: &Setup) -> Option<f64> {
-    let ring = Unworn::of(setup).ring()?;
+    let ring = Unworn::new(setup).ring()?;
     let width = ring.contact_radius - ring.stick_radius;
     (setup.indenter.rim().is_none() && width < THINNEST * setup.grid.radius()).then_some(width)
 }
 
 fn uniform(setup: &Setup) -> Setup {
     let grid = RadialGrid::uniform(setup.grid.cells(), setup.grid.radius());
-    setup.on(grid.unwrap_or_else(|_| setup.grid.clone()))
+    setup.with_grid(grid.unwrap_or_else(|_| setup.grid.clone()))
 }
 
 /// Returns g at the border of the permanent stick zone, and the radius of that border on the unworn indenter.
@@ -154,7 +154,7 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
     // The border moves while friction runs in.
     let running_in = setup.running_in.as_ref();
     let moves = running_in.is_some_and(|all| all.friction.is_some());
-    let found = Unworn::of(setup).melan().filter(|_| !moves);
+    let found = Unworn::new(setup).melan().filter(|_| !moves);
     found.filter(|(_, border)| *border < setup.grid.radius())
 }
 
@@ -163,7 +163,7 @@ fn melan(setup: &Setup) -> Option<(f64, f64)> {
 fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<Setup> {
     let radius = setup.grid.radius();
     let rough = RadialGrid::graded(cells, border, radius).ok()?;
-    let unworn = Unworn::of(setup);
+    let unworn = Unworn::new(setup);
     let edge = unworn.radius(unworn.deepest());
     let inside = |hair: f64| border - hair.max(INSIDE_MOVED * moved);
     let is_line = setup.geometry.is_line();
@@ -178,7 +178,7 @@ fn with_border(setup: &Setup, border: f64, moved: f64, cells: usize) -> Option<S
     };
     let grid = grid.ok()?;
     // The basis with a root at the border is not available for line contacts yet.
-    Some(setup.on(if is_line { grid.without_border() } else { grid }))
+    Some(setup.with_grid(if is_line { grid.without_border() } else { grid }))
 }
 
 /// Runs `setup` over `periods` of the motion, with at most `steps` steps per cycle.

@@ -98,7 +98,7 @@ pub(super) struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     /// That of springs on a `profile`, which stood as in the contact `before`.
-    pub fn on(model: &'a Model, profile: &'a Profile, before: &'a Contact) -> Self {
+    pub fn new(model: &'a Model, profile: &'a Profile, before: &'a Contact) -> Self {
         Self {
             model,
             profile,

@@ -155,7 +155,7 @@ impl<'a> Passage<'a> {
         let contact = state.contact.clone();
         let mut passage = Self {
             simulation,
-            touch: Touch::on(setup, state, profile.g.iter().copied()),
+            touch: Touch::new(setup, state, profile.g.iter().copied()),
             profile,
             cycle,
             spare: [contact.clone(), contact.clone()],
@@ -177,7 +177,7 @@ impl<'a> Passage<'a> {
             0 => (&self.contact, first),
             _ => (&*first, second),
         };
-        Problem::on(model, &self.profile, before).solve(targets, after, &mut self.slip)
+        Problem::new(model, &self.profile, before).solve(targets, after, &mut self.slip)
     }
 
     /// Goes to the cycle `end` in `pairs` of steps per cycle of the faster motion; returns the moments on the way, this
@@ -219,9 +219,10 @@ impl<'a> Passage<'a> {
         let (setup, now) = (self.simulation.setup(), self.cycle);
         let rounding = rounding(setup, now);
         let regular = ((now / longest + 1e-6).floor() + 1.0) * longest;
-        let until = match regular > end - rounding {
-            true => end,
-            false => regular,
+        let until = if regular > end - rounding {
+            end
+        } else {
+            regular
         };
         let turn = self.touch.turning_point(setup, now + rounding, until);
         let touching =

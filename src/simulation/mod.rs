@@ -136,12 +136,12 @@ impl Simulation {
     }
 
     fn continued(model: Model, state: State) -> Result<Self, Breakdown> {
-        let mut simulation = Self::with(model, state);
-        simulation.settle()?;
+        let mut simulation = Self::from_parts(model, state);
+        simulation.solve_contact()?;
         Ok(simulation)
     }
 
-    fn with(model: Model, state: State) -> Self {
+    fn from_parts(model: Model, state: State) -> Self {
         Self {
             spare: [state.clone(), state.clone()],
             scratch: Scratch::new(&model),
@@ -267,7 +267,7 @@ impl Simulation {
     fn look_ahead(&self) -> (f64, bool) {
         let g = self.model.profile_from_axis(&self.state.image);
         let (setup, state) = (self.setup(), &self.state);
-        let touch = moments::Touch::on(setup, state, g);
+        let touch = moments::Touch::new(setup, state, g);
         let turning = |from, until| touch.turning_point(setup, from, until);
         moments::next(setup, touch, state.cycle, state.steps > 0, turning)
     }
@@ -277,9 +277,10 @@ impl Simulation {
         let (state, spare) = (&self.state, &mut self.spare);
         if let Err(cause) = step::step(&mut self.model, state, spare, &mut self.scratch, cycle) {
             self.run_in();
-            return match cause.lacks_room() && self.grow()? {
-                true => self.step_to(cycle, turns),
-                false => Err(self.refused(cause)),
+            return if cause.lacks_room() && self.grow()? {
+                self.step_to(cycle, turns)
+            } else {
+                Err(self.refused(cause))
             };
         }
         std::mem::swap(&mut self.state, &mut self.spare[0]);
@@ -298,9 +299,9 @@ impl Simulation {
     }
 
     /// Solves the contact at the present cycle, without wear and without advancing time.
-    fn settle(&mut self) -> Result<(), Breakdown> {
+    fn solve_contact(&mut self) -> Result<(), Breakdown> {
         self.run_in();
-        step::settle(&self.model, &mut self.state, &mut self.scratch)
+        step::solve_contact(&self.model, &mut self.state, &mut self.scratch)
             .map_err(|cause| self.refused(cause))?;
         self.spare[0].clone_from(&self.state);
         self.run_in();
@@ -348,7 +349,7 @@ impl Simulation {
         let mut slip = vec![0.0; springs];
         let even = even_end(model, &before.contact.load);
         let profile = Profile::of_worn(model, [&before.wear, &before.image], even);
-        let problem = contact::Problem::on(model, &profile, &before.contact);
+        let problem = contact::Problem::new(model, &profile, &before.contact);
         let targets = model.setup.drive.targets(cycle);
         problem.solve(targets, &mut contact, &mut slip).ok()?;
         Some(contact)

@@ -22,7 +22,7 @@ pub(super) struct Touch {
 
 impl Touch {
     /// Reads them from the contact after a step, on the 1D profile `g` (m), from the axis outwards.
-    pub fn on(setup: &Setup, state: &State, mut g: impl Iterator<Item = f64>) -> Self {
+    pub fn new(setup: &Setup, state: &State, mut g: impl Iterator<Item = f64>) -> Self {
         let axis = g.next().unwrap_or(f64::INFINITY);
         // If the motion never leaves the axis, it never leaves a lower point.
         let tip = if setup.drive.normal().oscillation().lowest() > axis {

@@ -55,9 +55,10 @@ pub(crate) fn place(
     let tip = indenter.tip_radius();
     if tip > 0.0 && tip < radius {
         let after = placed.partition_point(|&r| r < tip).clamp(2, cells - 1);
-        let nearest = match tip - placed[after - 1] < placed[after] - tip {
-            true => after - 1,
-            false => after,
+        let nearest = if tip - placed[after - 1] < placed[after] - tip {
+            after - 1
+        } else {
+            after
         };
         placed[nearest] = tip;
     }

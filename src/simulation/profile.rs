@@ -122,9 +122,10 @@ fn end_of_scar(
     // Where the line through two depths ends.
     let line = |[inner, outer]: [f64; 2]| {
         let falls = (inner - outer) / (t[last] - t[last - 1]);
-        match falls > 0.0 {
-            true => (t[last] + outer / falls).min(next),
-            false => next,
+        if falls > 0.0 {
+            (t[last] + outer / falls).min(next)
+        } else {
+            next
         }
     };
     let depths = [last - 1, last].map(&wear);

@@ -35,8 +35,8 @@ impl Simulation {
     /// If the new parts cannot hold the contact, or would lose wear; the simulation stays unchanged.
     pub fn reconfigure(&mut self, setup: Setup, domain: Domain) -> Result<(), Breakdown> {
         let setup = self.holding_wear(setup, domain)?;
-        let setup = if border::stays(self.setup(), &setup) {
-            setup.on(self.setup().grid.clone())
+        let setup = if border::suits_both(self.setup(), &setup) {
+            setup.with_grid(self.setup().grid.clone())
         } else {
             border::graded(&setup, Some(self))
         };
@@ -48,7 +48,7 @@ impl Simulation {
                 share: lost / worn,
             }));
         }
-        changed.settle()?;
+        changed.solve_contact()?;
         *self = changed;
         Ok(())
     }
@@ -66,13 +66,13 @@ impl Simulation {
         let Ok(grid) = before.grid.widened(radius) else {
             return Ok(false);
         };
-        let mut setup = before.on(grid);
+        let mut setup = before.with_grid(grid);
         if before.grid.border().is_some() || before.geometry.is_line() {
             setup = border::graded(&setup, Some(self));
         }
         let (mut wider, _) = self.moved_to(Model::new(setup, None));
         wider.state.jump.length = self.state.jump.length;
-        wider.settle()?;
+        wider.solve_contact()?;
         wider.is_shortened = self.is_shortened;
         *self = wider;
         Ok(true)
@@ -103,7 +103,7 @@ impl Simulation {
     fn moved_to(&self, model: Model) -> (Self, f64) {
         let mut state = self.state_on(&model.setup);
         if model.grid == self.model.grid {
-            return (Self::with(model, state), 0.0);
+            return (Self::from_parts(model, state), 0.0);
         }
         let scar = self.setup().initial_wear(&model.grid);
         let since = state.wear.iter().zip(&scar);
@@ -118,7 +118,7 @@ impl Simulation {
                 *depth = scar + kept * since;
             }
         }
-        (Self::with(model, state), (worn - blurred).abs())
+        (Self::from_parts(model, state), (worn - blurred).abs())
     }
 
     /// Returns the present state on the grid of another setup.

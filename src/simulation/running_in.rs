@@ -140,9 +140,9 @@ impl Course {
                 last,
                 constant,
                 over,
-            } => last + (first - last) * (-over.of(cycles, energy) / constant).exp(),
+            } => last + (first - last) * (-over.pick(cycles, energy) / constant).exp(),
             Self::Table { rows, over } => {
-                let x = over.of(cycles, energy);
+                let x = over.pick(cycles, energy);
                 let k = rows.partition_point(|row| row.0 <= x);
                 match (k.checked_sub(1).map(|k| rows[k]), rows.get(k)) {
                     (Some(before), Some(next)) => {
@@ -201,11 +201,11 @@ impl Course {
     fn is_settled(&self, cycles: f64, energy: f64) -> bool {
         match self {
             Self::Exponential { constant, over, .. } => {
-                (-over.of(cycles, energy) / constant).exp() < SETTLED
+                (-over.pick(cycles, energy) / constant).exp() < SETTLED
             }
             Self::Table { rows, over } => rows
                 .last()
-                .is_none_or(|last| over.of(cycles, energy) >= last.0),
+                .is_none_or(|last| over.pick(cycles, energy) >= last.0),
         }
     }
 }
@@ -219,7 +219,7 @@ impl Over {
         }
     }
 
-    fn of(self, cycles: f64, energy: f64) -> f64 {
+    fn pick(self, cycles: f64, energy: f64) -> f64 {
         match self {
             Self::Cycles => cycles,
             Self::Energy => energy,

@@ -69,7 +69,7 @@ impl Simulation {
         let setup = Setup { grid, ..setup };
         check(&setup, &saved.state)?;
         let model = Model::new(setup, None);
-        let mut simulation = Self::with(model, saved.state);
+        let mut simulation = Self::from_parts(model, saved.state);
         simulation.run_in();
         simulation.next = simulation.look_ahead();
         Ok(simulation)

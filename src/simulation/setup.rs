@@ -16,7 +16,7 @@ use crate::wear::WearLaw;
 pub struct Setup {
     /// Nodes of the 3D and the 1D contact.
     pub grid: RadialGrid,
-    /// Geometry of the contact; drive and material must be [made for it](Drive::on).
+    /// Geometry of the contact; drive and material must be [made for it](Drive::in_geometry).
     pub geometry: Geometry,
     /// Moduli and friction.
     pub material: Material,
@@ -49,7 +49,7 @@ pub struct Setup {
 
 impl Setup {
     /// Returns the same setup on another grid.
-    pub(super) fn on(&self, grid: RadialGrid) -> Self {
+    pub(super) fn with_grid(&self, grid: RadialGrid) -> Self {
         Self {
             grid,
             ..self.clone()

@@ -59,7 +59,7 @@ pub(crate) struct Ring {
 
 impl<'a> Unworn<'a> {
     /// Returns the unworn contact of a setup.
-    pub fn of(setup: &'a Setup) -> Self {
+    pub fn new(setup: &'a Setup) -> Self {
         Self {
             geometry: setup.geometry,
             indenter: &setup.indenter,

@@ -212,9 +212,10 @@ impl Increment {
             0 => 0.0,
             nodes => row.beyond_rigid(slip, nodes - 1),
         };
-        let between_springs = match self.within.is_ragged {
-            true => 0.0,
-            false => row.between_springs(&before.load) + row.between_springs(&after.load),
+        let between_springs = if self.within.is_ragged {
+            0.0
+        } else {
+            row.between_springs(&before.load) + row.between_springs(&after.load)
         };
         let nodal = &self.rubbing.nodal;
         let in_cells = row.work(nodal, slip, after.normal);

@@ -136,9 +136,10 @@ impl Within {
             for (j, friction) in friction[..end].iter_mut().enumerate() {
                 let load = if let Some(Some(found)) = follow(j) {
                     slip[j] = found.length;
-                    self.states[j] = match found.length > 0.0 {
-                        true => SpringState::Forward,
-                        false => SpringState::Backward,
+                    self.states[j] = if found.length > 0.0 {
+                        SpringState::Forward
+                    } else {
+                        SpringState::Backward
                     };
                     found.load
                 } else if slip[j] != 0.0 {

@@ -120,13 +120,14 @@ impl Ghost {
                 None => {}
             }
         }
-        match ghost.tables.is_empty() {
-            true => Err(columns.refuse(format!(
+        if ghost.tables.is_empty() {
+            Err(columns.refuse(format!(
                 "has nothing to draw: needs r_m with wear_m or f_m, u_m with F_N, or cycle with \
-                 wear_volume_m3 or depth_m; the first line names {}",
+             wear_volume_m3 or depth_m; the first line names {}",
                 columns.list_names()
-            ))),
-            false => Ok(ghost),
+            )))
+        } else {
+            Ok(ghost)
         }
     }
 

@@ -40,19 +40,19 @@ impl Format {
 
 /// A column: a heading shared with its neighbours, only in texts and empty if there is none; its own heading, which is
 /// the key in files; and its format.
-pub type Column = (&'static str, &'static str, Format);
+pub type Heading = (&'static str, &'static str, Format);
 
 /// Columns and rows.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Table {
-    columns: Vec<Column>,
+pub struct Report {
+    columns: Vec<Heading>,
     pub(super) rows: Vec<Vec<Value>>,
 }
 
-impl Table {
+impl Report {
     /// Makes a table without rows, from groups of columns: their shared heading, their names separated by blanks, and
     /// their format.
-    pub fn with_columns(columns: &[Column]) -> Self {
+    pub fn with_columns(columns: &[Heading]) -> Self {
         let columns = columns.iter().flat_map(|&(group, names, format)| {
             let names = names.split(' ');
             names.map(move |name| (group, name, format))
@@ -98,9 +98,12 @@ impl Table {
         let name = |at: usize, width| columns[at].2.aligned(columns[at].1, width);
         text += &line(&widths, |at| at + 1, name);
         for row in &self.rows {
-            let end = |at: usize| match columns[at].2.is_spanned_by(&row[at]) {
-                true => self.group_end(at),
-                false => at + 1,
+            let end = |at: usize| {
+                if columns[at].2.is_spanned_by(&row[at]) {
+                    self.group_end(at)
+                } else {
+                    at + 1
+                }
             };
             let cell = |at: usize, width| {
                 let (.., format) = columns[at];
@@ -121,7 +124,7 @@ impl Table {
 
     /// Returns one past the last column of the group of column `at`.
     fn group_end(&self, at: usize) -> usize {
-        let is_of_it = |other: &&Column| other.0 == self.columns[at].0;
+        let is_of_it = |other: &&Heading| other.0 == self.columns[at].0;
         at + self.columns[at..].iter().take_while(is_of_it).count()
     }
 }
@@ -145,7 +148,7 @@ fn line(
     line.join(GAP).trim_end().to_owned() + "\n"
 }
 
-impl Serialize for Table {
+impl Serialize for Report {
     /// Writes a list of objects, with keys in the order of the columns.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let names = self.names();
@@ -166,8 +169,8 @@ impl Serialize for Object<'_> {
 mod tests {
     use super::*;
 
-    fn table() -> Table {
-        let mut table = Table::with_columns(&[
+    fn table() -> Report {
+        let mut table = Report::with_columns(&[
             ("", "method", Format::Words),
             ("", "N", Format::Rough),
             ("g", "max", Format::Rough),

@@ -89,7 +89,7 @@ impl Theory {
         if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
             return theory;
         }
-        theory.stick_radius = Unworn::of(setup).melan().map(|(_, radius)| radius);
+        theory.stick_radius = Unworn::new(setup).melan().map(|(_, radius)| radius);
         let Some(radius) = setup.indenter.ball_radius() else {
             return theory;
         };
@@ -117,7 +117,7 @@ impl Theory {
     /// Finds the closed forms for a line contact of this `length` (m).
     fn of_line(setup: &Setup, length: f64) -> Self {
         let is_worn = setup.scar.is_some();
-        let melan = Unworn::of(setup).melan().filter(|_| !is_worn);
+        let melan = Unworn::new(setup).melan().filter(|_| !is_worn);
         let stick_radius = melan.map(|(_, radius)| radius);
         let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
         let normal = setup.drive.normal().oscillation();
@@ -172,7 +172,7 @@ impl Theory {
         });
         let by_law = || {
             let shift = setup.drive.tangential()?.displacement()?;
-            let unworn = Unworn::of(setup);
+            let unworn = Unworn::new(setup);
             let pressure = unworn.mean_pressure(unworn.deepest());
             let stress = setup.material.friction() * pressure;
             Some(4.0 * law.coefficient() * stress * shift.amplitude() * cycles?)

@@ -17,7 +17,7 @@ use crate::scenario::spec::{Numerics, Spec};
 use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Level, Outcome, Reached, Rung};
-use crate::studies::table::{Format, Table};
+use crate::studies::table::{Format, Report};
 
 /// Numbers of cells to try.
 pub const POINTS: [usize; 3] = [25, 50, 100];
@@ -39,7 +39,7 @@ const REPETITIONS: usize = 25;
 
 /// A method, its scheme, and its resolution.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub struct Candidate {
     /// The transforms; they determine the grid.
     pub method: AbelMethod,
     /// The time-stepping scheme.
@@ -48,14 +48,14 @@ pub struct Setting {
     pub level: Level,
 }
 
-impl Display for Setting {
+impl Display for Candidate {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Level { points, steps, .. } = self.level;
         write!(f, "{}, N = {points}, {steps} steps", self.method)
     }
 }
 
-impl Setting {
+impl Candidate {
     fn set(&self, numerics: &mut Numerics) {
         (numerics.method, numerics.scheme) = (Some(self.method), Some(self.scheme));
         self.level.set(numerics);
@@ -116,7 +116,7 @@ pub fn settings(
     methods: &[AbelMethod],
     points: &[usize],
     steps: &[u32],
-) -> Vec<Setting> {
+) -> Vec<Candidate> {
     let setup = scenario.setup();
     let wants_jumps = wants_jumps(scenario);
     let repeats = setup.drive.repeats_after().is_some() && setup.wear.is_some();
@@ -139,7 +139,7 @@ pub fn settings(
                 _ => steps,
             };
             for &steps in steps {
-                settings.extend(points.iter().map(|&points| Setting {
+                settings.extend(points.iter().map(|&points| Candidate {
                     method,
                     scheme,
                     level: Level::new(points, steps, tolerance),
@@ -213,7 +213,7 @@ fn wants_jumps(scenario: &Scenario) -> bool {
 #[derive(Debug, Clone)]
 pub struct Trial {
     /// The setting.
-    pub setting: Setting,
+    pub setting: Candidate,
     /// Time including set-up, s, and an upper bound on its error: the worst one against the reference plus the
     /// reference's own; `None` unless the run reached its end and passes its own checks.
     pub point: Option<[f64; 2]>,
@@ -228,7 +228,7 @@ impl Trial {
     /// Judges a run with `setting`. Checks that fail in the `reference` as well do not count, since the setting is not
     /// their cause.
     pub fn new(
-        setting: Setting,
+        setting: Candidate,
         ended: Result<(Session, f64), SessionError>,
         reference: &Reference,
     ) -> Self {
@@ -250,7 +250,7 @@ impl Trial {
                 row.resize(row.len() + 5, Value::Null);
             }
             Ok((session, seconds)) => {
-                let errors = Outcome::of(&session).against(&reference.outcome);
+                let errors = Outcome::from_session(&session).difference_from(&reference.outcome);
                 let complaints = complaints(&session, &reference.session);
                 if complaints.is_empty() && errors.promised().is_finite() {
                     point = Some([seconds, errors.promised() + reference.error]);
@@ -273,9 +273,10 @@ impl Trial {
                 ];
                 let told = told.into_iter().map(|of| errors[of]);
                 row.extend(told.chain([stick]).map(|error| finite(error).into()));
-                row.push(match complaints.is_empty() {
-                    true => "ok".into(),
-                    false => complaints.join(", ").into(),
+                row.push(if complaints.is_empty() {
+                    "ok".into()
+                } else {
+                    complaints.join(", ").into()
                 });
             }
         }
@@ -319,10 +320,10 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
 }
 
 /// Makes a table with one row per trial of `shown`, marking those on the front of `all`.
-pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Table {
+pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Report {
     let of_run = "points steps_per_cycle tolerance time_s steps transforms";
     let errors = "error_rms volume_error work_error force_error stick_error";
-    let mut table = Table::with_columns(&[
+    let mut table = Report::with_columns(&[
         ("", "method scheme integrator", Format::Words),
         ("", of_run, Format::Rough),
         ("against the reference", errors, Format::Rough),
@@ -343,7 +344,7 @@ mod tests {
 
     fn trial(points: usize, seconds: f64, worst: f64) -> Trial {
         Trial {
-            setting: Setting {
+            setting: Candidate {
                 method: AbelMethod::A,
                 scheme: Scheme::Euler,
                 level: Level::new(points, 100, None),
@@ -355,8 +356,8 @@ mod tests {
 
     fn reference(session: Session) -> Reference {
         Reference {
-            outcome: Outcome::of(&session),
-            level: Level::of(session.scenario()),
+            outcome: Outcome::from_session(&session),
+            level: Level::from_scenario(session.scenario()),
             session,
             error: 0.0,
             seconds: 0.0,

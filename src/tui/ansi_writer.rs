@@ -36,9 +36,10 @@ impl Pen {
     /// one byte instead of three.
     fn from_cell(cell: &Cell) -> (&str, Self) {
         let is_block = cell.symbol() == "█" && cell.modifier.is_empty() && cell.fg != Color::Reset;
-        let (symbol, fg, bg) = match is_block {
-            true => (" ", Color::Reset, cell.fg),
-            false => (cell.symbol(), cell.fg, cell.bg),
+        let (symbol, fg, bg) = if is_block {
+            (" ", Color::Reset, cell.fg)
+        } else {
+            (cell.symbol(), cell.fg, cell.bg)
         };
         let modifier = cell.modifier;
         (symbol, Self { fg, bg, modifier })

@@ -97,9 +97,10 @@ impl Twin {
     /// Returns the cycle of the last comparison and the run's estimated errors, or why there are none yet; the run is
     /// at `cycle`.
     pub fn errors(&self, cycle: f64) -> Result<(f64, Difference), String> {
-        let waits = match self.lags(cycle) {
-            true => "running ...",
-            false => NOTHING_YET,
+        let waits = if self.lags(cycle) {
+            "running ..."
+        } else {
+            NOTHING_YET
         };
         let stopped = self.beside.stopped.as_deref();
         self.told.ok_or_else(|| stopped.unwrap_or(waits).to_owned())
@@ -112,7 +113,7 @@ impl Twin {
         let is_ahead = self.beside.run.cycle() > cycle;
         if cycle > 0.0 && (is_due || must) && !is_ahead {
             self.due = cycle;
-            self.run = Some(Outcome::of(session));
+            self.run = Some(Outcome::from_session(session));
         }
     }
 
@@ -126,7 +127,7 @@ impl Twin {
         self.beside.follow(self.due, cycle.min(self.due), budget);
         let is_there = self.beside.run.cycle() >= self.due;
         if let Some(run) = self.run.take_if(|_| is_there) {
-            let twin = Outcome::of(&self.beside.run.session);
+            let twin = Outcome::from_session(&self.beside.run.session);
             self.told = Some((self.due, refinement::by_twin(&twin, &run)));
             self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
         }

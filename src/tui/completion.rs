@@ -242,8 +242,9 @@ fn preset_or(
 fn argument(command: &str, given: &str, help: &str, act: fn(&mut Explorer, String)) -> Completion {
     let completion = Completion::new(format!("{command} {given}"), help);
     let given = given.to_owned();
-    match given.is_empty() {
-        true => completion,
-        false => completion.doing(move |explorer| act(explorer, given)),
+    if given.is_empty() {
+        completion
+    } else {
+        completion.doing(move |explorer| act(explorer, given))
     }
 }

@@ -286,26 +286,22 @@ impl Explorer {
 
     pub(super) fn toggle_log(&mut self) {
         let focus = self.stage.focus;
-        match focus.recipe().can_be_log {
-            true => self.charts.toggle_log(focus),
-            false => {
-                let title = focus.recipe().title;
-                self.notice = Some(format!("the {title} panel has no logarithmic scale"));
-            }
+        if focus.recipe().can_be_log {
+            self.charts.toggle_log(focus)
+        } else {
+            let title = focus.recipe().title;
+            self.notice = Some(format!("the {title} panel has no logarithmic scale"));
         }
     }
 
     /// Loads a scenario, or the state in a directory.
     pub(super) fn load(&mut self, path: &Path) {
-        let loaded = match path.is_dir() {
-            true => {
-                snapshot::open(path).map(|run| self.order_anew(|worker| worker.replace_run(run)))
-            }
-            false => {
-                let scenario = Scenario::load(path, &[]);
-                let scenario = scenario.map_err(|error| one_line(&error.to_string()));
-                scenario.map(|scenario| self.order_anew(|run| _ = run.load(scenario)))
-            }
+        let loaded = if path.is_dir() {
+            snapshot::open(path).map(|run| self.order_anew(|worker| worker.replace_run(run)))
+        } else {
+            let scenario = Scenario::load(path, &[]);
+            let scenario = scenario.map_err(|error| one_line(&error.to_string()));
+            scenario.map(|scenario| self.order_anew(|run| _ = run.load(scenario)))
         };
         self.notice = loaded.err();
     }

@@ -112,11 +112,9 @@ impl Flow {
         }
         let rate = self.carried.map_or(SLOW, |[bytes, time]| bytes / time);
         // An answer that is late tells as much as one that has come.
-        let late = |oldest: &Mark| now - self.base - oldest.sent.max(self.end());
-        let late = self
-            .marks
-            .front()
-            .map(|oldest| (oldest.bytes, late(oldest)));
+        let delay = |oldest: &Mark| now - self.base - oldest.sent.max(self.end());
+        let oldest = self.marks.front();
+        let late = oldest.map(|oldest| (oldest.bytes, delay(oldest)));
         let late = late.filter(|(_, time)| *time > TICK);
         late.map_or(rate, |(bytes, time)| rate.min(bytes / time))
     }

@@ -38,10 +38,11 @@ impl Held {
         let grows = low < self.bounds[0] || high > self.bounds[1];
         let is_over = cycle - self.since >= 1.0;
         if grows || is_over {
-            let [a, b] = match is_over {
-                true => self.seen,
+            let [a, b] = if is_over {
+                self.seen
+            } else {
                 // Data already within the bounds stay within them.
-                false => [low.min(self.bounds[0]), high.max(self.bounds[1])],
+                [low.min(self.bounds[0]), high.max(self.bounds[1])]
             };
             self.bounds = sticky_bounds(Some(self.bounds), a, b);
         }

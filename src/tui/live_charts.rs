@@ -57,9 +57,10 @@ impl LiveCharts {
 
     /// Returns the scale of a panel's ordinate.
     pub fn scale(&self, panel: Panel) -> Scale {
-        match self.logarithmic.contains(&panel) {
-            true => Scale::Log,
-            false => Scale::Linear,
+        if self.logarithmic.contains(&panel) {
+            Scale::Log
+        } else {
+            Scale::Linear
         }
     }
 
@@ -138,11 +139,11 @@ impl LiveCharts {
             };
             let mut chart = recipe.chart(&frame.run, &view);
             let made = chart.as_ref().ok();
-            let across = made.filter(|_| recipe.keeps_abscissa);
-            let across = across.and_then(|chart| chart.x.bounds);
+            let keeps = made.filter(|_| recipe.keeps_abscissa);
+            let range = keeps.and_then(|chart| chart.x.bounds);
             let extent = made.and_then(|chart| extent(chart, recipe.has_spikes));
             let along = self.update_bounds(ordinate, extent, cycle);
-            let across = self.update_bounds((panel, None), across, cycle);
+            let across = self.update_bounds((panel, None), range, cycle);
             if let Ok(chart) = &mut chart {
                 chart.y.bounds = along;
                 chart.x.bounds = across.or(chart.x.bounds);
@@ -207,9 +208,12 @@ impl Calm {
     /// whole cycle, so that a contact shown large has the stress of one phase of the motion.
     pub fn update(&mut self, newest: &Arc<Frame>, slow: bool) -> bool {
         let begins = |frame: &Frame| frame.live.observation.moment.cycle.floor();
-        let may_stay = |calm: &Frame, lasted| match slow {
-            true => begins(calm) == begins(newest),
-            false => lasted < LASTS,
+        let may_stay = |calm: &Frame, lasted| {
+            if slow {
+                begins(calm) == begins(newest)
+            } else {
+                lasted < LASTS
+            }
         };
         let kept = self.0.take();
         let kept = kept.filter(|(calm, lasted)| may_stay(calm, *lasted) && may_last(calm, newest));
@@ -227,9 +231,10 @@ impl Calm {
     /// in every frame.
     pub fn shown<'a>(&'a self, panel: Panel, stage: &Stage, frame: &'a Frame) -> &'a Frame {
         let is_large = panel == Panel::Section && stage.shows_contact();
-        match panel.recipe().is_calm && !is_large {
-            true => self.frame_or(frame),
-            false => frame,
+        if panel.recipe().is_calm && !is_large {
+            self.frame_or(frame)
+        } else {
+            frame
         }
     }
 }

@@ -28,11 +28,12 @@ const TALL: u16 = 22;
 pub fn areas(area: Rect) -> [Rect; 3] {
     let words = if area.height >= TALL { WORDS } else { 0 };
     let [above, words] = Layout::vertical([Min(0), Length(words)]).areas(area);
-    let [contact, chart] = match area.width >= WIDE {
-        true => Layout::horizontal([Fill(5), Fill(3)])
+    let [contact, chart] = if area.width >= WIDE {
+        Layout::horizontal([Fill(5), Fill(3)])
             .spacing(1)
-            .areas(above),
-        false => Layout::vertical([Fill(3), Fill(2)]).areas(above),
+            .areas(above)
+    } else {
+        Layout::vertical([Fill(3), Fill(2)]).areas(above)
     };
     [contact, chart, words]
 }

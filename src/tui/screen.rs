@@ -75,9 +75,10 @@ fn panels(explorer: &Explorer, mut canvas: Canvas) {
 /// Draws a panel: its picture or its chart.
 fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
     let (frame, charts) = (&*explorer.frame, &explorer.charts);
-    let role = match explorer.stage.focus == panel {
-        true => Role::Focus,
-        false => Role::Title,
+    let role = if explorer.stage.focus == panel {
+        Role::Focus
+    } else {
+        Role::Title
     };
     match panel.content() {
         Content::Picture(picture) => {

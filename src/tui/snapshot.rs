@@ -141,10 +141,10 @@ fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
         let value = move |of| column(of).map_or(f64::NAN, |values| values[row]);
         (value, has_all.then(|| file.fields(row).into()))
     });
-    let steps = read("loop.csv").map(|file| Table::of_file(&file));
-    let steps = steps.unwrap_or_default();
+    let last = read("loop.csv").map(|file| Table::of_file(&file));
+    let last = last.unwrap_or_default();
     let [cycles, shifts, forces] = [Column::Cycle, Column::LoopShift, Column::LoopForce]
-        .map(|column| steps.column(column).unwrap_or_default());
+        .map(|column| last.column(column).unwrap_or_default());
     let steps = cycles.iter().zip(shifts).zip(forces);
     let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force, f64::NAN]);
     Some(Trend::of_past(entries, steps, initial))

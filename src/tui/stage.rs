@@ -258,9 +258,10 @@ impl Stage {
 
     /// Restores the focus. A contact shown large stays, and leads back to this focus later.
     fn return_from_tour(&mut self) {
-        match self.shows_contact() {
-            true => self.before_contact = Some(self.before_tour),
-            false => self.focus = self.before_tour,
+        if self.shows_contact() {
+            self.before_contact = Some(self.before_tour)
+        } else {
+            self.focus = self.before_tour
         }
     }
 

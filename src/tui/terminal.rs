@@ -52,7 +52,7 @@ const LARGEST: u16 = 1000;
 /// out, and room for what other threads take meanwhile.
 const SCREENS: usize = 8;
 
-/// The size of the terminal, as far as it is drawn on.
+/// The drawn size of the terminal, within limits.
 ///
 /// # Errors
 ///
@@ -64,7 +64,7 @@ pub fn size() -> io::Result<Size> {
     let (columns, rows) = (told.columns, told.rows);
     let size = Size::new(columns.min(LARGEST), rows.min(LARGEST));
     let cells = SCREENS * usize::from(size.width) * usize::from(size.height);
-    // An allocation that fails later on ends the process, and leaves the terminal as it is.
+    // A failed allocation would end the process and leave the terminal in raw mode.
     let refusal = format!("no memory for a screen of {columns} by {rows} characters");
     let reserved = Vec::<Cell>::new().try_reserve_exact(cells);
     reserved.map_or(Err(io::Error::other(refusal)), |()| Ok(size))

@@ -74,9 +74,12 @@ pub fn draw(frame: &Frame, mut canvas: Canvas) {
     };
     let sign = |signs: [&'static str; 2]| signs[usize::from(ascii)];
     let mut signs: Vec<Span<'_>> = (0..line.width)
-        .map(|column| match column <= place(now) && now > 0.0 {
-            true => Span::styled(sign(["━", "="]), theme.style(Role::Quiet)),
-            false => Span::styled(sign(["─", "-"]), theme.style(Role::Faint)),
+        .map(|column| {
+            if column <= place(now) && now > 0.0 {
+                Span::styled(sign(["━", "="]), theme.style(Role::Quiet))
+            } else {
+                Span::styled(sign(["─", "-"]), theme.style(Role::Faint))
+            }
         })
         .collect();
     let changes = frame.changes.iter();

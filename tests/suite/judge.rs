@@ -90,7 +90,10 @@ pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> 
         };
         let truths = [fine, apart].map(|fine| {
             let session = run_on(&scenario, &fine, cycles)?;
-            Ok(reached.rung.outcome.against(&Outcome::of(&session)))
+            Ok(reached
+                .rung
+                .outcome
+                .difference_from(&Outcome::from_session(&session)))
         });
         let truth = match truths {
             [Ok(one), Ok(other)] if other.promised() < one.promised() => Ok(other),
@@ -123,14 +126,17 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
     let level = Level {
         points: draw.log_between(24.0, 160.0).round() as usize,
         steps: (draw.log_between(12.0, 120.0) * turns).round() as u32,
-        ..Level::of(&scenario)
+        ..Level::from_scenario(&scenario)
     };
     let run = |level: &Level| run_on(&scenario, level, cycles);
     let session = run(&level)?;
     let estimate = refinement::estimate(&session, &|| true);
     let estimate = estimate.map_err(|error| error.to_string())?;
-    let fine = Outcome::of(&run(&finer(&level))?);
-    Ok((estimate, Outcome::of(&session).against(&fine)))
+    let fine = Outcome::from_session(&run(&finer(&level))?);
+    Ok((
+        estimate,
+        Outcome::from_session(&session).difference_from(&fine),
+    ))
 }
 
 /// Runs the scenario of a seed as it is: how far it is from a much finer run, and whether all its checks hold.
@@ -140,10 +146,10 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
 fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
     let scenario = random_scenarios::scenario(seed);
     let cycles = scenario.run().cycles.unwrap_or(0.0);
-    let level = Level::of(&scenario);
+    let level = Level::from_scenario(&scenario);
     let session = run_on(&scenario, &level, cycles)?;
     let fine = run_on(&scenario, &finer(&level), cycles)?;
-    let truth = Outcome::of(&session).against(&Outcome::of(&fine));
+    let truth = Outcome::from_session(&session).difference_from(&Outcome::from_session(&fine));
     Ok((truth, passes(&session)))
 }
 

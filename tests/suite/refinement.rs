@@ -156,7 +156,10 @@ fn the_result_is_the_run_of_the_last_rung() {
     };
     let fine = fine.of_scenario(&scenario).expect("a level");
     let fine = run(&fine, 10.0, &|| true).expect("a run");
-    let truth = reached.rung.outcome.against(&Outcome::of(&fine));
+    let truth = reached
+        .rung
+        .outcome
+        .difference_from(&Outcome::from_session(&fine));
     assert!(truth.promised() <= 1e-3, "{truth:?}");
 }
 

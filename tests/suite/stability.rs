@@ -10,7 +10,7 @@ use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::preset;
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
-use mdr_tui::studies::stability::{Outcome, Setting, Study, VISIBLE, sawtooth};
+use mdr_tui::studies::stability::{Ending, Study, VISIBLE, Variant, sawtooth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
@@ -196,7 +196,7 @@ const APART: f64 = 1.6;
 /// Smooth below the prediction by that factor, and not above.
 fn seen_where_predicted(cases: &[(AbelMethod, usize, u32, f64)]) {
     for &(method, points, steps, cycles) in cases {
-        let setting = Setting {
+        let setting = Variant {
             method,
             points,
             steps,
@@ -228,7 +228,7 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
     let study = study(20.0);
     for (method, points) in [(Product, 100), (A, 50), (A, 100), (APlusB, 100)] {
         let line = |guard| {
-            let setting = Setting {
+            let setting = Variant {
                 method,
                 points,
                 steps: 100,
@@ -242,7 +242,7 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
         eprintln!("{method}: seen/predicted {ratio:.2}");
         assert!((1.0 / 1.5..1.5).contains(&ratio), "{method}: {ratio}");
         let guarded = line(true);
-        let stable = |(_, outcome): &(f64, Outcome)| outcome.is_stable();
+        let stable = |(_, outcome): &(f64, Ending)| outcome.is_stable();
         assert!(guarded.outcomes.iter().all(stable), "{guarded:?}");
         assert_eq!(guarded.seen, None);
     }

@@ -6,7 +6,7 @@ use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::reading::Quantity;
 use mdr_tui::simulation::Scheme;
 use mdr_tui::studies::refinement::{Level, Outcome};
-use mdr_tui::studies::trade::{self, POINTS, STEPS, Setting};
+use mdr_tui::studies::trade::{self, Candidate, POINTS, STEPS};
 
 use crate::common::load;
 use crate::test_dir::{Said, TestDir, end, has, signal};
@@ -68,18 +68,18 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
     assert!(has_points, "{out}");
     // Against a reference of another make: Method A on many cells.
     let scenario = load("li2019-fig3", &[]);
-    let end = |setting: &Setting| {
+    let end = |setting: &Candidate| {
         let (session, _) = setting.run(&scenario, 3.0, &|| true).expect("a run");
-        Outcome::of(&session)
+        Outcome::from_session(&session)
     };
     let recommended = load("li2019-fig3", &sets);
     let setup = recommended.setup();
-    let setting = Setting {
+    let setting = Candidate {
         method: setup.method,
         scheme: setup.scheme,
-        level: Level::of(&recommended),
+        level: Level::from_scenario(&recommended),
     };
-    let reference = Setting {
+    let reference = Candidate {
         method: AbelMethod::A,
         scheme: Scheme::Trapezoid,
         level: Level {
@@ -89,7 +89,7 @@ fn the_cheapest_setting_for_an_accuracy_reaches_it() {
             nodes: None,
         },
     };
-    let errors = end(&setting).against(&end(&reference));
+    let errors = end(&setting).difference_from(&end(&reference));
     assert!(errors[Quantity::WornDepth] <= 8e-3, "{errors:?}");
     // The references differ by some of it.
     assert!(errors.promised() <= 1e-2, "{errors:?}");
@@ -115,7 +115,7 @@ fn every_setting_is_a_scenario() {
             let setup = made.setup();
             let (method, scheme) = (setup.method, setup.scheme);
             assert_eq!((method, scheme), (setting.method, setting.scheme));
-            assert_eq!(Level::of(&made), setting.level);
+            assert_eq!(Level::from_scenario(&made), setting.level);
         }
         // A million cycles are not stepped for a table.
         let mut jumps = settings.iter().map(|setting| setting.level.tolerance);

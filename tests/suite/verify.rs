@@ -3,7 +3,7 @@
 
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
 use mdr_tui::studies::verify::errors::Errors;
-use mdr_tui::studies::verify::{Outcome, Problem, Task, tasks};
+use mdr_tui::studies::verify::{Problem, Solved, Task, tasks};
 use serde_json::Value;
 
 use crate::common::near;
@@ -139,6 +139,6 @@ fn tasks_run_alike_twice() {
         method: A,
         points: 64,
     };
-    let (once, again): (Outcome, Outcome) = (task.run(), task.run());
+    let (once, again): (Solved, Solved) = (task.run(), task.run());
     assert_eq!(once, again);
 }

@@ -104,7 +104,7 @@ fn a_scar_is_not_worn_by_another_grid() {
     near("V − V₀", worn(&run), 3.465e-17, 2e-2);
     near("V/E_d", worn(&run) / energy(&run), before, 5e-3);
     assert_eq!(run.simulation().moment().initial_volume, initial);
-    let outcome = Outcome::of(&run);
+    let outcome = Outcome::from_session(&run);
     near("new wear", outcome.volume, worn(&run), 1e-9);
 }
 

@@ -178,7 +178,7 @@ pub struct Fit {
     /// Whether the tilt of a trace through the axis is fitted.
     #[arg(long, value_enum, default_value_t)]
     pub tilt: Beside,
-    /// Where loops and scenario differ in their stroke: refuse, or take that of the loops.
+    /// If loops and scenario differ in their stroke: refuse, or use the stroke of the loops.
     #[arg(long, value_enum, default_value_t)]
     pub stroke: Stroke,
     /// Time limit of the search, e.g. 60s or 5min; then the best found so far is told.

@@ -90,9 +90,10 @@ pub struct Sweep {
 fn word_parser() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|word| {
         let is_plain = |c: char| !c.is_whitespace() && !"#'\"\\$`;&|<>()".contains(c);
-        match !word.is_empty() && printable(&word) == word && word.chars().all(is_plain) {
-            true => Ok(word),
-            false => Err("must be a word without blanks and quotes"),
+        if !word.is_empty() && printable(&word) == word && word.chars().all(is_plain) {
+            Ok(word)
+        } else {
+            Err("must be a word without blanks and quotes")
         }
     })
 }

@@ -129,9 +129,10 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
         (None, _) if unit.is_empty() => return Err("must be a number".into()),
         (None, _) => return Err(format!("must be a number, in {unit} or with its unit")),
     };
-    match known.range.holds(value) {
-        true => Ok(Quantity { text, value }),
-        false => Err(format!("must be {}", known.range)),
+    if known.range.holds(value) {
+        Ok(Quantity { text, value })
+    } else {
+        Err(format!("must be {}", known.range))
     }
 }
 
@@ -186,9 +187,10 @@ impl Draft {
         write::sections(|known| {
             let (value, note) = self.0.get(known.path)?;
             let row = format!("{} = {}", known.key(), values::literal(value));
-            Some(match note.is_empty() {
-                true => row,
-                false => format!("{row:38} # {note}"),
+            Some(if note.is_empty() {
+                row
+            } else {
+                format!("{row:38} # {note}")
             })
         })
     }

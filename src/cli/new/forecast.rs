@@ -33,7 +33,7 @@ impl<'a> Forecast<'a> {
     /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
     /// and Jäger. A line slips from an amplitude against its gauge.
     fn threshold(&self) -> f64 {
-        let unworn = Unworn::of(self.setup);
+        let unworn = Unworn::new(self.setup);
         match self.setup.geometry {
             Geometry::Round => unworn.deepest() / self.setup.material.stick_ratio(),
             Geometry::Line { .. } => unworn.line_shift(unworn.deepest(), 0.0),
@@ -43,7 +43,7 @@ impl<'a> Forecast<'a> {
     /// Describes size and pressure of the unworn contact.
     pub fn contact(&self) -> String {
         let value = |value: f64, unit: &str| format_value(value, unit, 3);
-        let unworn = Unworn::of(self.setup);
+        let unworn = Unworn::new(self.setup);
         let depth = unworn.deepest();
         let mean = unworn.mean_pressure(depth);
         let is_line = self.setup.geometry.is_line();
@@ -53,9 +53,10 @@ impl<'a> Forecast<'a> {
             true => ("Hertz pressure", 1.5 * mean, " at its centre"),
             false => ("mean pressure", mean, ""),
         };
-        let approach = match is_line {
-            true => String::new(),
-            false => format!("depth {}, ", value(depth, "m")),
+        let approach = if is_line {
+            String::new()
+        } else {
+            format!("depth {}, ", value(depth, "m"))
         };
         format!(
             "{} {}, {approach}load {}, {what} {}{place}",
@@ -74,7 +75,7 @@ impl<'a> Forecast<'a> {
             return format!("gross slip: the amplitude is beyond {threshold}, where all slips");
         }
         // A punch slips nowhere or everywhere.
-        let ring = Unworn::of(self.setup).ring().filter(|_| self.is_ball());
+        let ring = Unworn::new(self.setup).ring().filter(|_| self.is_ball());
         match ring {
             Some(ring) => format!(
                 "partial slip: {} outside {:.0} % of the {}; all slips from an amplitude of {threshold}",
@@ -111,7 +112,7 @@ mod tests {
     #[test]
     fn the_contact_is_that_of_hertz() {
         let scenario = scenario(&["motion.normal.amplitude=0"]);
-        let (unworn, depth) = (Unworn::of(scenario.setup()), 1e-6);
+        let (unworn, depth) = (Unworn::new(scenario.setup()), 1e-6);
         assert!((unworn.deepest() / depth - 1.0).abs() < 1e-12);
         // a = √(R d), F = 4/3 E* √R d^1.5, p0 = 2 E* √(d/R)/π.
         assert!((unworn.radius(depth) / 1e-4 - 1.0).abs() < 1e-3);

@@ -273,10 +273,12 @@ impl Interview {
             (None, None) => question.default.clone(),
             (None, Some(theme)) => {
                 say(&question.meaning)?;
-                let input = Input::<String>::with_theme(&**theme).with_prompt(&question.prompt);
-                let input = input.default(question.default.clone());
-                let input = input.validate_with(|text: &String| read(text).map(drop));
-                input.interact_text().context("nothing was written")?
+                Input::<String>::with_theme(&**theme)
+                    .with_prompt(&question.prompt)
+                    .default(question.default.clone())
+                    .validate_with(|text: &String| read(text).map(drop))
+                    .interact_text()
+                    .context("nothing was written")?
             }
         };
         let place = format!("--{} {}", question.option, printable(&text));

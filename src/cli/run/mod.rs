@@ -309,9 +309,10 @@ impl Job<'_> {
                 crate::failpoint::stall("long step");
             }
         }
-        let reach = match simulation.may_jump() {
-            true => f64::INFINITY,
-            false => simulation.next_moment(),
+        let reach = if simulation.may_jump() {
+            f64::INFINITY
+        } else {
+            simulation.next_moment()
         };
         // A copy between two steps costs a fraction of a step and does not change the run.
         *before = self.job.next_snapshot(reach).map(|_| session.clone());
@@ -383,9 +384,9 @@ impl Job<'_> {
             ("field.csv", field),
         ];
         let owed = self.owed.iter().map(|(name, table)| (name.as_str(), table));
-        let files = files.iter();
-        let files = files.filter_map(|(name, text)| Some((*name, text.as_ref()?)));
-        for (name, text) in owed.chain(files) {
+        let made = files.iter();
+        let made = made.filter_map(|(name, text)| Some((*name, text.as_ref()?)));
+        for (name, text) in owed.chain(made) {
             outcome = outcome.and(self.directory.write(name, text));
         }
         outcome

@@ -116,8 +116,8 @@ fn refuse_missing(shown: &str, study: &Study, rows: &Ledger, count: usize) -> Re
     }
     let names = missing().take(NAMED + 1).map(|point| study.name(point));
     let names = first_names(&names.collect::<Vec<_>>());
-    let shards: BTreeSet<usize> = missing().map(|point| point % count).collect();
-    let shards: Vec<String> = shards.iter().map(usize::to_string).collect();
+    let incomplete: BTreeSet<usize> = missing().map(|point| point % count).collect();
+    let shards: Vec<String> = incomplete.iter().map(usize::to_string).collect();
     let shards = shards.join(",");
     bail!(
         "{shown}: {left} of {all} points are missing: {names}; of {count} shards, these are incomplete: {shards}"

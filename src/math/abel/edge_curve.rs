@@ -77,9 +77,10 @@ impl EdgeCurve {
     /// ε ln(ε/unit) at r² = `square`, m²; 0 beyond the edge.
     fn times_log(&self, square: f64, unit: f64) -> f64 {
         let left = self.edge - square;
-        match left > 0.0 {
-            true => left * (left / unit).ln(),
-            false => 0.0,
+        if left > 0.0 {
+            left * (left / unit).ln()
+        } else {
+            0.0
         }
     }
 }

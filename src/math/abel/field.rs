@@ -39,9 +39,12 @@ impl Field {
         let (dome, mut rest) = (self.dome_for(plan), Vec::new());
         plan.displacement(self.without(dome, grid, &mut rest), w);
         let is_line = plan.geometry().is_line();
-        let add_kinks = |kinks: &[Kink], w: &mut [f64]| match is_line {
-            true => line::add_to_displacement(kinks, grid.squares(), w),
-            false => kink::add_to_displacement(kinks, grid, w),
+        let add_kinks = |kinks: &[Kink], w: &mut [f64]| {
+            if is_line {
+                line::add_to_displacement(kinks, grid.squares(), w)
+            } else {
+                kink::add_to_displacement(kinks, grid, w)
+            }
         };
         if has_kinks(plan) {
             add_kinks(&self.kinks, w);
@@ -50,9 +53,10 @@ impl Field {
             let hat = dome.scaled(-1.0).hat(grid.squares());
             add_kinks(&hat, w);
             for (w, &t) in w.iter_mut().zip(grid.squares()) {
-                *w += match is_line {
-                    true => line::of_dome(&dome, t),
-                    false => dome.displacement(t),
+                *w += if is_line {
+                    line::of_dome(&dome, t)
+                } else {
+                    dome.displacement(t)
                 };
             }
         }

@@ -89,9 +89,10 @@ pub fn add_to_displacement(kinks: &[Kink], squares: &[f64], w: &mut [f64]) {
         let first = squares.partition_point(|&t| t <= kink.at);
         for (value, &t) in w[first..].iter_mut().zip(&squares[first..]) {
             let root = (t - kink.at).sqrt();
-            let arc = match kink.at > 0.0 {
-                true => (root / kink.at.sqrt()).asinh(),
-                false => 0.0,
+            let arc = if kink.at > 0.0 {
+                (root / kink.at.sqrt()).asinh()
+            } else {
+                0.0
             };
             *value += FRAC_2_PI * kink.jump * (t.sqrt() * root - kink.at * arc);
         }
@@ -147,9 +148,10 @@ pub fn beyond_polyline(dome: &Dome, squares: &[f64]) -> f64 {
 pub fn log_integral(kinks: &[Kink], radius: f64) -> f64 {
     let integral = |kink: &Kink| {
         let end = (radius * radius).max(kink.at);
-        let log = match kink.at > 0.0 {
-            true => 0.5 * kink.at * (end / kink.at).ln(),
-            false => 0.0,
+        let log = if kink.at > 0.0 {
+            0.5 * kink.at * (end / kink.at).ln()
+        } else {
+            0.0
         };
         kink.jump * (0.5 * (end - kink.at) - log)
     };

@@ -259,13 +259,13 @@ fn names_and_units(
     };
     let is_length =
         |row: &StringRecord| row.len() == fields || row.len() + 1 == fields && fields > 2;
-    let mut found = above
-        .iter()
-        .rev()
-        .filter_map(|(at, row)| match is_length(row) {
-            true => Some(words(row)),
-            false => split(lines().find(|(_, line)| line == at)?.0),
-        });
+    let mut found = above.iter().rev().filter_map(|(at, row)| {
+        if is_length(row) {
+            Some(words(row))
+        } else {
+            split(lines().find(|(_, line)| line == at)?.0)
+        }
+    });
     let nearest = found.next();
     let is_units = |row: &[String]| {
         row.iter().all(|unit| {

@@ -242,7 +242,8 @@ impl Columns {
         self.own.iter().enumerate().map(column).collect()
     }
 
-    /// Each column as it is in the file, its name in units of [`UNITS`](crate::reading::column::UNITS), and what one of its units is worth in those.
+    /// Each column as in the file, its name in one of the [`UNITS`](crate::reading::column::UNITS), and the factor to
+    /// that unit.
     pub fn described(&self) -> impl Iterator<Item = (&str, &str, f64)> {
         let own = self.own.iter().enumerate();
         own.map(|(at, (own, size))| {

@@ -63,7 +63,7 @@ const OTHER_NAMES: [(Column, &[&str]); 12] = [
     (Column::Approach, &["lvdt", "linear_wear"]),
 ];
 
-/// A column's name in one of the units of [`UNITS`], as `r_m`, and what one of its own unit is worth in that.
+/// A column's name in one of the [`UNITS`], such as `r_m`, and the factor from its own unit to that one.
 pub(super) fn in_own_unit(name: &str, unit: &str) -> (String, f64) {
     let (base, given) = parts(name);
     match own(bare(unit)).or(own(given)) {

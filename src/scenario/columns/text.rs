@@ -16,9 +16,10 @@ pub(super) fn decode(bytes: &[u8]) -> Option<(String, &'static str)> {
         return None;
     }
     // Old instruments end lines with a carriage return alone.
-    let text = match text.contains('\n') {
-        true => text.into_owned(),
-        false => text.replace('\r', "\n"),
+    let text = if text.contains('\n') {
+        text.into_owned()
+    } else {
+        text.replace('\r', "\n")
     };
     Some((text, encoding.name()))
 }

@@ -84,7 +84,7 @@ impl Parts<'_> {
         };
         let usual = || USUAL_GAUGE * unworn.radius(unworn.deepest());
         let gauge = gauge.unwrap_or_else(usual);
-        Ok((drive.on(geometry, &material, gauge), material))
+        Ok((drive.in_geometry(geometry, &material, gauge), material))
     }
 
     /// Refuses a gauge length inside the domain, which ends at `domain` (m).

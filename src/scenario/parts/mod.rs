@@ -182,7 +182,7 @@ impl Parts<'_> {
         any.and_then(|any| any.try_into().ok()).ok_or(missing)
     }
 
-    /// Notes that there is no value at `path`, which means `meaning`, unless an error already covers it.
+    /// Notes that the value at `path`, which means `meaning`, is missing, unless an error already covers it.
     fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
         let error = self.origin.missing(path, meaning);
         let mut faults = self.faults.borrow_mut();
@@ -206,9 +206,10 @@ impl Parts<'_> {
     fn refused(&self, section: &str) -> impl Fn(Invalid) -> Refusal {
         move |invalid| {
             let path = join(section, invalid.field);
-            match self.has(&path) {
-                true => self.refuse(&path, invalid.rule),
-                false => self.origin.refuse(&path, &invalid.value, invalid.rule),
+            if self.has(&path) {
+                self.refuse(&path, invalid.rule)
+            } else {
+                self.origin.refuse(&path, &invalid.value, invalid.rule)
             }
         }
     }
@@ -223,14 +224,14 @@ impl Parts<'_> {
         let coefficient = self.wear_coefficient(contact.material)?;
         let stress = self.get("wear.reference_stress");
         let slip_rate = self.get("wear.reference_slip_rate");
-        let (any_stress, any_slip_rate) =
-            match is_power && (stress.is_none() || slip_rate.is_none()) {
-                true => contact.references().ok_or_else(|| {
-                    let meaning = "Pa; none could be found from the contact";
-                    self.missing("wear.reference_stress", meaning)
-                })?,
-                false => (1.0, 1.0),
-            };
+        let (any_stress, any_slip_rate) = if is_power && (stress.is_none() || slip_rate.is_none()) {
+            contact.references().ok_or_else(|| {
+                let meaning = "Pa; none could be found from the contact";
+                self.missing("wear.reference_stress", meaning)
+            })?
+        } else {
+            (1.0, 1.0)
+        };
         let powers = Powers {
             stress_exponent: self.require("wear.stress_exponent")?,
             slip_rate_exponent: self.require("wear.slip_rate_exponent")?,
@@ -238,9 +239,10 @@ impl Parts<'_> {
             reference_slip_rate: slip_rate.unwrap_or(any_slip_rate),
         };
         let power = WearLaw::power(coefficient, powers);
-        let law = match is_power {
-            true => power,
-            false => power.and(WearLaw::archard(coefficient)),
+        let law = if is_power {
+            power
+        } else {
+            power.and(WearLaw::archard(coefficient))
         };
         law.map(Some).map_err(self.refused("wear"))
     }
@@ -270,9 +272,10 @@ impl Parts<'_> {
         domain: Option<f64>,
     ) -> Result<RadialGrid, Refusal> {
         let points: usize = self.require("numerics.points")?;
-        let (most, what) = match self.is_line() {
-            true => (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned()),
-            false => (method.most_cells(), format!("method = \"{method}\"")),
+        let (most, what) = if self.is_line() {
+            (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned())
+        } else {
+            (method.most_cells(), format!("method = \"{method}\""))
         };
         if points > most {
             let rule = format!("must be at most {most} with {what}, which has no fast algorithm");

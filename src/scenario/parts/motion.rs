@@ -34,9 +34,10 @@ impl Parts<'_> {
                 "must be at most {HIGHEST_RATIO} times motion.tangential.angular_frequency, \
                  whose period is the cycle"
             );
-            let given = match self.has("motion.normal.frequency") {
-                true => "motion.normal.frequency",
-                false => "motion.normal.angular_frequency",
+            let given = if self.has("motion.normal.frequency") {
+                "motion.normal.frequency"
+            } else {
+                "motion.normal.angular_frequency"
             };
             return Err(self.refuse(given, rule));
         }

@@ -13,9 +13,10 @@ impl Parts<'_> {
             friction: self.course("friction")?,
             wear: self.course("wear")?,
             wear_per_load: None,
-            threshold: match self.has("wear") {
-                true => self.require("wear.threshold_energy")?,
-                false => 0.0,
+            threshold: if self.has("wear") {
+                self.require("wear.threshold_energy")?
+            } else {
+                0.0
             },
         };
         if let Some(per_load) = self.get("wear.coefficient_per_load") {

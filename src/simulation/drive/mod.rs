@@ -116,7 +116,7 @@ impl Drive {
     /// Returns the same drive on a contact of this `geometry` and `material`. In plane strain the displacement of one
     /// body is measured against a point of the other, `gauge` (m) deep: against infinity it does not exist.
     #[must_use]
-    pub fn on(self, geometry: Geometry, material: &Material, gauge: f64) -> Self {
+    pub fn in_geometry(self, geometry: Geometry, material: &Material, gauge: f64) -> Self {
         let plane = geometry.length().map(|length| Plane {
             compliance: (material.normal_modulus() * length).recip(),
             gauge,

@@ -36,7 +36,7 @@ pub(super) fn solve(
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let problem = Problem::on(model, &scratch.profile, before);
+    let problem = Problem::new(model, &scratch.profile, before);
     let targets = model.setup.drive.targets(cycle);
     problem.solve(targets, next, &mut scratch.increment.slip)
 }

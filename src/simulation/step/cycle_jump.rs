@@ -123,9 +123,10 @@ pub(in super::super) fn jump(
         Ok((jump, length)) => {
             *next = after_jump(model, state, memory, jump);
             next.jump.length = length;
-            return Ok(match is_short {
-                true => Jumped::Shortened,
-                false => Jumped::Done,
+            return Ok(if is_short {
+                Jumped::Shortened
+            } else {
+                Jumped::Done
             });
         }
         Err(refused) => refused,
@@ -136,7 +137,7 @@ pub(in super::super) fn jump(
         Refused::WithoutRoom => Jumped::WithoutRoom,
         Refused::TooShort(_) if is_short => Jumped::TooNear,
         Refused::TooShort(length) => {
-            rest(&model.setup, next, length);
+            pause_jumps(&model.setup, next, length);
             Jumped::NotWorthIt
         }
     })
@@ -187,9 +188,10 @@ impl Search<'_> {
                 return Err(Refused::TooShort(length));
             }
             let means = self.means(memory);
-            let tried = match is_implicit {
-                true => means.implicit(covered),
-                false => means.explicit(covered, stages),
+            let tried = if is_implicit {
+                means.implicit(covered)
+            } else {
+                means.explicit(covered, stages)
             };
             let error = match &tried {
                 Ok(jump) => error(state, first, jump, tolerance * depth, tolerance),
@@ -215,9 +217,10 @@ impl Search<'_> {
                     go_back(memory, self.springs);
                     memory.stats.rejected_jumps += 1;
                     // What the response has not foreseen may well be within the reach of stages.
-                    length = match is_implicit {
-                        true => next.max(chebyshev::reach(most_stages) / stiffest),
-                        false => next,
+                    length = if is_implicit {
+                        next.max(chebyshev::reach(most_stages) / stiffest)
+                    } else {
+                        next
                     };
                 }
             }
@@ -316,7 +319,7 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
 
 /// Leaves the next periods to direct steps, more each time while jumps do not pay. The obstacle to jumps of `length`
 /// cycles may be gone by then: the next try is twice as long.
-fn rest(setup: &Setup, state: &mut State, length: f64) {
+fn pause_jumps(setup: &Setup, state: &mut State, length: f64) {
     let patience = state.jump.patience.max(1);
     state.jump.rest_until = state.cycle + f64::from(patience * setup.drive.cycles_to_settle());
     state.jump.patience = (2 * patience).min(LONGEST_REST);

@@ -109,9 +109,10 @@ impl Means<'_> {
         } else {
             0.0
         };
-        let per_volume = match falls > 0.0 {
-            true => (less / falls).min(of_all).max(0.0),
-            false => of_all,
+        let per_volume = if falls > 0.0 {
+            (less / falls).min(of_all).max(0.0)
+        } else {
+            of_all
         };
         let trapezoid = |[before, after]: [f64; 2]| 0.5 * covered * (before + after);
         Ok(Jump {

@@ -79,7 +79,11 @@ struct Bounds {
 const RUNAWAY: f64 = 10.0;
 
 /// Solves the contact at the present cycle: pressed to u_z, shifted to u_x, nothing worn.
-pub(super) fn settle(model: &Model, state: &mut State, scratch: &mut Scratch) -> Result<(), Cause> {
+pub(super) fn solve_contact(
+    model: &Model,
+    state: &mut State,
+    scratch: &mut Scratch,
+) -> Result<(), Cause> {
     model.plan.image(&state.wear, &mut state.image);
     let even = even_end(model, &state.contact.load);
     (scratch.profile).find(model, [&state.wear, &state.image], even);

@@ -83,12 +83,12 @@ fn solve(
     scratch: &mut Scratch,
     targets: Targets,
 ) -> Result<(), Cause> {
-    let problem = contact::Problem::on(model, &scratch.profile, &memory.contact);
+    let problem = contact::Problem::new(model, &scratch.profile, &memory.contact);
     problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
 }
 
 /// Moves the contact from `spare` to `memory`, at `cycle`.
-fn take_over(memory: &mut State, spare: &mut State, cycle: f64) {
+fn accept_contact(memory: &mut State, spare: &mut State, cycle: f64) {
     std::mem::swap(&mut memory.contact, &mut spare.contact);
     memory.cycle = cycle;
     memory.stats.contacts += 1;
@@ -101,12 +101,12 @@ fn period(
     scratch: &mut Scratch,
 ) -> Result<SteadyCycle, Cause> {
     let cycles = f64::from(model.setup.drive.cycles_to_settle());
-    let touch = Touch::on(&model.setup, memory, scratch.profile.g.iter().copied());
+    let touch = Touch::new(&model.setup, memory, scratch.profile.g.iter().copied());
     let moments = scratch.period.moments(&model.setup, touch, cycles);
     memory.cycle = 0.0;
     for &(moment, targets) in moments.iter() {
         solve(model, memory, spare, scratch, targets)?;
-        take_over(memory, spare, moment);
+        accept_contact(memory, spare, moment);
     }
     memory.pressure.forget();
     memory.cycle = 0.0;
@@ -134,7 +134,7 @@ fn period(
         deepest = deepest.max(spare.contact.depth);
         let compression = spare.contact.normal.strongest / modulus;
         steady.elastic_depth = steady.elastic_depth.max(compression);
-        take_over(memory, spare, moment);
+        accept_contact(memory, spare, moment);
         std::mem::swap(&mut memory.pressure, &mut spare.pressure);
         memory.stats.transforms += std::mem::take(&mut scratch.transforms);
     }
@@ -173,7 +173,7 @@ fn plain_cycle(
     std::mem::swap(&mut memory.contact, &mut spare.contact);
     turn_back(model, &mut memory.contact, swing);
     solve(model, memory, spare, scratch, start)?;
-    take_over(memory, spare, 0.0);
+    accept_contact(memory, spare, 0.0);
 
     let increment = &mut scratch.increment;
     let material = &model.setup.material;
@@ -242,21 +242,24 @@ fn turn_back(model: &Model, contact: &mut Contact, swing: SpringMotion<'_>) {
     let rises = if swing.rises_at_start() { 1.0 } else { -1.0 };
     let since = amplitude + rises * (swing.after_turns(0.0) - swing.mean());
     // A cycle that ends at a turn ends a complete stroke.
-    let (sign, since) = match since <= AT_TURN * amplitude {
-        true => (-rises, 2.0 * amplitude),
-        false => (rises, since),
+    let (sign, since) = if since <= AT_TURN * amplitude {
+        (-rises, 2.0 * amplitude)
+    } else {
+        (rises, since)
     };
     contact.shift -= sign * since;
     let springs = contact.spring.nodal.iter_mut().zip(&contact.load.nodal);
     for ((u, load), state) in springs.zip(&mut contact.spring_state) {
         let limit = reach * load;
-        *u = match limit < amplitude {
-            true => -sign * limit,
-            false => *u - sign * since,
+        *u = if limit < amplitude {
+            -sign * limit
+        } else {
+            *u - sign * since
         };
-        *state = match *load > 0.0 {
-            true => SpringState::Stick,
-            false => SpringState::Open,
+        *state = if *load > 0.0 {
+            SpringState::Stick
+        } else {
+            SpringState::Open
         };
     }
     if let Some(rigid) = rigid {

@@ -51,8 +51,8 @@ impl Errors {
     ) -> Self {
         let keys = derivatives.len();
         let norm = |column: &Vec<f64>| column.iter().map(|d| d * d).sum::<f64>().sqrt();
-        let norms = derivatives.iter();
-        let norms = norms.map(|column| column.as_ref().map_or(0.0, norm));
+        let columns = derivatives.iter();
+        let norms = columns.map(|column| column.as_ref().map_or(0.0, norm));
         let norms: Vec<f64> = norms.collect();
         let seen: Vec<usize> = (0..keys).filter(|&i| norms[i] > NO_INFLUENCE).collect();
         // Columns of length 1: keys may differ by many powers of ten.

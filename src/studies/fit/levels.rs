@@ -23,7 +23,7 @@ const FINER: f64 = 1.6;
 /// How much smaller its tolerance of jumps is: they err by the third power of their length.
 const LESS_TOLERANT: f64 = 4.0;
 
-/// The error that is left on a level, relative to what it has moved the keys by, and that of the level before it, if errors
+/// The error left on a level, relative to how far it has moved the keys, and the error of the level before it, if errors
 /// fall with the first to second power of the steps.
 const LEFT: f64 = 1.0;
 const BEFORE: f64 = 2.2;
@@ -42,7 +42,7 @@ pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
     }
     let (points, steps, tolerance) = COARSE;
     let jumps = match scenario.value("numerics.integrator") {
-        Some(_) => Level::of(scenario).tolerance.is_some(),
+        Some(_) => Level::from_scenario(scenario).tolerance.is_some(),
         None => scenario.setup().drive.repeats_after().is_some(),
     };
     let level = Level::new(points, steps, jumps.then_some(tolerance));
@@ -59,7 +59,7 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
     let mut errors = search.uncertainty(found);
     let mut numerical = None;
     for round in 0..MOST_LEVELS {
-        let level = Level::of(&search.scenario);
+        let level = Level::from_scenario(&search.scenario);
         let level = Level {
             tolerance: level.tolerance.map(|tolerance| tolerance / LESS_TOLERANT),
             ..level.scaled(FINER, FINER)
@@ -85,9 +85,10 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         numerical = Some(left);
         let is_last = round > 0 && (is_small || is_met && is_costly);
         let before = search.clone();
-        match is_last {
-            true => search.correct(&changes, scenario),
-            false => search.move_to(scenario),
+        if is_last {
+            search.correct(&changes, scenario)
+        } else {
+            search.move_to(scenario)
         }
         let better = search.descend(&found.theta).ok();
         let better = better.map(|found| (search.uncertainty(&found), found));

@@ -103,9 +103,10 @@ impl Fitted {
         let covariance = &errors.covariance;
         let correlation = |i: usize, j: usize| {
             let norm = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-            match norm > 0.0 {
-                true => covariance[(i, j)] / norm,
-                false => 0.0,
+            if norm > 0.0 {
+                covariance[(i, j)] / norm
+            } else {
+                0.0
             }
         };
         let keys = &search.fit.free;
@@ -114,7 +115,7 @@ impl Fitted {
             let at_bound = free.is_at_bound(theta);
             let is_known = error.is_finite() && error > 0.0 && !at_bound;
             let numerical = numerical.as_ref().map(|numerical| numerical[i]);
-            // Whoever has chosen cells and steps has chosen their error.
+            // Chosen cells and steps have a chosen error.
             if is_known && search.fit.scenario.accuracy().is_some() && numerical > Some(error) {
                 remarks.push(format!(
                     "{}: the numerical error exceeds the statistical one; a smaller numerics.accuracy lowers it",

@@ -274,10 +274,11 @@ impl<'a> Search<'a> {
         let points = self.errors.len() + theta.len();
         let keys: Vec<Free> = free.iter().map(|&i| self.fit.free[i].clone()).collect();
         let some: Vec<f64> = free.iter().map(|&i| theta[i]).collect();
-        let some = match keys.is_empty() {
-            true => some,
-            false => solver::solve(&keys, &some, points, &mut residuals)
-                .map_err(|why| anyhow!("no minimum was found: {why}"))?,
+        let some = if keys.is_empty() {
+            some
+        } else {
+            solver::solve(&keys, &some, points, &mut residuals)
+                .map_err(|why| anyhow!("no minimum was found: {why}"))?
         };
         let theta = whole(&some);
         let sum = self.at(&theta)?.weighed.iter().map(|z| z * z).sum();

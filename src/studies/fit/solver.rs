@@ -64,14 +64,13 @@ impl Free {
             Range::Acute => (true, [0.0, std::f64::consts::FRAC_PI_2]),
             Range::Within(least, most) => (least > 0.0, [least, most]),
         };
-        let (start, bounds) = match positive {
-            false => (value, limits),
-            true => {
-                // A limit that has no logarithm is none.
-                let (start, [least, most]) = (value.ln(), limits.map(f64::ln));
-                let reach = [start - FARTHEST, start + FARTHEST];
-                (start, [least.max(reach[0]), most.min(reach[1])])
-            }
+        let (start, bounds) = if !positive {
+            (value, limits)
+        } else {
+            // A limit that has no logarithm is none.
+            let (start, [least, most]) = (value.ln(), limits.map(f64::ln));
+            let reach = [start - FARTHEST, start + FARTHEST];
+            (start, [least.max(reach[0]), most.min(reach[1])])
         };
         // A motion prescribes a force or a displacement.
         let control = key
@@ -119,9 +118,10 @@ impl Free {
 
     /// The size of its value, in which steps and errors are small: 1 for a logarithm.
     pub fn size(&self, theta: f64) -> f64 {
-        match self.positive {
-            true => 1.0,
-            false => theta.abs().max(1e-12),
+        if self.positive {
+            1.0
+        } else {
+            theta.abs().max(1e-12)
         }
     }
 

@@ -10,7 +10,7 @@ use super::structure::Structure;
 /// Starts that are tried around the given ones, in e-folds of each key: factors of 10 and 100.
 const STARTS: [f64; 5] = [0.0, -LN_10, LN_10, -2.0 * LN_10, 2.0 * LN_10];
 
-/// So many keys are varied together in search of a start, more of them one by one.
+/// Maximum number of keys that are varied together in search of a start; more are varied one by one.
 const TOGETHER: usize = 2;
 
 /// Starts from which the minimum is sought.
@@ -72,9 +72,10 @@ impl Search<'_> {
                 });
                 moved.collect::<Vec<_>>()
             };
-            match i < TOGETHER {
-                true => all = all.iter().flat_map(around).collect(),
-                false => all.extend(around(&start.to_vec())),
+            if i < TOGETHER {
+                all = all.iter().flat_map(around).collect()
+            } else {
+                all.extend(around(&start.to_vec()))
             }
         }
         all

@@ -107,9 +107,10 @@ impl Structure {
         if self.chi_squared > MOST_CHI_SQUARED {
             why.push(format!("χ² per degree of freedom {:.1}", self.chi_squared));
         }
-        let what = match self.is_noise() {
-            true => format!("may be no noise (p = {by_chance:.0e})"),
-            false => "are no noise: the model misses something, and the errors above do not count it; see --plot".to_owned(),
+        let what = if self.is_noise() {
+            format!("may be no noise (p = {by_chance:.0e})")
+        } else {
+            "are no noise: the model misses something, and the errors above do not count it; see --plot".to_owned()
         };
         (!why.is_empty()).then(|| format!("{name}: {}: the residuals {what}", why.join(", ")))
     }

@@ -91,7 +91,7 @@ pub struct Measured {
     pub cycle: Option<f64>,
     /// For a loop, which points belong to rising strokes; otherwise empty.
     pub rising: Vec<bool>,
-    /// Whether its values are means around the axis, so that it has no other side and no other centre.
+    /// Whether its values are means around the axis, which leave nothing to centre.
     pub is_averaged: bool,
     /// What was left out or corrected, one line each.
     pub notes: Vec<String>,
@@ -104,9 +104,10 @@ impl Measured {
     /// # Errors
     /// A file that is not such a table; fewer than 3 rows.
     pub fn scar(columns: &Columns) -> Result<Self, Refusal> {
-        let axes = match columns.has(Axes::WEAR.y) {
-            true => Axes::WEAR,
-            false => Axes::PROFILE,
+        let axes = if columns.has(Axes::WEAR.y) {
+            Axes::WEAR
+        } else {
+            Axes::PROFILE
         };
         let mut scar = match Kind::detect(columns) {
             Some(Kind::Map) => map::read(columns, axes)?,

@@ -12,9 +12,12 @@ fn turns(displacements: &[f64]) -> Option<[usize; 2]> {
 /// Returns which points of a closed loop belong to the rising stroke, from its least displacement to its largest.
 pub fn rises(displacements: &[f64]) -> Vec<bool> {
     let [least, most] = turns(displacements).unwrap_or_default();
-    let rises = |i: usize| match least <= most {
-        true => (least..=most).contains(&i),
-        false => i >= least || i <= most,
+    let rises = |i: usize| {
+        if least <= most {
+            (least..=most).contains(&i)
+        } else {
+            i >= least || i <= most
+        }
     };
     (0..displacements.len()).map(rises).collect()
 }

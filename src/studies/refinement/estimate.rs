@@ -19,27 +19,27 @@ const COARSEST: (usize, u32) = (8, 4);
 /// # Errors
 /// If the twin cannot be run, or if `go_on` returns false before the end.
 pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Difference, SessionError> {
-    let level = Level::of(session.loaded());
+    let level = Level::from_scenario(session.loaded());
     let cycle = session.simulation().cycle();
-    let here = Outcome::of(session);
+    let here = Outcome::from_session(session);
     let ended = |factor: f64| -> Result<Outcome, SessionError> {
         let twin = run(&twin_of(session, factor)?, cycle, go_on)?;
-        Ok(Outcome::of(&twin))
+        Ok(Outcome::from_session(&twin))
     };
     let coarser = TWIN.recip();
-    if !level.can_be(coarser * coarser) {
+    if !level.allows_twin(coarser * coarser) {
         // The error of the coarser run is the finer run's error plus the difference.
         let twin = ended(TWIN)?;
-        let difference = here.against(&twin);
+        let difference = here.difference_from(&twin);
         let finer = difference.error_of_finer(ratio(&here, &twin));
-        return Ok(difference.with(&finer, |difference, finer| difference + finer));
+        return Ok(difference.combined(&finer, |difference, finer| difference + finer));
     }
     let twin = ended(coarser)?;
     match ended(coarser * coarser) {
         Ok(coarsest) => {
             let before = by_twin(&coarsest, &twin);
             let error = twin
-                .against(&here)
+                .difference_from(&here)
                 .error_above(&before, ratio(&twin, &here));
             Ok(error.as_estimate())
         }
@@ -51,7 +51,7 @@ pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Differenc
 
 /// Estimates the error of a run from its [`twin`] alone, at the same cycle.
 pub fn by_twin(twin: &Outcome, run: &Outcome) -> Difference {
-    twin.against(run).error_of_finer(ratio(twin, run))
+    twin.difference_from(run).error_of_finer(ratio(twin, run))
 }
 
 /// Returns how many times finer one of two runs is; rounding to whole cells makes this differ from [`TWIN`].
@@ -62,13 +62,13 @@ fn ratio(coarse: &Outcome, fine: &Outcome) -> f64 {
 /// Returns the run with fewer cells and steps by [`TWIN`], at its start; `None` if that would be too coarse.
 pub fn twin(session: &Session) -> Option<Result<Session, SessionError>> {
     let coarser = TWIN.recip();
-    let can_be = Level::of(session.loaded()).can_be(coarser);
+    let can_be = Level::from_scenario(session.loaded()).allows_twin(coarser);
     can_be.then(|| Session::start(twin_of(session, coarser)?))
 }
 
 impl Level {
     /// Whether a twin with `factor` times its cells and steps is useful.
-    fn can_be(&self, factor: f64) -> bool {
+    fn allows_twin(&self, factor: f64) -> bool {
         let (cells, steps) = COARSEST;
         self.points as f64 * factor >= cells as f64
             && f64::from(self.steps) * factor >= f64::from(steps)
@@ -78,7 +78,7 @@ impl Level {
 /// Returns the scenario of the run with `factor` times its cells and steps, including the changes made to it.
 fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
     let loaded = session.loaded();
-    let mut level = Level::of(loaded);
+    let mut level = Level::from_scenario(loaded);
     let setup = session.simulation().setup();
     // Cells placed by a pilot keep their spacing: another pilot would place the twin's cells elsewhere, and the
     // difference would measure the placement. A node on a stick border is placed again, as are nodes after a change.

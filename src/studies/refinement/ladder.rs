@@ -226,14 +226,14 @@ impl Ladder<'_> {
             } else if planned.points > MOST_POINTS || planned.steps > MOST_STEPS {
                 break Verdict::Finest;
             } else if stalls >= MOST_STALLS {
-                break match top.is_unworn() {
-                    true => Verdict::Unworn,
-                    false => Verdict::Stalled,
+                break if top.is_unworn() {
+                    Verdict::Unworn
+                } else {
+                    Verdict::Stalled
                 };
             }
-            match self.affordable(&mut planned, &top) {
-                true => {}
-                false => break self.out_of_time(),
+            if !self.affordable(&mut planned, &top) {
+                break self.out_of_time();
             }
             match self.run(&planned) {
                 Ok(rung) => {
@@ -281,13 +281,14 @@ impl Ladder<'_> {
 
     /// Runs the first rung, refining it until it does not break down.
     fn first(&mut self) -> Result<Top, SearchError> {
-        let aim = match self.budget.is_limited() {
-            true => self.accuracy.max(COARSE),
-            false => self.accuracy,
+        let aim = if self.budget.is_limited() {
+            self.accuracy.max(COARSE)
+        } else {
+            self.accuracy
         };
         let mut base = first(self.scenario, self.cycles, aim);
         loop {
-            match self.stand(&mut base, aim) {
+            match self.run_first(&mut base, aim) {
                 Ok(top) => return Ok(top),
                 Err(Failure::Broken(why)) if self.failures > MOST_STALLS => {
                     return Err(SessionError::Unfinished(why).into());
@@ -300,26 +301,28 @@ impl Ladder<'_> {
     }
 
     /// Runs a first rung and its twins, with the jumps and nodes that suit its scar.
-    fn stand(&mut self, base: &mut Level, aim: f64) -> Result<Top, Failure> {
+    fn run_first(&mut self, base: &mut Level, aim: f64) -> Result<Top, Failure> {
         base.nodes = None;
         let placing = self.placing().is_some();
         if placing {
             let pilot = self.run(&base.refined(PILOT))?;
-            base.settle_tolerance(aim, &pilot.outcome);
+            base.choose_tolerance(aim, &pilot.outcome);
             base.nodes = self.placed(&pilot.outcome, base.points);
         }
         let mut twins = Vec::new();
         for source in 0..base.sources() {
             let twin = self.run(&base.refined(coarser(source)))?;
             if twins.is_empty() && !placing {
-                base.settle_tolerance(aim, &twin.outcome);
+                base.choose_tolerance(aim, &twin.outcome);
             }
             twins.push(twin);
         }
         let rung = self.run(base)?;
         let sources = twins.iter().enumerate().map(|(source, twin)| {
             let ratio = rung.level.ratio(&twin.level)[source];
-            twin.outcome.against(&rung.outcome).error_of_finer(ratio)
+            twin.outcome
+                .difference_from(&rung.outcome)
+                .error_of_finer(ratio)
         });
         let sources = sources.collect();
         Ok(Top { rung, sources })
@@ -341,7 +344,7 @@ impl Ladder<'_> {
                 self.failures = 0;
                 Ok(Rung {
                     level: level.clone(),
-                    outcome: Outcome::of(&session),
+                    outcome: Outcome::from_session(&session),
                     session,
                     seconds,
                 })
@@ -369,9 +372,10 @@ impl Ladder<'_> {
     }
 
     fn out_of_time(&self) -> Verdict {
-        match (self.go_on)() {
-            true => Verdict::OutOfTime,
-            false => Verdict::Interrupted,
+        if (self.go_on)() {
+            Verdict::OutOfTime
+        } else {
+            Verdict::Interrupted
         }
     }
 
@@ -386,7 +390,7 @@ impl Ladder<'_> {
     /// nodes would not resolve it.
     fn placed(&self, outcome: &Outcome, cells: usize) -> Option<RadialGrid> {
         let grid = placing::place(&outcome.grid, &outcome.profile, cells, self.placing()?)?;
-        outcome.is_seen_by(&grid).then_some(grid)
+        outcome.is_resolved_by(&grid).then_some(grid)
     }
 
     /// Plans the level after a rung: finer in each source whose error exceeds its equal share.
@@ -423,7 +427,7 @@ impl Ladder<'_> {
 
 impl Level {
     /// Converts the accuracy, relative to the scar's depth, to a tolerance of jumps, relative to the contact's depth.
-    fn settle_tolerance(&mut self, aim: f64, outcome: &Outcome) {
+    fn choose_tolerance(&mut self, aim: f64, outcome: &Outcome) {
         let scar = outcome.scar_depth() / outcome.depth;
         if let Some(tolerance) = &mut self.tolerance
             && scar > 0.0
@@ -468,7 +472,7 @@ mod tests {
     fn failures_climb_too_and_end() {
         let tried = RefCell::new(Vec::new());
         let run = |scenario: &Scenario, _: f64, _: &dyn Fn() -> bool| {
-            tried.borrow_mut().push(Level::of(scenario));
+            tried.borrow_mut().push(Level::from_scenario(scenario));
             Err(SessionError::Scenario(Refusal::from("broke".to_owned())))
         };
         let ladder = Ladder {

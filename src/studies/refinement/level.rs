@@ -43,7 +43,7 @@ impl Level {
     }
 
     /// Returns the level of a scenario.
-    pub fn of(scenario: &Scenario) -> Self {
+    pub fn from_scenario(scenario: &Scenario) -> Self {
         let setup = scenario.setup();
         Self {
             points: setup.grid.cells(),

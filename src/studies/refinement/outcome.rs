@@ -82,7 +82,7 @@ struct LastCycle {
 }
 
 impl LastCycle {
-    fn of(simulation: &Simulation) -> Self {
+    fn new(simulation: &Simulation) -> Self {
         let Some(period) = simulation.fine_period() else {
             return Self::default();
         };
@@ -159,7 +159,7 @@ impl Difference {
 
     /// Estimates the error of the finer of two levels with this difference, the one `ratio` times finer: D/(ρᵖ − 1).
     pub(super) fn error_of_finer(&self, ratio: f64) -> Self {
-        self.with(self, |d, _| d / (ratio.powf(ORDER) - 1.0))
+        self.combined(self, |d, _| d / (ratio.powf(ORDER) - 1.0))
     }
 
     /// As [`error_of_finer`](Self::error_of_finer), if the coarser
@@ -167,18 +167,18 @@ impl Difference {
     pub(super) fn error_above(&self, before: &Self, ratio: f64) -> Self {
         let left = ratio.powf(-HIGHEST_ORDER);
         let error = self.error_of_finer(ratio);
-        error.with(before, |error, before| error.max(before * left))
+        error.combined(before, |error, before| error.max(before * left))
     }
 
     /// Combines two differences, number by number.
-    pub(super) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
+    pub(super) fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Self(std::array::from_fn(|k| combine(self.0[k], other.0[k])))
     }
 }
 
 impl Outcome {
     /// Records the present moment of a run.
-    pub fn of(session: &Session) -> Self {
+    pub fn from_session(session: &Session) -> Self {
         let simulation = session.simulation();
         let (setup, moment) = (simulation.setup(), simulation.moment());
         let stick_radii = [moment.stick_radius, moment.permanent_stick_radius];
@@ -190,7 +190,7 @@ impl Outcome {
             work: moment.dissipated_energy,
             cycles: moment.cycle,
             imbalance: moment.energy_residual.unwrap_or(0.0).abs(),
-            last: LastCycle::of(simulation),
+            last: LastCycle::new(simulation),
             pressure: simulation.pressure(),
             radius: moment.contact_radius,
             stick_radii: stick_radii.map(Option::unwrap_or_default),
@@ -204,7 +204,7 @@ impl Outcome {
     }
 
     /// Whether the nodes of a grid resolve most of the scar.
-    pub(super) fn is_seen_by(&self, grid: &RadialGrid) -> bool {
+    pub(super) fn is_resolved_by(&self, grid: &RadialGrid) -> bool {
         let volume =
             |grid: &RadialGrid, depth: &[f64]| weighted(&worn::volume_weights(grid), depth);
         let there = grid.nodes().iter();
@@ -227,7 +227,7 @@ impl Outcome {
     }
 
     /// Returns the difference of this run from a finer one, in units of the finer one.
-    pub fn against(&self, fine: &Self) -> Difference {
+    pub fn difference_from(&self, fine: &Self) -> Difference {
         let least = LEAST_AREA * fine.last.sliding;
         let stick = self.stick_radii.iter().zip(&fine.stick_radii);
         let stick = stick

@@ -34,7 +34,7 @@ pub struct Resolved {
 
 impl Resolved {
     /// Wraps a scenario unchanged; its error is unknown.
-    fn unsought(scenario: Scenario) -> Self {
+    fn as_given(scenario: Scenario) -> Self {
         Self {
             scenario,
             statements: Vec::new(),
@@ -71,7 +71,7 @@ fn search(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Resolved, SearchError> {
     let Some(accuracy) = scenario.accuracy() else {
-        return Ok(Resolved::unsought(scenario.clone()));
+        return Ok(Resolved::as_given(scenario.clone()));
     };
     let cycles = cycles.or(scenario.run().cycles).unwrap_or(WITHOUT_END);
     let reached = run_to_accuracy(scenario, cycles, accuracy, budget, go_on)?;
@@ -107,7 +107,9 @@ pub fn resolve_soon(scenario: &Scenario) -> Result<Resolved, SessionError> {
             ..found
         }),
         Ok(found) => Ok(found),
-        Err(SearchError::Unended(_)) => unverified(scenario, &Level::of(scenario), budget),
+        Err(SearchError::Unended(_)) => {
+            unverified(scenario, &Level::from_scenario(scenario), budget)
+        }
         Err(SearchError::Session(error)) => Err(error),
     }
 }
@@ -127,7 +129,7 @@ fn unverified(
         statements: vec![("warning".to_owned(), warning.clone())],
         warning: Some(warning),
         missed_by: Some(f64::INFINITY),
-        ..Resolved::unsought(level.of_scenario(scenario)?)
+        ..Resolved::as_given(level.of_scenario(scenario)?)
     })
 }
 

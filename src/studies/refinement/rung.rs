@@ -37,9 +37,9 @@ pub(super) struct Top {
 
 impl Top {
     pub fn error(&self) -> Difference {
-        let add = |sum: Difference, one: &Difference| sum.with(one, |sum, one| sum + one * one);
+        let add = |sum: Difference, one: &Difference| sum.combined(one, |sum, one| sum + one * one);
         let squares = self.sources.iter().fold(Difference::default(), add);
-        let sum = squares.with(&squares, |sum, _| sum.sqrt());
+        let sum = squares.combined(&squares, |sum, _| sum.sqrt());
         sum.as_estimate()
     }
 
@@ -56,21 +56,21 @@ impl Top {
     /// Returns the errors of a finer rung.
     pub fn errors_of(&self, finer: &Rung) -> Vec<Difference> {
         let ratios = finer.level.ratio(&self.rung.level);
-        let difference = self.rung.outcome.against(&finer.outcome);
+        let difference = self.rung.outcome.difference_from(&finer.outcome);
         let known = || self.sources.iter().zip(ratios);
         let refined = known().filter(|(_, ratio)| *ratio > 1.0);
         let add =
-            |sum: Difference, (one, _): (&Difference, f64)| sum.with(one, |sum, one| sum + one);
+            |sum: Difference, (one, _): (&Difference, f64)| sum.combined(one, |sum, one| sum + one);
         let total = refined.fold(Difference::default(), add);
         let after = |(before, ratio): (&Difference, f64)| {
             if ratio <= 1.0 {
                 return *before;
             }
-            let share = before.with(&total, |error, total| match total {
+            let share = before.combined(&total, |error, total| match total {
                 0.0 => 1.0,
                 total => error / total,
             });
-            let own = share.with(&difference, |share, d| share * d);
+            let own = share.combined(&difference, |share, d| share * d);
             own.error_above(before, ratio)
         };
         known().map(after).collect()

@@ -33,7 +33,7 @@ const HALVINGS: u32 = 3;
 
 /// Numerics of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setting {
+pub struct Variant {
     /// The transforms; they determine grid and scheme, unless the scenario gives them.
     pub method: AbelMethod,
     /// N.
@@ -46,14 +46,14 @@ pub struct Setting {
 
 /// How a run ended: stable if both are `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Outcome {
+pub struct Ending {
     /// Height of a sawtooth at the end of a cycle, relative to the largest depth.
     pub sawtooth: Option<f64>,
     /// Number of cycles before it broke down, and the reason in a plain word.
     pub exploded: Option<(f64, String)>,
 }
 
-impl Outcome {
+impl Ending {
     /// Whether it stayed smooth to the end.
     pub fn is_stable(&self) -> bool {
         *self == Self::default()
@@ -71,11 +71,11 @@ pub struct Study {
 
 /// The results of the runs of one setting.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct Limit {
     /// Numerics of the runs.
-    pub setting: Setting,
+    pub setting: Variant,
     /// The wear numbers tried on the ladder, and their outcomes.
-    pub outcomes: Vec<(f64, Outcome)>,
+    pub outcomes: Vec<(f64, Ending)>,
     /// The wear number from which a sawtooth is [predicted](predict); `None` if nothing slips.
     pub predicted: Option<f64>,
     /// The smallest wear number with a sawtooth, to one part in seven; `None` if there was none.
@@ -88,7 +88,7 @@ impl Study {
     pub fn new(scenario: Scenario, cycles: f64) -> Result<Option<Self>, SessionError> {
         // A stability limit belongs to one number of cells and steps, not to an accuracy.
         let scenario = match scenario.accuracy() {
-            Some(_) => Level::of(&scenario).of_scenario(&scenario)?,
+            Some(_) => Level::from_scenario(&scenario).of_scenario(&scenario)?,
             None => scenario,
         };
         let session = Session::start(scenario.clone())?;
@@ -103,7 +103,7 @@ impl Study {
         }))
     }
 
-    fn start(&self, setting: Setting, wear_number: f64) -> Result<Session, SessionError> {
+    fn start(&self, setting: Variant, wear_number: f64) -> Result<Session, SessionError> {
         let scenario = self.scenario.with_changes(Vec::new()).edited(|spec| {
             let guarded = setting.guard.then_some(Stability::SubStep);
             let numerics = &mut spec.numerics;
@@ -121,13 +121,13 @@ impl Study {
     /// Runs one setting at one wear number; `None` if `go_on` returned false.
     fn run(
         &self,
-        setting: Setting,
+        setting: Variant,
         wear_number: f64,
         go_on: &dyn Fn() -> bool,
-    ) -> Result<Option<Outcome>, SessionError> {
+    ) -> Result<Option<Ending>, SessionError> {
         let mut session = self.start(setting, wear_number)?;
         let depth = predict::depth(session.simulation());
-        let (mut outcome, mut highest) = (Outcome::default(), 0.0_f64);
+        let (mut outcome, mut highest) = (Ending::default(), 0.0_f64);
         while session.simulation().cycle() < self.cycles {
             let end = (session.simulation().cycle().floor() + 1.0).min(self.cycles);
             match session.advance_while(end, |_| go_on()) {
@@ -151,12 +151,12 @@ impl Study {
     /// If a scenario cannot be made.
     pub fn line(
         &self,
-        setting: Setting,
+        setting: Variant,
         wear_numbers: &[f64],
         go_on: &dyn Fn() -> bool,
         mut on_run: impl FnMut(),
-    ) -> Result<Line, SessionError> {
-        let mut line = Line {
+    ) -> Result<Limit, SessionError> {
+        let mut line = Limit {
             setting,
             outcomes: Vec::new(),
             predicted: predict(self, setting)?,

@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use super::predict::sawtooth_from;
-use super::{Line, Outcome, Setting};
+use super::{Ending, Limit, Variant};
 use crate::scenario::scalars::Value;
 use crate::studies::table::Format::{Fixed, Rough, Words};
-use crate::studies::table::Table;
+use crate::studies::table::Report;
 
-impl Outcome {
+impl Ending {
     /// Returns the word in tables, and the mark in maps.
     fn words(&self) -> (&'static str, char) {
         match (&self.exploded, self.sawtooth) {
@@ -19,20 +19,20 @@ impl Outcome {
     }
 }
 
-impl Line {
+impl Limit {
     /// Returns the observed boundary relative to the predicted one.
     pub fn ratio(&self) -> Option<f64> {
         Some(self.seen? / self.predicted?)
     }
 }
 
-fn guard(line: &Line) -> &'static str {
+fn guard(line: &Limit) -> &'static str {
     if line.setting.guard { "on" } else { "off" }
 }
 
 /// Makes a table with one row per run.
-pub fn runs(lines: &[Line]) -> Table {
-    let mut table = Table::with_columns(&[
+pub fn runs(lines: &[Limit]) -> Report {
+    let mut table = Report::with_columns(&[
         ("", "method guard", Words),
         ("", "points steps_per_cycle wear_number", Rough),
         ("", "outcome", Words),
@@ -54,8 +54,8 @@ pub fn runs(lines: &[Line]) -> Table {
 }
 
 /// Makes a table with one row per method and grid: the predicted and the observed boundary.
-pub fn boundaries(lines: &[Line]) -> Table {
-    let mut table = Table::with_columns(&[
+pub fn boundaries(lines: &[Limit]) -> Report {
+    let mut table = Report::with_columns(&[
         ("", "method guard", Words),
         ("", "points", Rough),
         ("critical K", "predicted seen", Rough),
@@ -68,8 +68,8 @@ pub fn boundaries(lines: &[Line]) -> Table {
     table
 }
 
-fn key(line: &Line) -> [Value; 3] {
-    let Setting { method, points, .. } = line.setting;
+fn key(line: &Limit) -> [Value; 3] {
+    let Variant { method, points, .. } = line.setting;
     [method.name().into(), guard(line).into(), points.into()]
 }
 
@@ -77,9 +77,9 @@ fn key(line: &Line) -> [Value; 3] {
 const RUNG: usize = 7;
 
 /// Draws one map per method and guard: a row per grid, a column per wear number, `|` at the predicted boundary.
-pub fn maps(lines: &[Line]) -> String {
+pub fn maps(lines: &[Limit]) -> String {
     let mut text = String::new();
-    let kind = |line: &Line| (line.setting.method, line.setting.guard);
+    let kind = |line: &Limit| (line.setting.method, line.setting.guard);
     for group in lines.chunk_by(|a, b| kind(a) == kind(b)) {
         let Some(first) = group.iter().max_by_key(|line| line.outcomes.len()) else {
             continue;
@@ -103,7 +103,7 @@ pub fn maps(lines: &[Line]) -> String {
 }
 
 /// Draws one row of a map.
-fn strip(line: &Line) -> String {
+fn strip(line: &Limit) -> String {
     let rung = |mark| std::iter::repeat_n(mark, RUNG - 1).chain([' ']);
     let outcomes = line.outcomes.iter();
     let rungs = outcomes.flat_map(|(_, outcome)| rung(outcome.words().1));
@@ -127,24 +127,24 @@ mod tests {
     use super::*;
     use crate::math::abel::AbelMethod;
 
-    fn line() -> Line {
-        let sawtooth = Outcome {
+    fn line() -> Limit {
+        let sawtooth = Ending {
             sawtooth: Some(0.5),
-            ..Outcome::default()
+            ..Ending::default()
         };
-        let exploded = Outcome {
+        let exploded = Ending {
             exploded: Some((2.5, "it blew, up".into())),
-            ..Outcome::default()
+            ..Ending::default()
         };
-        Line {
-            setting: Setting {
+        Limit {
+            setting: Variant {
                 method: AbelMethod::A,
                 points: 50,
                 steps: 100,
                 guard: false,
             },
             outcomes: vec![
-                (1.0, Outcome::default()),
+                (1.0, Ending::default()),
                 (10.0, sawtooth),
                 (100.0, exploded),
             ],

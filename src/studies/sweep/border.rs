@@ -36,7 +36,7 @@ pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
         return Some(depth);
     }
     let shift = setup.drive.tangential()?.displacement()?;
-    let unworn = Unworn::of(setup);
+    let unworn = Unworn::new(setup);
     if setup.geometry.is_line() {
         // A displacement under a varying load has no closed form.
         if normal.oscillation().amplitude() != 0.0 {
@@ -103,12 +103,12 @@ mod tests {
                 material,
                 ..setup.clone()
             };
-            let found = Unworn::of(&setup).depth(force);
+            let found = Unworn::new(&setup).depth(force);
             assert!(
                 (found / depth - 1.0).abs() < 1e-6,
                 "{indenter:?}: {found:e} {depth:e}"
             );
-            let back = Unworn::of(&setup).force(depth);
+            let back = Unworn::new(&setup).force(depth);
             assert!(
                 (back / force - 1.0).abs() < 1e-6,
                 "{indenter:?}: {back:e} {force:e}"

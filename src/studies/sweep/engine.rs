@@ -28,9 +28,10 @@ pub fn check(
     mut go_on: impl FnMut(usize) -> bool,
 ) -> Result<(), Refusal> {
     let all = shard.points(study.points());
-    let first = match all.len() > CHUNK {
-        true => edges(study, shard),
-        false => Vec::new(),
+    let first = if all.len() > CHUNK {
+        edges(study, shard)
+    } else {
+        Vec::new()
     };
     let mut left = first.into_iter().chain(all).peekable();
     let mut checked = 0;

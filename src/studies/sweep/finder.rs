@@ -36,8 +36,8 @@ impl Finder {
             let wanted = normal(given);
             let hash = crc32fast::hash(&wanted);
             let first = places.partition_point(|(known, _)| *known < hash);
-            let alike = places[first..].iter();
-            let alike = alike.take_while(|(known, _)| *known == hash);
+            let places = places[first..].iter();
+            let alike = places.take_while(|(known, _)| *known == hash);
             let alike = alike.map(|(_, place)| *place as usize);
             let equal = alike.filter(|place| value(axis, *place) == wanted);
             equal.collect::<Vec<_>>()

@@ -69,9 +69,10 @@ impl Study {
     /// rule, or if the base cannot be loaded.
     pub fn read(text: &str, origin: &str, directory: &Path) -> Result<Self> {
         Self::read_on(text, origin, |name| {
-            let path = match preset::is_path(name) {
-                true => directory.join(name).to_string_lossy().into_owned(),
-                false => name.to_owned(),
+            let path = if preset::is_path(name) {
+                directory.join(name).to_string_lossy().into_owned()
+            } else {
+                name.to_owned()
             };
             Scenario::load(&path, &[])
         })

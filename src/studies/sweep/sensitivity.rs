@@ -20,7 +20,7 @@ use super::point::{self, Success};
 use crate::scenario::scalars::number;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::Level;
-use crate::studies::table::{Format, Table};
+use crate::studies::table::{Format, Report};
 
 /// h, in ln x.
 const STEP: f64 = 0.01;
@@ -38,7 +38,7 @@ const PLACES: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 #[derive(Debug)]
 pub struct Sensitivity {
     /// A row per key and column, followed by the relative spread of each column due to all deviations together.
-    pub table: Table,
+    pub table: Report,
     /// Cells and steps per cycle of the last runs.
     pub numerics: (usize, u32),
     /// Whether every elasticity is as accurate as wanted.
@@ -78,7 +78,9 @@ pub fn run(
     let mut level = 0;
     loop {
         let finer = f64::from(1 << level);
-        let fixed = Level::of(&middle).scaled(finer, finer).of_scenario(&middle);
+        let fixed = Level::from_scenario(&middle)
+            .scaled(finer, finer)
+            .of_scenario(&middle);
         let fixed = fixed.map_err(|error| Refusal::new("sensitivity", error))?;
         let found = around(study, &fixed, &keys, pool, go_on)?;
         if level == LEVELS || found.as_ref().is_none_or(|found| found.is_resolved) {
@@ -121,7 +123,7 @@ fn around(
         let numbers = row.iter().map(|field| field.parse::<f64>().ok());
         results.push(numbers.collect());
     }
-    let mut table = Table::with_columns(&[
+    let mut table = Report::with_columns(&[
         ("", "key", Format::Words),
         ("", "value", Format::Rough),
         ("", "column", Format::Words),

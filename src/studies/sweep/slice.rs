@@ -30,14 +30,14 @@ const CRITERIA: [(Column, f64, &str); 5] = [
 
 /// A line on a map, as places on its axes: 1.5 lies halfway between the second and the third value.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct Contour {
     /// Its name.
     pub name: &'static str,
     /// Places on the x and y axes where it crosses columns and rows of the map, from left to right.
     pub at: Vec<[f64; 2]>,
 }
 
-impl Line {
+impl Contour {
     fn new(name: &'static str, mut at: Vec<[f64; 2]>) -> Option<Self> {
         at.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         (at.len() > 1).then_some(Self { name, at })
@@ -223,7 +223,7 @@ impl Slice {
     }
 
     /// Draws the published criteria whose columns the study has, between neighbouring points of the map.
-    pub fn criteria(&self) -> Vec<Line> {
+    pub fn criteria(&self) -> Vec<Contour> {
         let [wide, high] = self.size();
         let line = |(column, value, name): (Column, f64, &'static str)| {
             let off = |x: usize, y: usize| {
@@ -240,13 +240,13 @@ impl Slice {
                 let right = part(off(x + 1, y)).map(|part| [column + part, row]);
                 [up, right].into_iter().flatten()
             });
-            Line::new(name, crossed.collect())
+            Contour::new(name, crossed.collect())
         };
         CRITERIA.into_iter().filter_map(line).collect()
     }
 
     /// Returns the borders in closed form.
-    pub fn borders(&self) -> Vec<Line> {
+    pub fn borders(&self) -> Vec<Contour> {
         let Some(y) = self.y else {
             return Vec::new();
         };
@@ -263,8 +263,8 @@ impl Slice {
             let rows = (0..high).filter_map(|at| Some([crossed(self.x, y, at)?, at as f64]));
             columns.chain(rows).collect()
         };
-        let gross = Line::new("gross slip, closed form, unworn", line(to_gross_slip));
-        let open = Line::new("lift-off, closed form, unworn", line(to_lift_off));
+        let gross = Contour::new("gross slip, closed form, unworn", line(to_gross_slip));
+        let open = Contour::new("lift-off, closed form, unworn", line(to_lift_off));
         gross.into_iter().chain(open).collect()
     }
 }

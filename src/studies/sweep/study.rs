@@ -81,9 +81,9 @@ impl Study {
     /// Names `point` by its number and its values.
     pub fn name(&self, point: usize) -> String {
         let values = self.axes.iter().zip(self.values(point));
-        let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
-        let values: Vec<String> = values.collect();
-        format!("point {point} ({})", values.join(", "))
+        let parts = values.map(|(axis, value)| format!("{} = {value}", axis.key));
+        let parts: Vec<String> = parts.collect();
+        format!("point {point} ({})", parts.join(", "))
     }
 
     /// Returns the names of all columns, in order: the keys of the axes, the columns, `status`.

@@ -49,7 +49,7 @@ fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setu
     Setup {
         geometry,
         material,
-        drive: drive.on(geometry, &material, GAUGE),
+        drive: drive.in_geometry(geometry, &material, GAUGE),
         ..setup
     }
 }

@@ -35,7 +35,7 @@ pub struct Task {
 
 /// The result of a task.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
+pub struct Solved {
     /// The task.
     pub task: Task,
     /// The errors of the problem's quantities, in their order; or why there are none.
@@ -64,8 +64,8 @@ pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
 
 impl Task {
     /// Computes and compares; takes from milliseconds to a minute.
-    pub fn run(self) -> Outcome {
-        Outcome {
+    pub fn run(self) -> Solved {
+        Solved {
             task: self,
             errors: self.problem.solve(self.method, self.points),
         }

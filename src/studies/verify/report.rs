@@ -1,9 +1,9 @@
 //! Tables of a study: one per problem to read, one of all rows for JSON, one of all nodes for CSV.
 
 use super::errors::Errors;
-use super::{Outcome, Problem, STICK_RADIUS};
+use super::{Problem, STICK_RADIUS, Solved};
 use crate::scenario::scalars::Value;
-use crate::studies::table::{Format, Table};
+use crate::studies::table::{Format, Report};
 
 /// Smaller errors are rounding, and their order means nothing.
 pub const ROUNDING: f64 = 1e-12;
@@ -12,7 +12,7 @@ pub const ROUNDING: f64 = 1e-12;
 const ROOMY: usize = 2;
 
 /// Makes the table of one problem, with a row for each method and N.
-pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
+pub fn problem_table(problem: Problem, outcomes: &[Solved]) -> Report {
     let quantities = &problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
     let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Rough)];
@@ -20,7 +20,7 @@ pub fn problem_table(problem: Problem, outcomes: &[Outcome]) -> Table {
         let shown = shown(quantity, roomy).iter();
         columns.extend(shown.map(|&(name, format)| (*quantity, name, format)));
     }
-    let mut table = Table::with_columns(&columns);
+    let mut table = Report::with_columns(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
         let task = outcome.task;
         let mut row = vec![task.method.name().into(), task.points.into()];
@@ -50,7 +50,7 @@ fn shown(quantity: &str, roomy: bool) -> &'static [(&'static str, Format)] {
 }
 
 /// Returns the maximum, its order, the rms and its order; or where the run stopped.
-fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
+fn group(outcome: &Solved, at: usize, outcomes: &[Solved]) -> Vec<Value> {
     match &outcome.errors {
         Ok(errors) => vec![
             errors[at].max().into(),
@@ -68,17 +68,17 @@ fn group(outcome: &Outcome, at: usize, outcomes: &[Outcome]) -> Vec<Value> {
 /// Returns log(error of the next coarser grid / error)/log(ratio
 /// of N): `None` on the coarsest grid and if an error is rounding.
 fn order(
-    outcome: &Outcome,
+    outcome: &Solved,
     at: usize,
-    outcomes: &[Outcome],
+    outcomes: &[Solved],
     size: fn(&Errors) -> f64,
 ) -> Option<f64> {
     let task = outcome.task;
-    let is_alike = |o: &&Outcome| (o.task.problem, o.task.method) == (task.problem, task.method);
+    let is_alike = |o: &&Solved| (o.task.problem, o.task.method) == (task.problem, task.method);
     let alike = outcomes.iter().filter(is_alike);
     let coarser = alike.filter(|o| o.task.points < task.points);
     let coarser = coarser.max_by_key(|o| o.task.points)?;
-    let size = |outcome: &Outcome| Some(size(outcome.errors.as_ref().ok()?.get(at)?));
+    let size = |outcome: &Solved| Some(size(outcome.errors.as_ref().ok()?.get(at)?));
     let (before, now) = (size(coarser)?, size(outcome)?);
     let ratio = task.points as f64 / coarser.task.points as f64;
     let order = (before / now).log2() / ratio.log2();
@@ -86,8 +86,8 @@ fn order(
 }
 
 /// Makes a table of all problems, with one row per quantity.
-pub fn all_rows(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::with_columns(&[
+pub fn all_rows(outcomes: &[Solved]) -> Report {
+    let mut table = Report::with_columns(&[
         ("", "problem quantity method", Format::Words),
         ("", "points max", Format::Rough),
         ("", "max_order", Format::Fixed),
@@ -119,8 +119,8 @@ pub fn all_rows(outcomes: &[Outcome]) -> Table {
 }
 
 /// Makes a table of the errors at all nodes.
-pub fn all_nodes(outcomes: &[Outcome]) -> Table {
-    let mut table = Table::with_columns(&[
+pub fn all_nodes(outcomes: &[Solved]) -> Report {
+    let mut table = Report::with_columns(&[
         ("", "problem quantity method", Format::Words),
         ("", "points", Format::Rough),
         ("", "r_over_a", Format::Fixed),
@@ -139,7 +139,7 @@ pub fn all_nodes(outcomes: &[Outcome]) -> Table {
     table
 }
 
-fn key(outcome: &Outcome, quantity: &'static str) -> Vec<Value> {
+fn key(outcome: &Solved, quantity: &'static str) -> Vec<Value> {
     vec![
         outcome.task.problem.name().into(),
         quantity.into(),
@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn a_run_that_stopped_says_where_instead_of_a_number() {
-        let outcome = Outcome {
+        let outcome = Solved {
             task: Task {
                 problem: Problem::Limit,
                 method: AbelMethod::Benad,

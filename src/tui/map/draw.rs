@@ -84,13 +84,13 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
     let point = view.point();
     let row = |row: u16| Rect::new(area.x, area.y + row, area.width, 1);
     let count_place = Rect::new(area.x + behind, area.y, area.width - behind, 1);
-    let told = [
+    let parts = [
         (names, Role::Quiet),
         (vec![place(view, point)], Role::Quiet),
         (reading(view, point), Role::Notice),
     ];
     // Each part takes as many rows as it needs, and the map gets the rest.
-    let told = told.iter().flat_map(|(parts, role)| {
+    let told = parts.iter().flat_map(|(parts, role)| {
         let lines = side_by_side(parts, usize::from(area.width)).into_iter();
         lines.map(move |line| (line, *role))
     });
@@ -214,9 +214,10 @@ fn in_words(of: &Axis, number: f64) -> String {
 /// Returns the column with its range, or its words, in their colours.
 fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
     let ((quantity, range), quiet) = (shown(chart), theme.style(Role::Quiet));
-    let name = match view.is_regime() {
-        true => view.column().name(),
-        false => &quantity.label,
+    let name = if view.is_regime() {
+        view.column().name()
+    } else {
+        &quantity.label
     };
     let name = Span::styled(theme.printable(name), theme.style(Role::Focus));
     let mut line = Line::from(name);

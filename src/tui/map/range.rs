@@ -69,9 +69,10 @@ impl Range {
         let base = scenario.with_changes(Vec::new());
         let base = base.edited(|spec| spec.run.cycles = Some(cycles))?;
         let ratio = self.to / self.from;
-        let spread = match self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
-            true => "logspace",
-            false => "linspace",
+        let spread = if self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
+            "logspace"
+        } else {
+            "linspace"
         };
         let (Self { key, from, to }, columns) = (self, COLUMNS.map(Column::name));
         let text = format!(

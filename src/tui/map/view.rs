@@ -8,7 +8,7 @@ use crate::math::scan;
 use crate::plot::{self, Chart, Scale};
 use crate::reading::Column;
 use crate::scenario::Refusal;
-use crate::studies::sweep::slice::{Line, Slice};
+use crate::studies::sweep::slice::{Contour, Slice};
 use crate::studies::sweep::{Axis, Design, Study};
 use crate::tui::keys::{Key, Named};
 
@@ -25,7 +25,7 @@ pub struct View {
     pub with_overlays: bool,
     /// Whether the user has switched the column's scale from the default.
     is_flipped: bool,
-    borders: RefCell<HashMap<Vec<usize>, Vec<Line>>>,
+    borders: RefCell<HashMap<Vec<usize>, Vec<Contour>>>,
 }
 
 impl View {
@@ -139,9 +139,10 @@ impl View {
     /// Returns the chart of the column, as on paper. Its colours end at the shown values, and its scale is switched if
     /// the user wants that.
     pub fn chart(&self) -> Chart {
-        let lines = match self.with_overlays {
-            true => [self.borders(), self.slice.criteria()],
-            false => Default::default(),
+        let lines = if self.with_overlays {
+            [self.borders(), self.slice.criteria()]
+        } else {
+            Default::default()
         };
         let mut chart = study::chart(&self.slice, self.column(), lines);
         let quantity = chart.map.as_mut().map(|map| &mut map.quantity);
@@ -173,7 +174,7 @@ impl View {
     }
 
     /// Returns the closed forms, computed once per position on the hidden axes.
-    fn borders(&self) -> Vec<Line> {
+    fn borders(&self) -> Vec<Contour> {
         let mut key = self.slice.at.clone();
         for axis in [Some(self.slice.x), self.slice.y].into_iter().flatten() {
             key[axis] = 0;

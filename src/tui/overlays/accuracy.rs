@@ -29,9 +29,10 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
     }
     lines.extend(frame.checks.iter().map(|check| {
         let line = error(check.error, check.subject.meaning());
-        match check.holds() {
-            true => line,
-            false => line.style(alarm),
+        if check.holds() {
+            line
+        } else {
+            line.style(alarm)
         }
     }));
     let estimated = " estimated from the same run on fewer cells and steps:";
@@ -42,7 +43,7 @@ pub(super) fn draw(frame: &Frame, mut canvas: Canvas) {
         }
         Err(why) => lines.push(text(why)),
         Ok((cycle, of)) => {
-            let Level { points, steps, .. } = Level::of(&frame.live.scenario);
+            let Level { points, steps, .. } = Level::from_scenario(&frame.live.scenario);
             lines.push(text(&format!(
                 "{points} cells, {steps} steps per cycle, to cycle {cycle:.2}"
             )));
@@ -67,9 +68,10 @@ pub(super) fn draw_explanations(frame: &Frame, mut canvas: Canvas) {
     let warnings = warnings.map(|warning| format!("! {warning}"));
     let checks = frame.checks.iter().map(|check| {
         let (name, error) = (check.subject.name(), check.error.abs());
-        let verdict = match check.holds() {
-            true => format!("{name}: holds to {error:.1e}"),
-            false => check.complaint(),
+        let verdict = if check.holds() {
+            format!("{name}: holds to {error:.1e}")
+        } else {
+            check.complaint()
         };
         format!("{verdict}. {}", check.subject.explanation())
     });

@@ -71,9 +71,10 @@ pub(super) fn draw(explorer: &Explorer, mut canvas: Canvas) {
             .map(|(symbol, meaning)| format!("{symbol}: {meaning}"));
         let symbols = symbols.collect::<Vec<_>>().join("; ");
         let brief = vec![Line::raw(spelled(text)), Line::raw(spelled(&symbols))];
-        match rows(&brief, width) <= place.height {
-            true => lines = brief,
-            false => place = area,
+        if rows(&brief, width) <= place.height {
+            lines = brief
+        } else {
+            place = area
         }
     }
     let title = format!("{} (Tab: next panel, Esc closes)", spelled(title));

@@ -165,9 +165,10 @@ impl Form {
             filter => format!("parameters: {filter} (Enter: edit, arrows: step)"),
         };
         let rows = (canvas.area.height / 2).clamp(8, 20);
-        let (mut inside, told) = match is_beside {
-            true => (canvas.popup(&title, (LIST, u16::MAX)), BESIDE),
-            false => (canvas.docked(&title, rows + BELOW), BELOW),
+        let (mut inside, told) = if is_beside {
+            (canvas.popup(&title, (LIST, u16::MAX)), BESIDE)
+        } else {
+            (canvas.docked(&title, rows + BELOW), BELOW)
         };
         let Some((at, setting, line)) = seen else {
             return inside.write_text("no parameter has that", Role::Quiet);

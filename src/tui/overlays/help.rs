@@ -18,7 +18,7 @@ use crate::tui::overlays::answer::{Answer, PAGE, watch};
 /// The commands that close it.
 const CLOSING: &[Command] = &[Command::Back, Command::Help, Command::Accept];
 
-/// The help, scrolled down by some lines. Drawing limits them to the lines that there are.
+/// The help, scrolled down by some lines; drawing limits them to the length of the text.
 #[derive(Debug, Default)]
 pub struct Help {
     first: Cell<u16>,
@@ -57,9 +57,10 @@ impl Help {
         let height = usize::from(area.height);
         let columns = 1 + usize::from(area.width >= 2 * WIDTH && count + 2 > height);
         let rows = count.div_ceil(columns);
-        let title = match rows + 2 <= height {
-            true => "keys (/ searches, Esc closes)",
-            false => "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)",
+        let title = if rows + 2 <= height {
+            "keys (/ searches, Esc closes)"
+        } else {
+            "keys (arrows, PgUp, PgDn scroll, / searches, Esc closes)"
         };
         let size = (columns as u16 * WIDTH, rows as u16 + 2);
         let mut inside = canvas.popup(title, size);

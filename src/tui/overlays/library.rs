@@ -200,9 +200,10 @@ impl Library {
         let width = names.max().unwrap_or(0);
         let height = self.entries.len() as u16 + WORDS + 2;
         let filter = self.filter.text();
-        let title = match filter.is_empty() {
-            true => "presets and your own files (type: find, Enter: start, Esc: close)".to_owned(),
-            false => format!("presets and files: {filter} (Enter: start, Esc: close)"),
+        let title = if filter.is_empty() {
+            "presets and your own files (type: find, Enter: start, Esc: close)".to_owned()
+        } else {
+            format!("presets and files: {filter} (Enter: start, Esc: close)")
         };
         let mut inside = canvas.popup(&title, (80, height));
         let (theme, shown) = (inside.theme, inside.area.height.saturating_sub(WORDS));

@@ -126,9 +126,9 @@ impl Palette {
                 let typed = typed.trim();
                 let word = typed.split_whitespace().next().unwrap_or_default();
                 let near = nearest(word, COMMANDS.iter().map(|row| row.name));
-                let near = near.map(|name| format!("; did you mean {name}?"));
-                let near = near.unwrap_or_default();
-                explorer.notice = Some(format!("no such command: {typed}{near}"));
+                let hint = near.map(|name| format!("; did you mean {name}?"));
+                let hint = hint.unwrap_or_default();
+                explorer.notice = Some(format!("no such command: {typed}{hint}"));
             }
             _ if self.line.press(key) => self.at = 0,
             _ => {}

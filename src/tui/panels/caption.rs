@@ -136,9 +136,10 @@ pub fn take_ground(cell: &mut Cell) {
 /// Writes over what is already drawn, keeping its background.
 fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     let (text, buffer) = (&*canvas.theme.printable(text), &mut *canvas.buffer);
-    let style = match has_blocks(&canvas.theme) {
-        true => ink(&canvas.theme).remove_modifier(Modifier::REVERSED),
-        false => Style::reset(),
+    let style = if has_blocks(&canvas.theme) {
+        ink(&canvas.theme).remove_modifier(Modifier::REVERSED)
+    } else {
+        Style::reset()
     };
     let room = buffer.area.right().saturating_sub(x);
     for x in x..x + room.min(Line::raw(text).width() as u16) {
@@ -156,9 +157,10 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         return;
     }
     let is_brief = below.is_empty();
-    let [load, shift] = match is_brief {
-        true => ["", ""],
-        false => ["load ", "shift "],
+    let [load, shift] = if is_brief {
+        ["", ""]
+    } else {
+        ["load ", "shift "]
     };
     let mut forces = format!("{load}F_z {}", value(moment.normal_force, "N"));
     if moment.stick_radius.is_some() {
@@ -177,9 +179,10 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
             write_over(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
         // A wide picture has room for the meaning of all colours.
-        let mut key = match area.width >= ROOMY[0] {
-            true => body_key(&canvas.theme),
-            false => Line::default(),
+        let mut key = if area.width >= ROOMY[0] {
+            body_key(&canvas.theme)
+        } else {
+            Line::default()
         };
         let room = area.width.saturating_sub(key.width() as u16);
         key.extend(stress_key(section, room));
@@ -192,13 +195,13 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
     let geometry = frame.live.observation.geometry;
-    let worn = geometry.term(&worn(seen, |depth| value(depth, "m")));
-    let worn = canvas.printable(&worn);
+    let text = geometry.term(&worn(seen, |depth| value(depth, "m")));
+    let text = canvas.printable(&text);
     // What is obvious from the rest is said where there is room for it.
     let room = usize::from(first.width.saturating_sub(1));
-    let worn = match worn.rsplit_once(", ") {
-        Some((brief, _)) if Line::raw(worn.as_str()).width() > room => brief,
-        _ => worn.as_str(),
+    let worn = match text.rsplit_once(", ") {
+        Some((brief, _)) if Line::raw(text.as_str()).width() > room => brief,
+        _ => text.as_str(),
     };
     canvas.at(first).show(Line::raw(format!(" {worn}")));
     let mut key = body_key(&canvas.theme);

@@ -188,17 +188,21 @@ impl<'a> Section<'a> {
         let surface = lift * lifted - sunk(r) * back;
         // The half-space wears only if the scenario says so.
         let share = scenario.wear_share().unwrap_or(1.0);
-        let wear = |r: f64| match r <= edge {
-            true => self.wear * interpolate(seen.radii(), seen.wear(), r),
-            false => 0.0,
+        let wear = |r: f64| {
+            if r <= edge {
+                self.wear * interpolate(seen.radii(), seen.wear(), r)
+            } else {
+                0.0
+            }
         };
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
         // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
         let along = (x - self.shift_at(r)).abs();
-        let unworn = match (x - self.flanks).abs() > rim {
-            true => f64::INFINITY,
-            false => indenter.profile(along.min(rim)) - self.level,
+        let unworn = if (x - self.flanks).abs() > rim {
+            f64::INFINITY
+        } else {
+            indenter.profile(along.min(rim)) - self.level
         };
         Cut {
             indenter: (unworn + share * wear(along)).max(ground),

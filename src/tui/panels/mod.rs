@@ -97,7 +97,7 @@ panels! {
 }
 
 impl Panel {
-    /// What is said of it.
+    /// Its description.
     pub fn recipe(self) -> &'static About {
         match self.content() {
             Content::Chart(recipe) => recipe,
@@ -127,8 +127,7 @@ pub fn abscissa_at(chart: &Chart, theme: &Theme, area: Rect, at: Position) -> Op
     Plot::new(chart, theme).abscissa_at(inner, at)
 }
 
-/// The smallest and largest ordinate of a live chart: given ones, or those of the run's own curves and of other
-/// sources.
+/// The smallest and largest ordinate of a live chart: given bounds, or the range of all curves except closed forms.
 pub(super) fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
     if chart.y.bounds.is_some() {
         return chart.y.bounds;
@@ -141,9 +140,10 @@ pub(super) fn extent(chart: &Chart, has_spikes: bool) -> Option<[f64; 2]> {
         Scale::Linear if has_spikes => {
             let curves = chart.curves.iter().filter(|curve| !curve.is_theory);
             let top = curves.map(spread_top).fold(0.0, f64::max);
-            match chart.y.is_symmetric {
-                true => Some([-top, top]),
-                false => Some([low.max(-top), high.min(top)]),
+            if chart.y.is_symmetric {
+                Some([-top, top])
+            } else {
+                Some([low.max(-top), high.min(top)])
             }
         }
         Scale::Linear => Some([low, high]),

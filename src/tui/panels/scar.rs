@@ -102,9 +102,10 @@ fn draw(of: &Shown, mut canvas: Canvas) {
             look_at(frame, &theme, deepest, [x, y])
         });
         let cell = &mut canvas.buffer[at];
-        match has_blocks(&theme) {
-            true => paint_halves(cell, halves.map(|(color, _)| color)),
-            false => _ = cell.set_char(halves[0].1),
+        if has_blocks(&theme) {
+            paint_halves(cell, halves.map(|(color, _)| color))
+        } else {
+            cell.set_char(halves[0].1);
         }
     }
     legend(frame, [size, deepest], canvas);
@@ -125,7 +126,7 @@ fn legend_lines(area: Rect) -> u16 {
     1 + u16::from(area.width < ONE_LINE && area.height >= TWO_LINES)
 }
 
-/// Draws the scale bar, the direction of slip, and the scale of the depth, as far as there is room.
+/// Draws as much of the scale bar, the direction of slip and the scale of the depth as has room.
 fn legend(frame: &Frame, [size, deepest]: [f64; 2], mut canvas: Canvas) {
     let (theme, area) = (canvas.theme, canvas.area);
     let value = |value| format_value(value, "m", 3);

@@ -143,10 +143,11 @@ impl Section<'_> {
         match upper[0] {
             Matter::HalfSpace => {
                 let [upper, lower] = [0.5, 1.5].map(|at| ink(top - at * self.half, upper[0]));
-                match upper == lower && upper.is_some() {
-                    // A blank takes one byte instead of three, and changes only one colour.
-                    true => (' ', colors(None, upper)),
-                    false => ('▀', colors(upper, lower)),
+                // A blank takes one byte instead of three, and changes only one colour.
+                if upper == lower && upper.is_some() {
+                    (' ', colors(None, upper))
+                } else {
+                    ('▀', colors(upper, lower))
                 }
             }
             Matter::Worn => {

@@ -92,9 +92,12 @@ impl StressMap {
     /// Returns the ends of the range as text, marked if stresses lie beyond them.
     pub fn ends(self) -> Option<[String; 2]> {
         let [low, high] = self.bounds()?.map(|end| format_value(end, "Pa", 3));
-        let mark = |is_beyond, sign: &str, end| match is_beyond {
-            true => format!("{sign} {end}"),
-            false => end,
+        let mark = |is_beyond, sign: &str, end| {
+            if is_beyond {
+                format!("{sign} {end}")
+            } else {
+                end
+            }
         };
         let [below, above] = self.beyond;
         Some([mark(below, "≤", low), mark(above, "≥", high)])
@@ -126,9 +129,10 @@ impl StressMap {
     /// Returns the title of the map, and a shorter one for little room.
     pub fn names(self) -> [String; 2] {
         let (names, _, origin) = QUANTITIES[self.shown];
-        let of_cycle = match self.over_cycle && !matches!(origin, Origin::Cycle) {
-            true => [", largest of a cycle", ", cycle"],
-            false => [""; 2],
+        let of_cycle = if self.over_cycle && !matches!(origin, Origin::Cycle) {
+            [", largest of a cycle", ", cycle"]
+        } else {
+            [""; 2]
         };
         [0, 1].map(|k| format!("{}{}", names[k], of_cycle[k]))
     }

@@ -55,7 +55,7 @@ impl Worker {
     /// Refines or coarsens cells and steps together, by `STRIDE` per place.
     pub fn refine(&mut self, places: isize) {
         let scenario = self.run.session.scenario();
-        let now = Level::of(scenario);
+        let now = Level::from_scenario(scenario);
         let factor = STRIDE.powf(places as f64);
         let next = now.scaled(factor, factor);
         let within = COARSEST..=scenario.setup().method.most_cells();

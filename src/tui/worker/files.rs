@@ -51,12 +51,13 @@ impl Worker {
         let (session, cycle) = (&self.run.session, self.run.cycle());
         let loaded = session.loaded();
         let is_as_named = Scenario::load(loaded.origin(), &[]).is_ok_and(|named| named == *loaded);
-        match is_as_named && session.changes().is_empty() && !loaded.origin().contains('\'') {
-            true => format!(
+        if is_as_named && session.changes().is_empty() && !loaded.origin().contains('\'') {
+            format!(
                 "mdr-tui run '{}' --cycles {cycle} --out again\n",
                 loaded.origin()
-            ),
-            false => format!("mdr-tui run - --out again <<'END'\n{scenario}END\n"),
+            )
+        } else {
+            format!("mdr-tui run - --out again <<'END'\n{scenario}END\n")
         }
     }
 

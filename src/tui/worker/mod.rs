@@ -123,9 +123,10 @@ impl Worker {
             kept_at: Instant::now(),
             snapshots: Vec::new(),
             cycle_loads: CycleLoads::default(),
-            activity: match running {
-                true => Activity::Running,
-                false => Activity::Paused,
+            activity: if running {
+                Activity::Running
+            } else {
+                Activity::Paused
             },
             stop_at: None,
             before: None,
@@ -152,9 +153,10 @@ impl Worker {
         loop {
             crate::failpoint::hit("worker");
             self.checkpoint_if_due();
-            let wait = match self.is_awaited() {
-                true => Duration::ZERO,
-                false => self.until_next_step(),
+            let wait = if self.is_awaited() {
+                Duration::ZERO
+            } else {
+                self.until_next_step()
             };
             match orders.recv_timeout(wait) {
                 Err(RecvTimeoutError::Disconnected) => return,

@@ -78,9 +78,10 @@ impl Worker {
             self.step();
             let simulation = self.run.simulation();
             let is_end = ends_cycle(before, simulation.cycle());
-            let is_shown = match self.clock.shows_ends(simulation) {
-                true => self.screen.is_due(),
-                false => self.clock.shows_motion(simulation),
+            let is_shown = if self.clock.shows_ends(simulation) {
+                self.screen.is_due()
+            } else {
+                self.clock.shows_motion(simulation)
             };
             if is_end && is_shown {
                 self.publish();

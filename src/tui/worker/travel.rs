@@ -105,9 +105,10 @@ impl Worker {
     pub(in crate::tui) fn go_to_planned(&mut self, forward: bool) {
         let (now, plan) = (self.run.cycle(), self.run.session.loaded().run());
         let planned = plan.snapshot_at.iter().chain(&plan.cycles).copied();
-        let next = match forward {
-            true => planned.filter(|cycle| *cycle > now + 1e-9).reduce(f64::min),
-            false => planned.filter(|cycle| *cycle < now - 1e-9).reduce(f64::max),
+        let next = if forward {
+            planned.filter(|cycle| *cycle > now + 1e-9).reduce(f64::min)
+        } else {
+            planned.filter(|cycle| *cycle < now - 1e-9).reduce(f64::max)
         };
         match next {
             Some(cycle) => self.go_to(cycle),

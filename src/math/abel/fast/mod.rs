@@ -33,7 +33,7 @@
 //!   own kink.
 //!   at its own kink.
 //! - **At r = 0**: g = f(0), w = u(0), p = (2/π) Σ J_k x_k.
-//! - **Known failure**: none; below a few hundred nodes the dense form is faster.
+//! - **Limit**: below a few hundred nodes the dense form is faster.
 
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 

@@ -31,7 +31,7 @@ const BEYOND: f64 = 1.5;
 fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let live = view.live().filter(|live| live.moves()).ok_or(NO_MOTION)?;
     // The path so far, oldest first: m, N.
-    let path = run.over_cycles(view, [Column::ShiftAmplitude, Column::MeanNormalForce]);
+    let path = view.over_cycles(run, [Column::ShiftAmplitude, Column::MeanNormalForce]);
     let [amplitudes, loads] = path.unwrap_or_default();
     let path = amplitudes.into_iter().zip(loads);
     let known = path.filter(|(amplitude, load)| *amplitude > 0.0 && *load > 0.0);

@@ -229,7 +229,7 @@ fn series(
     name: &str,
     role: Role,
 ) -> Result<Curve, &'static str> {
-    let columns = run.over_cycles(view, [Column::Cycle, column]);
+    let columns = view.over_cycles(run, [Column::Cycle, column]);
     let [cycles, values] = columns.ok_or(NO_HISTORY)?;
     Ok(Curve::new(name, cycles, values, role))
 }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::View;
 use crate::contact::indenter::Indenter;
 use crate::math::geometry::Geometry;
 use crate::reading::Column;
@@ -96,31 +95,6 @@ impl Run {
     pub fn unworn(&self, r: f64) -> f64 {
         let indenter = self.indenter.as_ref();
         indenter.map_or(f64::NAN, |indenter| indenter.profile(r))
-    }
-
-    /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
-    /// they lie at other phases of the motion.
-    pub(super) fn over_cycles<const N: usize>(
-        &self,
-        view: &View,
-        wanted: [Column; N],
-    ) -> Option<[Vec<f64>; N]> {
-        let history = self.history.as_ref()?;
-        let cycles = history.column(Column::Cycle)?;
-        let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
-        let rows = 0..cycles.len();
-        let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
-        let rows = if 2 * whole.len() > cycles.len() && whole.len() > 1 && !view.is_on_screen() {
-            whole
-        } else {
-            rows.collect()
-        };
-        let mut columns = [(); N].map(|()| Vec::new());
-        for (values, one) in columns.iter_mut().zip(wanted) {
-            let column = history.column(one)?;
-            values.extend(rows.iter().map(|&row| column[row]));
-        }
-        Some(columns)
     }
 
     /// Returns the last cycle that any of the data reach.

@@ -32,7 +32,7 @@ const RADIUS: Axes = Axes::new(Column::DissipatedEnergy, Column::ScarRadius);
 
 /// Extrapolates the friction work, J, to the last cycle that charts show, at the mean rate so far.
 fn shown_work(run: &Run, view: &View) -> Option<f64> {
-    let [cycles, work] = run.over_cycles(view, [Column::Cycle, Column::DissipatedEnergy])?;
+    let [cycles, work] = view.over_cycles(run, [Column::Cycle, Column::DissipatedEnergy])?;
     let (cycle, done) = (*cycles.last()?, *work.last()?);
     let [_, end] = cycles_shown(run, view)?;
     (cycle >= 1.0).then(|| done * (end / cycle).max(1.0))
@@ -45,7 +45,7 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
         Column::ScarRadius,
         Column::ScarDepth,
     ];
-    let columns = run.over_cycles(view, columns);
+    let columns = view.over_cycles(run, columns);
     let [work, radii, depths] = columns.ok_or(NO_HISTORY)?;
     let radius = Curve::new("radius", work.clone(), radii, Role::Contact);
     let expected = view.expected_wear();

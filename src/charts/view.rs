@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Mark, NO_WEAR, Run};
 use crate::plot::Scale;
 use crate::plot::theme::Role;
-use crate::reading::{CycleFigures, Observation, Zone};
+use crate::reading::{Column, CycleFigures, Observation, Zone};
 use crate::scenario::Scenario;
 use crate::studies::theory::Theory;
 use crate::traces::Loop;
@@ -98,6 +98,31 @@ impl<'a> View<'a> {
     /// Returns the short name on a screen, the full one on paper.
     pub(super) fn pick<T>(&self, screen: T, paper: T) -> T {
         if self.is_on_screen() { screen } else { paper }
+    }
+
+    /// Columns of the history over cycles. Of a finished run in which most rows end a cycle, others are left out:
+    /// they lie at other phases of the motion.
+    pub(super) fn over_cycles<const N: usize>(
+        &self,
+        run: &Run,
+        wanted: [Column; N],
+    ) -> Option<[Vec<f64>; N]> {
+        let history = run.history.as_ref()?;
+        let cycles = history.column(Column::Cycle)?;
+        let is_whole = |row: &usize| cycles[*row].fract() == 0.0;
+        let rows = 0..cycles.len();
+        let whole: Vec<usize> = rows.clone().filter(is_whole).collect();
+        let rows = if 2 * whole.len() > cycles.len() && whole.len() > 1 && !self.is_on_screen() {
+            whole
+        } else {
+            rows.collect()
+        };
+        let mut columns = [(); N].map(|()| Vec::new());
+        for (values, one) in columns.iter_mut().zip(wanted) {
+            let column = history.column(one)?;
+            values.extend(rows.iter().map(|&row| column[row]));
+        }
+        Some(columns)
     }
 
     /// Returns the closed forms if they are shown.

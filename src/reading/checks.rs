@@ -6,6 +6,7 @@
 
 use super::Log;
 use crate::math::abel::worn;
+use crate::math::scan::largest;
 use crate::simulation::{Simulation, Unworn};
 
 /// The guide's chapter, with one section per check.
@@ -29,6 +30,8 @@ pub enum Subject {
     TangentialForce,
     /// E_d per cycle against the closed form, if nothing wears.
     Dissipation,
+    /// The most negative p against the largest: no contact pulls.
+    Tension,
 }
 
 impl Subject {
@@ -39,6 +42,7 @@ impl Subject {
             Self::Interpolation => "interpolation",
             Self::TangentialForce => "tangential force",
             Self::Dissipation => "dissipation",
+            Self::Tension => "tension",
         }
     }
 
@@ -49,6 +53,7 @@ impl Subject {
             Self::Interpolation => "curvature of the worn depth against the widths of the cells",
             Self::TangentialForce => "F_x against the closed form (Mindlin)",
             Self::Dissipation => "E_d of a cycle against the closed form (Mindlin)",
+            Self::Tension => "the most negative p against the largest",
         }
     }
 
@@ -80,11 +85,17 @@ impl Check {
     /// Describes the difference, such as `energy off by 2 %`.
     pub fn complaint(&self) -> String {
         let (name, percent) = (self.subject.name(), 100.0 * self.error.abs());
-        match percent {
-            p if !p.is_finite() => format!("{name} is not finite"),
-            p if p < 9.95 => format!("{name} off by {p:.1} %"),
-            p if p < 1000.0 => format!("{name} off by {p:.0} %"),
-            _ => format!("{name} off by more than 1000 %"),
+        if !percent.is_finite() {
+            return format!("{name} is not finite");
+        }
+        let percent = match percent {
+            p if p < 9.95 => format!("{p:.1} %"),
+            p if p < 1000.0 => format!("{p:.0} %"),
+            _ => "more than 1000 %".to_owned(),
+        };
+        match self.subject {
+            Subject::Tension => format!("p below zero by {percent}"),
+            _ => format!("{name} off by {percent}"),
         }
     }
 }
@@ -111,6 +122,11 @@ impl Simulation {
             checks.extend(error.map(|error| Check { subject, error }));
         };
         add(Subject::Energy, moment.energy_residual);
+        // A limit of the method: as long as it is kept there is nothing to tell.
+        add(
+            Subject::Tension,
+            self.tension().filter(|tension| *tension < -FAILS),
+        );
         let period = f64::from(self.setup().drive.cycles_to_settle());
         // Within the first period the scar has edges that the rest of the period wears away.
         if moment.cycle >= period {
@@ -128,6 +144,13 @@ impl Simulation {
             add(Subject::Dissipation, energy);
         }
         checks
+    }
+
+    /// Returns the most negative p relative to the largest; `None` without contact.
+    fn tension(&self) -> Option<f64> {
+        let pressure = self.pressure();
+        let most = largest(&pressure);
+        (most > 0.0).then(|| pressure.iter().fold(0.0, |least: f64, &p| least.min(p)) / most)
     }
 
     /// Returns F_x and E_d of the last period, divided by the
@@ -159,6 +182,7 @@ mod tests {
             Subject::Interpolation,
             Subject::TangentialForce,
             Subject::Dissipation,
+            Subject::Tension,
         ] {
             let text = subject.explanation();
             assert_eq!(text.matches(". ").count() + 1, 2, "{subject:?}: {text}");

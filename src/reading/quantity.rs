@@ -59,12 +59,8 @@ impl Quantity {
     /// Whether `numerics.accuracy` guarantees it; the other errors are only reported.
     pub const fn is_promised(self) -> bool {
         match self {
-            Self::WornDepth | Self::Volume | Self::Energy | Self::Force => true,
-            Self::Deepest
-            | Self::Loop
-            | Self::Pressure
-            | Self::ContactRadius
-            | Self::StickRadius => false,
+            Self::WornDepth | Self::Deepest | Self::Volume | Self::Energy | Self::Force => true,
+            Self::Loop | Self::Pressure | Self::ContactRadius | Self::StickRadius => false,
         }
     }
 }

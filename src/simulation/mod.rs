@@ -101,10 +101,9 @@ pub struct Simulation {
 }
 
 impl Setup {
-    /// Updates friction and wear to their run-in values in `state`.
-    fn run_in(&mut self, state: &State) {
+    /// Updates friction and wear to their run-in values after `cycle` cycles and work of friction of `energy` (J).
+    fn run_in(&mut self, cycle: f64, energy: f64) {
         if let Some(running_in) = &self.running_in {
-            let (cycle, energy) = (state.cycle, state.ledger.dissipated_energy);
             running_in.apply(cycle, energy, &mut self.material, &mut self.wear);
         }
     }
@@ -295,7 +294,8 @@ impl Simulation {
 
     /// Updates friction and wear to their run-in values.
     fn run_in(&mut self) {
-        self.model.setup.run_in(&self.state);
+        let (cycle, energy) = (self.state.cycle, self.state.ledger.dissipated_energy);
+        self.model.setup.run_in(cycle, energy);
     }
 
     /// Solves the contact at the present cycle, without wear and without advancing time.
@@ -336,7 +336,10 @@ impl Simulation {
     /// Returns the model as it was in the last step: friction and wear may have run in since.
     pub(crate) fn model_of_last_step(&self) -> Model {
         let mut model = self.model.clone();
-        model.setup.run_in(&self.spare[0]);
+        let before = &self.spare[0];
+        model
+            .setup
+            .run_in(before.cycle, before.ledger.dissipated_energy);
         model
     }
 

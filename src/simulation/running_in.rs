@@ -3,8 +3,8 @@
 //!
 //! A step is of second order in them: springs slip by the friction at its end, and the step wears by the mean friction
 //! and the mean k. The work of a step is known before its wear, so the mean of k over energy is exact, even if a
-//! threshold is passed within the step: V = k(E_d − E_th) holds over the whole run. Cycles are jumped only after the
-//! values have settled.
+//! threshold is passed within the step: V = k(E_d − E_th) holds over the whole run. Jumps over cycles integrate the work
+//! along with the wear, and end before the next row of a table and before the threshold.
 
 use std::sync::Arc;
 
@@ -197,6 +197,20 @@ impl Course {
             .map(|(_, cycle)| cycle)
     }
 
+    /// Returns the cycle and the work (J) of the next row of a table; infinite where none is.
+    fn next_row(&self, cycles: f64, energy: f64) -> [f64; 2] {
+        let Self::Table { rows, over } = self else {
+            return [f64::INFINITY; 2];
+        };
+        let now = over.pick(cycles, energy);
+        let next = rows.get(rows.partition_point(|row| row.0 <= now));
+        let next = next.map_or(f64::INFINITY, |row| row.0);
+        match over {
+            Over::Cycles => [next, f64::INFINITY],
+            Over::Energy => [f64::INFINITY, next],
+        }
+    }
+
     /// Whether it no longer changes.
     fn is_settled(&self, cycles: f64, energy: f64) -> bool {
         match self {
@@ -294,6 +308,22 @@ impl RunningIn {
         let courses = [&self.friction, &self.wear].into_iter().flatten();
         let corners = courses.filter_map(|course| course.corner(from, until, apart));
         corners.reduce(f64::min)
+    }
+
+    /// Returns how many cycles and how much work (J) are left until a value has a corner.
+    pub(super) fn smooth_for(&self, cycles: f64, energy: f64) -> [f64; 2] {
+        let threshold = [f64::INFINITY, self.threshold];
+        let courses = [&self.friction, &self.wear].into_iter().flatten();
+        let corners = courses.map(|course| course.next_row(cycles, energy));
+        let now = [cycles, energy];
+        corners
+            .chain([threshold])
+            .fold([f64::INFINITY; 2], |least, corner| {
+                std::array::from_fn(|k| match corner[k] > now[k] {
+                    true => least[k].min(corner[k] - now[k]),
+                    false => least[k],
+                })
+            })
     }
 
     /// Whether nothing changes any more, so that cycles are alike.

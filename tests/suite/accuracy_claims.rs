@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::closed_forms::dual_oscillation::Frequencies;
 use mdr_tui::math::grid::interpolate;
-use mdr_tui::reading::{Subject, verdict};
+use mdr_tui::reading::{Check, Subject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
@@ -285,6 +285,25 @@ fn what_is_off_is_named_with_its_size() {
     let coarse = run("power-law", &["numerics.points=12"], 3.0);
     let told = says(&coarse);
     assert!(told.starts_with("interpolation off by "), "{told}");
+}
+
+/// Under a punch with a hollow deep enough, the method has p pull in the middle, where a contact would open.
+#[test]
+fn pressure_below_zero_is_told() {
+    let hollowed = |depth: f64| {
+        let depths = format!("wear.initial_depths=[{depth:e}, {:e}, 0.0]", 0.5 * depth);
+        let sets = ["wear.initial_radii=[0.0, 0.5e-4, 1e-4]", &depths];
+        let punch = run("flat-punch", &sets, 1.0);
+        (punch.simulation().pressure()[0], punch.checks())
+    };
+    let is_told = |checks: &[Check]| {
+        let mut complaints = checks.iter().map(Check::complaint);
+        complaints.any(|told| told.starts_with("p below zero by "))
+    };
+    let (shallow, checks) = hollowed(1e-8);
+    assert!(shallow > 0.0 && !is_told(&checks), "{shallow:e} {checks:?}");
+    let (deep, checks) = hollowed(5e-7);
+    assert!(deep < 0.0 && is_told(&checks), "{deep:e} {checks:?}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::A;
 use mdr_tui::reading::{Curves, Moment};
 use mdr_tui::scenario::session::Session;
+use mdr_tui::simulation::running_in::{Course, Over, RunningIn};
 use mdr_tui::simulation::{Integrator, Setup, Simulation};
 use mdr_tui::wear::{Powers, WearLaw};
 use std::f64::consts::SQRT_2;
@@ -83,6 +84,61 @@ fn a_jumped_scar_is_the_stepped_one() {
                 holds(&what, off.abs(), tolerances * tolerance);
             }
         }
+    }
+}
+
+/// Friction and k on their courses, over cycles and over work, and a threshold that 150 cycles take: V is that of every
+/// cycle stepped, and agrees with the work that k has worn by.
+#[test]
+fn courses_are_jumped_as_well() {
+    let cycles = 400.0;
+    let all = work(&run_setup(fig3(0.05), cycles));
+    let exponential = |first: f64, last, constant, over| {
+        Some(Course::exponential(first, last, constant, over).expect("a course"))
+    };
+    let table =
+        |at: &[f64], values: &[f64], over| Some(Course::table(at, values, over).expect("a course"));
+    let k = fig3(0.05).wear.expect("a law").coefficient();
+    let courses = [
+        RunningIn {
+            friction: exponential(0.1, 0.15, 60.0, Over::Cycles),
+            ..RunningIn::default()
+        },
+        RunningIn {
+            friction: table(&[50.0, 150.5, 300.0], &[0.1, 0.14, 0.12], Over::Cycles),
+            wear_per_load: Some(0.1 * k),
+            ..RunningIn::default()
+        },
+        RunningIn {
+            wear: exponential(2.0 * k, 0.5 * k, 0.2 * all, Over::Energy),
+            threshold: 0.4 * all,
+            ..RunningIn::default()
+        },
+        RunningIn {
+            friction: table(&[0.1 * all, 0.6 * all], &[0.12, 0.1], Over::Energy),
+            wear: table(&[0.0, 0.3 * all, 0.7 * all], &[k, 2.0 * k, k], Over::Energy),
+            ..RunningIn::default()
+        },
+    ];
+    for (i, running_in) in courses.into_iter().enumerate() {
+        let mut setup = fig3(0.05);
+        setup.running_in = Some(running_in);
+        let stepped = run_setup(setup.clone(), cycles);
+        let jumped = run_setup(jumping(&setup, 1e-5), cycles);
+        let [volume, friction_work] = [Simulation::wear_volume, work]
+            .map(|of: fn(&Simulation) -> f64| of(&jumped) / of(&stepped) - 1.0);
+        assert!(
+            volume.abs() < 2e-3 && friction_work.abs() < 1e-3,
+            "{i}: {volume:e} {friction_work:e}"
+        );
+        let [one, other] = [&jumped, &stepped].map(|run| run.moment().energy_residual);
+        let residual = one.zip(other).map(|(one, other)| one - other);
+        assert!(
+            residual.is_some_and(|difference| difference.abs() < 1e-3),
+            "{i}: {residual:?}"
+        );
+        let evaluated = jumped.state().stats.evaluated_cycles;
+        assert!((evaluated as f64) < 0.3 * cycles, "{i}: {evaluated}");
     }
 }
 

@@ -11,6 +11,9 @@
 //! depth of the motion or, where the force is prescribed, of the largest compression of a spring; of the work
 //! it allows the part that it is of the scar's depth, up to 1e-4.
 //!
+//! Friction and k that run in are taken where a stage stands, in cycles and in work. A jump ends before the next corner of
+//! their courses and before the threshold of wear, which direct steps pass.
+//!
 //! A jump covers whole periods of the motion. It begins after the first period, in which the
 //! springs shake down. If it would need more cycles than it covers, cycles are stepped directly for
 //! a while.
@@ -77,10 +80,8 @@ pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
         return false;
     };
     let period = f64::from(period);
-    let running_in = setup.running_in.as_ref();
     setup.wear.is_some()
         && setup.drive.tangential().is_some()
-        && running_in.is_none_or(|all| all.is_settled(state.cycle, state.ledger.dissipated_energy))
         && state.cycle >= period.max(state.jump.rest_until)
         && state.cycle % period == 0.0
 }
@@ -167,6 +168,17 @@ impl Search<'_> {
         // Under a held force the depth of indentation grows with the scar, and says nothing about the contact.
         let depth = setup.depth_scale(first.elastic_depth);
         let near_edge = NEAR_EDGE * setup.grid.radius();
+        let (cycle, work) = (state.cycle, state.ledger.dissipated_energy);
+        let running_in = setup.running_in.as_ref();
+        let has_run_in = running_in.is_none_or(|all| all.is_settled(cycle, work));
+        let [cycles_left, work_left] =
+            running_in.map_or([f64::INFINITY; 2], |all| all.smooth_for(cycle, work));
+        let mut most = most
+            .min(cycles_left)
+            .min(work_left / first.friction_work.max(0.0));
+        // Below a threshold nothing wears, which tells nothing about the jumps beyond it.
+        let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
+        let known = |length: f64| if wears { length } else { 0.0 };
         let mut length = if state.jump.length > 0.0 {
             state.jump.length
         } else {
@@ -178,14 +190,16 @@ impl Search<'_> {
             let covered = (length.min(most).min(LONGEST) / period).floor() * period;
             let stages = chebyshev::stages_for(covered * stiffest);
             let is_implicit = stages > most_stages;
-            if is_implicit && steady_cycle::is_even(setup, first) {
+            if is_implicit && (!has_run_in || steady_cycle::is_even(setup, first)) {
                 length = 0.5 * covered;
                 continue;
             }
             // An implicit step costs as much as an explicit one of the most stages.
             let price = stages.min(most_stages) as f64 * steady_cycle::cost(setup) * period;
             if covered < (WORTH * price).max(period) {
-                return Err(Refused::TooShort(length));
+                // What a corner holds back need not grow.
+                let length = if most < length { 0.5 * length } else { length };
+                return Err(Refused::TooShort(known(length)));
             }
             let means = self.means(memory);
             let tried = if is_implicit {
@@ -204,6 +218,10 @@ impl Search<'_> {
             };
             let next = covered * (0.75 * error.powf(-1.0 / 3.0)).clamp(0.2, 2.0);
             match tried {
+                Ok(jump) if error <= 1.0 && jump.friction_work > (1.0 + 1e-9) * work_left => {
+                    most = 0.999 * covered * work_left / jump.friction_work;
+                    go_back(memory, self.springs);
+                }
                 Ok(jump) if error <= 1.0 => {
                     // A goal that was near tells nothing about the next jump.
                     let next = if most < length {
@@ -211,7 +229,7 @@ impl Search<'_> {
                     } else {
                         next
                     };
-                    return Ok((jump, next));
+                    return Ok((jump, known(next)));
                 }
                 _ => {
                     go_back(memory, self.springs);
@@ -301,12 +319,9 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
         image: jump.image,
         ..memory
     };
-    if let Some(law) = &model.setup.wear {
-        if law.follows_energy() {
-            end.ledger.expected_volume += law.coefficient() * friction_work;
-        } else {
-            end.ledger.unexplained_volume += worn;
-        }
+    match &model.setup.wear {
+        Some(law) if !law.follows_energy() => end.ledger.unexplained_volume += worn,
+        _ => end.ledger.expected_volume += jump.expected_volume.max(0.0),
     }
     end.stats.jumps += 1;
     end.last.duration = 0.0;

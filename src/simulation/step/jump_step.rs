@@ -15,6 +15,8 @@ pub(super) struct Jump {
     pub wear: Vec<f64>,
     pub image: Vec<f64>,
     pub friction_work: f64,
+    /// V that the friction work explains, m³: its integral with k.
+    pub expected_volume: f64,
     /// What a cycle does after it.
     pub steady: SteadyCycle,
     /// The error of the wear, m.
@@ -33,51 +35,83 @@ pub(super) struct Means<'a> {
     pub scratch: &'a mut Scratch,
 }
 
+/// What a jump sums up besides the wear: cycles, the work of friction, J, and the volume that it explains, m³.
+type Sums = [f64; 3];
+
 impl Means<'_> {
-    /// A steady cycle on a worn depth (m), whose 1D image is written.
-    fn look(&mut self, wear: &[f64], image: &mut [f64]) -> Result<SteadyCycle, Cause> {
-        self.model.plan.image(wear, image);
+    fn sums(&self) -> Sums {
+        [self.memory.cycle, self.memory.ledger.dissipated_energy, 0.0]
+    }
+
+    /// A steady cycle on a worn depth (m), whose 1D image is written, with the friction and k that have run in by then;
+    /// and what it adds to the sums.
+    fn look(
+        &mut self,
+        wear: &[f64],
+        [cycle, work, _]: Sums,
+        image: &mut [f64],
+    ) -> Result<(SteadyCycle, Sums), Cause> {
+        let mut run_in = None;
+        let model = match &self.model.setup.running_in {
+            None => self.model,
+            Some(_) => {
+                let model = run_in.insert(self.model.clone());
+                model.setup.run_in(cycle, work);
+                &*model
+            }
+        };
+        model.plan.image(wear, image);
         self.memory.stats.transforms += 1;
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
-        steady_cycle::cycle(self.model, self.memory, spare, scratch, [wear, image])
+        let steady = steady_cycle::cycle(model, self.memory, spare, scratch, [wear, image])?;
+        let sums = rates(model, &steady);
+        Ok((steady, sums))
     }
 
     /// The same at the end of a jump; refuses a depth that cannot come of contact.
-    fn look_at_end(&mut self, wear: &[f64], image: &mut [f64]) -> Result<SteadyCycle, Cause> {
-        let steady = self.look(wear, image)?;
+    fn look_at_end(
+        &mut self,
+        wear: &[f64],
+        sums: Sums,
+        image: &mut [f64],
+    ) -> Result<(SteadyCycle, Sums), Cause> {
+        let found = self.look(wear, sums, image)?;
         let depth = self.memory.contact.depth;
         refuse(self.model, depth, wear, self.model.grid.nodes())?;
-        Ok(steady)
+        Ok(found)
     }
 
-    /// A Runge–Kutta–Chebyshev step over `covered` cycles. The last entry of y is the work of friction.
+    /// A Runge–Kutta–Chebyshev step over `covered` cycles of the worn depth and the sums.
     pub fn explicit(mut self, covered: f64, stages: usize) -> Result<Jump, Cause> {
         let nodes = self.model.nodes();
-        let with_work = |wear: &[f64], friction_work: f64| [wear, &[friction_work]].concat();
-        let start = with_work(&self.memory.wear, 0.0);
-        let slope = with_work(&self.first.wear, self.first.friction_work);
+        let with_sums = |wear: &[f64], sums: Sums| [wear, &sums].concat();
+        let apart = |y: &[f64]| [y[nodes], y[nodes + 1], y[nodes + 2]];
+        let start = with_sums(&self.memory.wear, self.sums());
+        let slope = with_sums(&self.first.wear, rates(self.model, self.first));
         let mut image = vec![0.0; nodes];
-        let mut wear = chebyshev::step(stages, covered, &start, &slope, |y, out| {
-            let steady = self.look(&y[..nodes], &mut image)?;
+        let end = chebyshev::step(stages, covered, &start, &slope, |y, out| {
+            let (steady, sums) = self.look(&y[..nodes], apart(y), &mut image)?;
             out[..nodes].copy_from_slice(&steady.wear);
-            out[nodes] = steady.friction_work;
+            out[nodes..].copy_from_slice(&sums);
             Ok::<(), Cause>(())
         })?;
-        let friction_work = wear.pop().unwrap_or_default();
-        let steady = self.look_at_end(&wear, &mut image)?;
-        let error = |y, next, first, last| chebyshev::error(covered, y, next, first, last);
-        let ends = start.iter().zip(&wear);
-        let slopes = slope.iter().zip(&steady.wear);
-        let errors = ends.zip(slopes);
+        let (wear, sums) = (end[..nodes].to_vec(), apart(&end));
+        let (steady, last) = self.look_at_end(&wear, sums, &mut image)?;
+        let slopes = slope.iter().zip(steady.wear.iter().chain(&last));
+        let errors = start.iter().zip(&end).zip(slopes);
+        let mut error: Vec<f64> = errors
+            .map(|((y, next), (first, last))| chebyshev::error(covered, *y, *next, *first, *last))
+            .collect();
+        let error_of_work = error[nodes + 1];
+        error.truncate(nodes);
         Ok(Jump {
             covered,
-            error: errors
-                .map(|((y, next), (first, last))| error(*y, *next, *first, *last))
-                .collect(),
-            error_of_work: error(0.0, friction_work, slope[nodes], steady.friction_work),
+            error,
+            error_of_work,
             wear,
             image,
-            friction_work,
+            friction_work: sums[1] - apart(&start)[1],
+            expected_volume: sums[2],
             steady,
         })
     }
@@ -85,7 +119,7 @@ impl Means<'_> {
     /// A linearly implicit step over `covered` cycles.
     ///
     /// The work of friction goes with the volume, which the step knows better than a trapezoid does; what is not
-    /// in proportion to it changes slowly.
+    /// in proportion to it changes slowly. Friction and k must have run in.
     pub fn implicit(mut self, covered: f64) -> Result<Jump, Cause> {
         let (model, first) = (self.model, self.first);
         let mut response = Response::new(model, first, rosenbrock::GAMMA * covered);
@@ -93,10 +127,11 @@ impl Means<'_> {
         let mut image = vec![0.0; model.nodes()];
         let solve = |b: &[f64]| response.solve(b);
         let wear = rosenbrock::step(covered, &start, &first.wear, solve, |y, out| {
-            out.copy_from_slice(&self.look(y, &mut image)?.wear);
+            let (steady, _) = self.look(y, self.sums(), &mut image)?;
+            out.copy_from_slice(&steady.wear);
             Ok::<(), Cause>(())
         })?;
-        let steady = self.look_at_end(&wear, &mut image)?;
+        let (steady, _) = self.look_at_end(&wear, self.sums(), &mut image)?;
         let defect = rosenbrock::defect(covered, [&start, &wear], [&first.wear, &steady.wear]);
         let error = response.solve(&defect);
         self.memory.stats.transforms += response.transforms;
@@ -115,9 +150,11 @@ impl Means<'_> {
             of_all
         };
         let trapezoid = |[before, after]: [f64; 2]| 0.5 * covered * (before + after);
+        let friction_work = trapezoid(works) - per_volume * model.volume(&defect);
         Ok(Jump {
             covered,
-            friction_work: trapezoid(works) - per_volume * model.volume(&defect),
+            friction_work,
+            expected_volume: friction_work * explained(model),
             error_of_work: per_volume * model.volume(&sizes),
             error,
             wear,
@@ -125,4 +162,16 @@ impl Means<'_> {
             steady,
         })
     }
+}
+
+/// What a steady cycle adds to the sums.
+fn rates(model: &Model, steady: &SteadyCycle) -> Sums {
+    let work = steady.friction_work;
+    [1.0, work, explained(model) * work]
+}
+
+/// k, m³/J, if the law wears by the work of friction; otherwise 0.
+fn explained(model: &Model) -> f64 {
+    let law = model.setup.wear.filter(|law| law.follows_energy());
+    law.map_or(0.0, |law| law.coefficient())
 }

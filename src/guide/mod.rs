@@ -44,9 +44,8 @@ impl Topic {
             let mut cells = line.strip_prefix('|')?.split('|').map(str::trim);
             Some([cells.next()?, cells.next()?])
         });
-        // The title and the rule of the table.
-        let rows = rows.skip(2);
-        rows.filter(|[name, _]| !word.is_empty() && name.to_lowercase().contains(&word))
+        let is_word = word.contains(char::is_alphabetic);
+        rows.filter(|[name, _]| is_word && name.to_lowercase().contains(&word))
             .collect()
     }
 

@@ -70,7 +70,7 @@ impl Stage {
         }
         self.app
             .explorer
-            .take_frame(self.orders.frame().expect("a worker"));
+            .show_frame(self.orders.frame().expect("a worker"));
     }
 
     fn draw(&mut self) {
@@ -98,7 +98,7 @@ fn frame(bencher: Bencher, size: &str) {
     let mut turn = 0;
     bencher.bench_local(|| {
         turn = 1 - turn;
-        stage.app.explorer.take_frame(Arc::clone(&moments[turn]));
+        stage.app.explorer.show_frame(Arc::clone(&moments[turn]));
         stage.draw();
     });
 }
@@ -132,7 +132,7 @@ fn run_in_the_explorer() {
             && let Some(frame) = slot.take()
         {
             let is_done = frame.activity == Activity::Done;
-            stage.app.explorer.take_frame(frame);
+            stage.app.explorer.show_frame(frame);
             stage.draw();
             if is_done {
                 return;

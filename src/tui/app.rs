@@ -43,14 +43,14 @@ impl App {
             Event::Input(Input::Point(gesture)) => self.point(gesture),
             Event::Frame(slot) => {
                 if let Some(frame) = slot.take() {
-                    explorer.take_frame(frame);
+                    explorer.show_frame(frame);
                 }
             }
             Event::Unwritten(text) => {
                 explorer.unwritten.get_or_insert_with(|| text.clone());
                 explorer.notice = Some(text);
             }
-            Event::Copied(text, what) => explorer.take_to_clipboard(&text, what),
+            Event::Copied(text, what) => explorer.copy_to_clipboard(&text, what),
             Event::Notice(text) => explorer.notice = Some(text),
             Event::Sweep(live) => {
                 self.overlays = vec![Overlay::Sweep(live)];

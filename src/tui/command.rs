@@ -84,7 +84,7 @@ commands! {
         Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
         HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
             Work(Worker::hold_or_release_phase);
-        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|on| on.order_anew(Worker::restart));
+        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|on| on.order_with_new_scales(Worker::restart));
     }
     "look" {
         Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry", Open;
@@ -133,7 +133,7 @@ commands! {
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
             Work(|run| run.compare(0, Since::Start));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
-        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_anew(Worker::drop_ghosts));
+        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_with_new_scales(Worker::drop_ghosts));
         Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Open;
     }
     "time and files" {

@@ -108,12 +108,12 @@ impl Explorer {
             orders,
         };
         explorer.stage.area = Rect::new(0, 0, 80, 24);
-        explorer.take_frame(frame);
+        explorer.show_frame(frame);
         explorer
     }
 
     /// Shows a new frame.
-    pub fn take_frame(&mut self, frame: Arc<Frame>) {
+    pub fn show_frame(&mut self, frame: Arc<Frame>) {
         let origin = frame.live.scenario.origin();
         self.charts.begin(origin);
         // Another scenario has another tour.
@@ -259,11 +259,11 @@ impl Explorer {
             let (frame, focus) = (&self.frame, self.stage.focus);
             text += &readout::line_at(frame, &self.charts, focus, place, usize::MAX, &self.theme);
         }
-        self.take_to_clipboard(&text, "the readings are");
+        self.copy_to_clipboard(&text, "the readings are");
     }
 
     /// Copies a text to the terminal's clipboard; the notice names it as `what`.
-    pub(super) fn take_to_clipboard(&mut self, text: &str, what: &str) {
+    pub(super) fn copy_to_clipboard(&mut self, text: &str, what: &str) {
         self.to_clipboard = clipboard::request(text);
         self.notice = Some(match self.to_clipboard {
             Some(_) => format!("{what} copied, if the terminal allows it"),
@@ -295,17 +295,21 @@ impl Explorer {
     /// Loads a scenario, or the state in a directory.
     pub(super) fn load(&mut self, path: &Path) {
         let loaded = if path.is_dir() {
-            snapshot::open(path).map(|run| self.order_anew(|worker| worker.replace_run(run)))
+            snapshot::open(path)
+                .map(|run| self.order_with_new_scales(|worker| worker.replace_run(run)))
         } else {
             let scenario = Scenario::load(path, &[]);
             let scenario = scenario.map_err(|error| one_line(&error.to_string()));
-            scenario.map(|scenario| self.order_anew(|run| _ = run.load(scenario)))
+            scenario.map(|scenario| self.order_with_new_scales(|run| _ = run.load(scenario)))
         };
         self.notice = loaded.err();
     }
 
     /// Orders something for which the scales start afresh.
-    pub(super) fn order_anew(&mut self, order: impl FnOnce(&mut Worker) + Send + 'static) {
+    pub(super) fn order_with_new_scales(
+        &mut self,
+        order: impl FnOnce(&mut Worker) + Send + 'static,
+    ) {
         self.charts.forget_scales();
         self.stress.forget_range();
         self.order(order);

@@ -126,7 +126,7 @@ pub fn press(
 fn catch_up(app: &mut App, events: &Receiver<Event>) -> Result<()> {
     let frame = app.explorer.orders.frame();
     let frame = frame.context("the simulation has ended")?;
-    app.explorer.take_frame(frame);
+    app.explorer.show_frame(frame);
     while let Ok(event) = events.try_recv() {
         // A script waits for all points of a study. It has already waited for its frame, so other frames are ignored.
         match &event {

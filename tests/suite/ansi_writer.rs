@@ -41,7 +41,7 @@ impl Counted {
             self.explorer.app.press(key);
         }
         let frame = self.explorer.frame();
-        self.explorer.app.explorer.take_frame(frame);
+        self.explorer.app.explorer.show_frame(frame);
         self.draw()
     }
 
@@ -52,7 +52,7 @@ impl Counted {
         }
         let mut frame = Frame::clone(&self.explorer.frame());
         frame.activity = Activity::Running;
-        self.explorer.app.explorer.take_frame(Arc::new(frame));
+        self.explorer.app.explorer.show_frame(Arc::new(frame));
         self.draw()
     }
 

@@ -101,7 +101,7 @@ fn a_lecture_speeds_up_by_itself() {
         frame.pace = at;
         frame.activity = activity.clone();
         let before = stage.frame().pace;
-        app.explorer.take_frame(Arc::new(frame.clone()));
+        app.explorer.show_frame(Arc::new(frame.clone()));
         let has_risen = stage.frame().pace != before;
         assert_eq!(has_risen, rises, "at cycle {cycle}, {at} a second");
     }
@@ -278,7 +278,7 @@ fn no_phase_is_told_when_the_run_is_done() {
     frame.shows_ends = true;
     for activity in [Activity::Running, Activity::Paused, Activity::Done] {
         frame.activity = activity.clone();
-        stage.app.explorer.take_frame(Arc::new(frame.clone()));
+        stage.app.explorer.show_frame(Arc::new(frame.clone()));
         let is_told = draw(&stage.app, 120, 24).contains("phase 0°");
         assert_eq!(is_told, activity == Activity::Running, "{activity:?}");
     }

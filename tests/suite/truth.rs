@@ -331,7 +331,7 @@ fn no_key_pressed_in_a_modal_changes_the_run() {
             }
             explorer.press(open);
             explorer.app.press(key);
-            explorer.app.explorer.take_frame(explorer.frame());
+            explorer.app.explorer.show_frame(explorer.frame());
             assert_eq!(state(&explorer.frame()), expected, "{open} {key}");
             assert!(
                 !matches!(

@@ -104,7 +104,7 @@ impl Dome {
     }
 
     /// Writes the `rest`: nodal `values` minus the dome.
-    pub fn take_from(&self, values: &[f64], squares: &[f64], rest: &mut Vec<f64>) {
+    pub fn subtract_from(&self, values: &[f64], squares: &[f64], rest: &mut Vec<f64>) {
         let Self { height, edge, .. } = *self;
         rest.resize(values.len(), 0.0);
         write_each(
@@ -210,7 +210,7 @@ mod tests {
         let dome = Dome::fit(&touching, squares, 0.81).expect("a dome");
         assert!((dome.height - 0.7).abs() < 1e-12 && dome.last == 35);
         let mut rest = Vec::new();
-        dome.take_from(&touching, &squares[..36], &mut rest);
+        dome.subtract_from(&touching, &squares[..36], &mut rest);
         let is_line = |(rest, &t): (&f64, &f64)| (rest - line(t)).abs() < 1e-12;
         assert!(rest.iter().zip(squares).all(is_line));
         let rising: Vec<f64> = squares.iter().map(|&t| t * t).collect();

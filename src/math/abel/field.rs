@@ -110,7 +110,7 @@ impl Field {
         let Some(dome) = dome else {
             return &self.nodal;
         };
-        dome.take_from(&self.nodal, grid.squares(), rest);
+        dome.subtract_from(&self.nodal, grid.squares(), rest);
         rest
     }
 }

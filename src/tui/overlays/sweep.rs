@@ -29,7 +29,7 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
                 Ok(scenario) => {
                     live.halt();
                     explorer.notice = Some(OPENING.to_owned());
-                    explorer.order_anew(|run| run.open_point(scenario));
+                    explorer.order_with_new_scales(|run| run.open_point(scenario));
                 }
                 Err(error) => explorer.notice = Some(error.to_string()),
             }

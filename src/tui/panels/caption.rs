@@ -125,7 +125,7 @@ pub fn ink(theme: &Theme) -> Style {
 }
 
 /// Sets the background of a character written over a block to the colour that fills most of the cell.
-pub fn take_ground(cell: &mut Cell) {
+pub fn fill_background(cell: &mut Cell) {
     if ("▅"..="█").contains(&cell.symbol()) && !cell.modifier.contains(Modifier::REVERSED) {
         cell.bg = cell.fg;
     }
@@ -141,7 +141,7 @@ fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
     };
     let room = buffer.area.right().saturating_sub(x);
     for x in x..x + room.min(Line::raw(text).width() as u16) {
-        take_ground(&mut buffer[(x, y)]);
+        fill_background(&mut buffer[(x, y)]);
     }
     buffer.set_stringn(x, y, text, usize::from(room), style);
 }

@@ -108,7 +108,7 @@ impl Section<'_> {
                 };
                 for row in rows.filter(|&row| row < area.bottom()) {
                     let cell = &mut canvas.buffer[(column, row)];
-                    caption::take_ground(cell);
+                    caption::fill_background(cell);
                     cell.set_char('┃').set_style(caption::ink(&self.theme));
                 }
             }

@@ -437,7 +437,7 @@ impl Explorer {
     pub fn press(&mut self, keys: &str) {
         for key in parse_script(keys).expect("a script") {
             self.app.press(key);
-            self.app.explorer.take_frame(self.frame());
+            self.app.explorer.show_frame(self.frame());
             for event in self.worker.events.try_iter() {
                 if let Event::Notice(text) = event {
                     self.app.explorer.notice = Some(text);

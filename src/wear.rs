@@ -107,8 +107,14 @@ impl WearLaw {
     /// (Pa), at the slip `slip` (m) that has `worn` it (m); 0 where no work is done. A power law gives m Δf/|τ|.
     #[inline(always)]
     pub fn sensitivity(&self, tau: &[f64], slip: &[f64], worn: &[f64], answers: &mut [f64]) {
-        let points = answers.iter_mut().zip(tau.iter().zip(slip.iter().zip(worn)));
-        let (k, m, is_power) = (self.coefficient, self.stress_exponent(), self.powers.is_some());
+        let points = answers
+            .iter_mut()
+            .zip(tau.iter().zip(slip.iter().zip(worn)));
+        let (k, m, is_power) = (
+            self.coefficient,
+            self.stress_exponent(),
+            self.powers.is_some(),
+        );
         for (answer, (&tau, (&slip, &worn))) in points {
             let slope = select(is_power, m * worn / tau.abs(), k * slip.abs());
             *answer = select((tau != 0.0) & (slip != 0.0), slope, 0.0);

@@ -1,11 +1,11 @@
 //! Changes made during a run: `[[changes]]`, and the resulting scenarios.
 
-use serde::{Deserialize, Serialize};
-use toml::Table;
-
 use super::error::Origin;
 use super::escape::echo;
+use super::spec::{Control, Spec};
 use super::{Refusal, Scenario, assign, schema, units, values};
+use serde::{Deserialize, Serialize};
+use toml::Table;
 
 /// Maximum number of changes of a run. Each is checked by assembling the scenario that results.
 pub const MOST_CHANGES: usize = 1_000;
@@ -32,6 +32,17 @@ impl Change {
     /// Returns the dotted path of the changed key.
     pub fn key(&self) -> &str {
         self.set.split_once('=').map_or("", |(key, _)| key.trim())
+    }
+
+    /// Returns the change with another value of the key: what it sets, edited.
+    #[must_use]
+    pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Self {
+        let mut edited = self.clone();
+        if let Ok(mut spec) = toml::from_str::<Spec>(&self.set) {
+            edit(&mut spec);
+            spec.write_changes(std::slice::from_mut(&mut edited));
+        }
+        edited
     }
 
     /// Returns the new value, as TOML or as a bare word.
@@ -82,7 +93,8 @@ impl Scenario {
         place: impl Fn(usize) -> String,
     ) -> Result<Self, Refusal> {
         let mut origin = Origin::new(&self.origin);
-        let mut table = self.with_changes(Vec::new()).whole(&self.spec);
+        let mut table = self.spec.table();
+        table.remove("changes");
         for (at, change) in changes.iter().enumerate() {
             let written = place(at);
             let (key, value) = assign::split(&change.set, &written)?;
@@ -105,18 +117,17 @@ impl Scenario {
         place: impl Fn(usize) -> String,
     ) -> Result<(), Refusal> {
         let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
-        for motion in ["motion.normal", "motion.tangential"] {
-            let key = values::join(motion, "control");
-            let [control, before] = [table, &self.table].map(|of| schema::read::<String>(of, &key));
-            let Some(at) = changes_at(&key).filter(|_| control != before) else {
+        for (section, before) in self.spec.motion.directions() {
+            let key = values::join(section, "control");
+            let control: Option<Control> = schema::read(table, &key);
+            let (Some(at), Some(control)) = (changes_at(&key), control) else {
                 continue;
             };
-            for key in ["mean", "amplitude"] {
-                let path = values::join(motion, key);
-                let value: f64 = schema::read(&self.table, &path).unwrap_or(0.0);
-                if value != 0.0 && changes_at(&path).is_none() {
-                    let is_force = control.as_deref() == Some("force");
-                    let unit = units::unit_of(schema::known(&path), is_force);
+            for (key, value) in [("mean", before.mean), ("amplitude", before.amplitude)] {
+                let path = values::join(section, key);
+                let is_stale = before.control != Some(control) && changes_at(&path).is_none();
+                if is_stale && value.is_some_and(|value| value != 0.0) {
+                    let unit = units::unit_of(schema::known(&path), control == Control::Force);
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
                     return Err(Refusal::new(place(at), rule));
                 }

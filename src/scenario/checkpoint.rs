@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bounded_read::{self, Unread};
 use super::changes::{Change, at_one_cycle};
-use super::session::Session;
+use super::session::{Session, State, Unchanged};
 use super::{Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
 use crate::reading::Log;
@@ -104,7 +104,7 @@ pub fn encode_run<E: Serialize>(session: &Session, run: &str, job: &E) -> Vec<u8
 }
 
 fn written<E: Serialize>(session: &Session, run: &str, job: Option<&E>) -> Vec<u8> {
-    let saved = session.simulation.save();
+    let saved = session.simulation().save();
     let cycle = saved.cycle();
     let body = Body {
         origin: session.loaded.origin().into(),
@@ -113,9 +113,9 @@ fn written<E: Serialize>(session: &Session, run: &str, job: Option<&E>) -> Vec<u
         pending: session.pending.clone(),
         goals: (&session.goals).into(),
         saved,
-        log: Cow::Borrowed(&session.log),
+        log: Cow::Borrowed(session.log()),
         unchanged: (session.unchanged())
-            .map(|before| (before.simulation.save(), Cow::Borrowed(&before.log))),
+            .map(|Unchanged { state, .. }| (state.simulation.save(), Cow::Borrowed(&state.log))),
         job,
     };
     let version = env!("CARGO_PKG_VERSION");
@@ -262,17 +262,6 @@ fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Body<'static, E>
 fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
     let loaded = Scenario::from_toml(&body.scenario, &body.origin, &[])
         .map_err(|error| format!("its scenario {error}"))?;
-    let session = |simulation, log, scenario, changes: &[Change]| Session {
-        loaded: loaded.clone(),
-        scenario,
-        simulation,
-        log,
-        changes: changes.to_vec(),
-        pending: Vec::new(),
-        unchanged: None,
-        statements: Vec::new(),
-        goals: Vec::new(),
-    };
     let (mut scenario, mut unchanged) = (loaded.clone(), None);
     let mut made = 0;
     for together in at_one_cycle(&body.changes) {
@@ -280,18 +269,20 @@ fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
         let before = std::mem::replace(&mut scenario, after);
         let is_last = made + together.len() == body.changes.len();
         if let Some((saved, log)) = body.unchanged.as_ref().filter(|_| is_last) {
-            let run = simulation(&before, saved.clone())?;
-            let before = session(run, Log::clone(log), before, &body.changes[..made]);
-            unchanged = Some(Box::new(before));
+            let state = state(before, saved.clone(), Log::clone(log))?;
+            let changes = made;
+            unchanged = Some(Box::new(Unchanged { state, changes }));
         }
         made += together.len();
     }
-    let run = simulation(&scenario, body.saved)?;
     let session = Session {
+        loaded,
+        now: state(scenario, body.saved, body.log.into_owned())?,
+        changes: body.changes.into_owned(),
         pending: body.pending,
         unchanged,
+        statements: Vec::new(),
         goals: body.goals.into_owned(),
-        ..session(run, body.log.into_owned(), scenario, &body.changes)
     };
     Ok(Checkpoint {
         session,
@@ -300,11 +291,16 @@ fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
 }
 
 /// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's.
-fn simulation(scenario: &Scenario, saved: Saved) -> Result<Simulation, String> {
+fn state(scenario: Scenario, saved: Saved, log: Log) -> Result<State, String> {
     let mut setup = scenario.setup().clone();
     if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {
         let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());
         setup.grid = wider.unwrap_or(setup.grid);
     }
-    Simulation::restore(setup, saved).map_err(|why| why.to_string())
+    let simulation = Simulation::restore(setup, saved).map_err(|why| why.to_string())?;
+    Ok(State {
+        scenario,
+        simulation,
+        log,
+    })
 }

@@ -1,9 +1,9 @@
 //! Scenarios: turns a TOML text, plus assignments of the command line, into parts that can be run.
 //!
 //! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`) →
-//! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → defaults (`complete`,
-//! `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses bad input with one line that
-//! names the origin, the dotted path, the value and the rule.
+//! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → fields with defaults
+//! ([`spec`], `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses bad input with one line
+//! that names the origin, the dotted path, the value and the rule.
 
 use std::ffi::OsStr;
 use std::io::Read;
@@ -20,7 +20,6 @@ mod changes;
 mod check;
 pub mod checkpoint;
 pub mod columns;
-mod complete;
 mod derive;
 mod embed;
 mod error;
@@ -42,14 +41,13 @@ pub(crate) mod values;
 pub(crate) mod write;
 
 pub use changes::{Change, MOST_CHANGES};
-pub use complete::USUAL_ACCURACY;
 pub use derive::choices;
 pub use error::Refusal;
 use error::{Faults, Origin};
 use escape::echo;
 pub use escape::printable;
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
-pub use spec::Spec;
+pub use spec::{Spec, USUAL_ACCURACY};
 
 /// Maximum length of the [stem](Scenario::stem), in bytes.
 const LONGEST_STEM: usize = 200;
@@ -62,13 +60,9 @@ pub struct Scenario {
     directory: PathBuf,
     title: String,
     description: String,
-    /// The parts that code changes.
+    /// All keys, with the defaults that may change written out.
     spec: Spec,
-    /// All other keys except `[[changes]]`. Here and there the defaults that may change are written out, but for those
-    /// that follow the method.
-    table: Table,
     setup: Setup,
-    changes: Vec<Change>,
     /// What was left out of the files that it names, a line each.
     notes: Vec<String>,
 }
@@ -76,10 +70,7 @@ pub struct Scenario {
 /// Two scenarios are equal if they run alike; their origin does not matter.
 impl PartialEq for Scenario {
     fn eq(&self, other: &Self) -> bool {
-        self.table == other.table
-            && self.setup == other.setup
-            && self.spec == other.spec
-            && self.changes == other.changes
+        self.spec == other.spec && self.setup == other.setup
     }
 }
 
@@ -147,7 +138,7 @@ impl Scenario {
         &self,
         numbers: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<Self, Refusal> {
-        let (mut table, mut origin) = (self.whole(&self.spec), Origin::new(&self.origin));
+        let (mut table, mut origin) = (self.spec.table(), Origin::new(&self.origin));
         for (key, number) in numbers {
             let written = assign::written(key, &scalars::number(number));
             assign::put(&mut table, &mut origin, key, Value::Float(number), &written);
@@ -161,8 +152,7 @@ impl Scenario {
         &self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<Self, Refusal> {
-        let mut origin = Origin::new(&self.origin);
-        let mut table = self.whole(&self.spec);
+        let (mut origin, mut spec) = (Origin::new(&self.origin), self.spec.clone());
         let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
         if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
             && self.accuracy().is_none()
@@ -170,8 +160,9 @@ impl Scenario {
         {
             // An accuracy chooses the integrator; a default written
             // out for explicit numbers does not count as a choice.
-            values::remove(&mut table, "numerics.integrator");
+            spec.numerics.integrator = None;
         }
+        let mut table = spec.table();
         for (key, value) in assignments {
             let (key, value) = (key.as_ref(), value.as_ref());
             let written = assign::written(key, value);
@@ -192,15 +183,9 @@ impl Scenario {
     /// # Errors
     /// Values that are refused.
     pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Result<Self, Refusal> {
-        let mut spec = self.spec.clone();
+        let (mut spec, origin) = (self.spec.clone(), Origin::new(&self.origin));
         edit(&mut spec);
-        let table = self.whole(&spec);
-        Self::build(
-            table,
-            Origin::new(&self.origin),
-            &self.origin,
-            &self.directory,
-        )
+        Self::build(spec.table(), origin, &self.origin, &self.directory)
     }
 
     /// Where the domain radius comes from.
@@ -252,10 +237,9 @@ impl Scenario {
     /// accepted by [`after`](Self::after).
     #[must_use]
     pub fn with_changes(&self, changes: Vec<Change>) -> Self {
-        Self {
-            changes,
-            ..self.clone()
-        }
+        let mut scenario = self.clone();
+        scenario.spec.changes = changes;
+        scenario
     }
 
     /// Returns the title, on one line; without one, the origin.
@@ -294,14 +278,14 @@ impl Scenario {
         &self.spec.run
     }
 
-    /// The parts that code changes.
+    /// All keys.
     pub fn spec(&self) -> &Spec {
         &self.spec
     }
 
     /// Returns the changes during the run, in order.
     pub fn changes(&self) -> &[Change] {
-        &self.changes
+        &self.spec.changes
     }
 
     /// Returns `numerics.accuracy` if given, or [`USUAL_ACCURACY`] if something wears and no numerics are chosen.
@@ -324,21 +308,29 @@ impl Scenario {
 
     /// Returns the value at a dotted path as TOML, if the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
-        let value = |table: &Table| values::at(table, path).map(values::literal);
-        value(&self.table).or_else(|| value(&self.whole(&self.spec)))
+        values::at(&self.spec.table(), path).map(values::literal)
+    }
+
+    /// Returns the number at a dotted path, if the scenario gives one.
+    pub fn number(&self, path: &str) -> Option<f64> {
+        values::number(values::at(&self.spec.table(), path)?)
+    }
+
+    /// Whether the key at a dotted path is one of a motion that prescribes a force.
+    pub fn prescribes_force(&self, path: &str) -> bool {
+        let section = values::split(path).0;
+        let motion = self.spec.motion.directions().find(|of| of.0 == section);
+        motion.is_some_and(|(_, motion)| motion.control == Some(spec::Control::Force))
     }
 
     /// Returns the complete scenario for a run. Reading it back gives an equal one, bit for bit. Values that follow
     /// from the method are comments, so that they still follow a change of it.
     pub fn to_toml(&self) -> String {
-        let setup = &self.setup;
-        let quoted = |word: &str| format!("{word:?}");
-        let mut follows = vec![("numerics.scheme", quoted(setup.scheme.name()))];
-        if setup.spacing != Spacing::Given {
-            follows.insert(0, ("numerics.grid", quoted(setup.spacing.name())));
-        }
+        let (setup, mut follows) = (&self.setup, Spec::default());
+        follows.numerics.scheme = Some(setup.scheme);
+        follows.numerics.grid = Some(setup.spacing).filter(|of| *of != Spacing::Given);
         let source = format!("default of method \"{}\"", setup.method);
-        write::scenario(&self.whole(&self.spec), &follows, &source)
+        write::scenario(&self.spec.table(), &follows.table(), &source)
     }
 
     /// Checks a table and makes its parts; errors show values as the user wrote them.
@@ -353,31 +345,25 @@ impl Scenario {
         let from = &from;
         let mut faults = Faults::default();
         check::keys(&mut table, from, &mut faults);
-        let (mut complete, setup) = parts::setup(&mut table, from, faults)?;
-        complete.extend(
-            table
-                .get_key_value("run")
-                .map(|(run, plan)| (run.clone(), plan.clone())),
-        );
+        // Changes are checked last, on top of the scenario.
         let changes: Vec<Change> = schema::read(&table, "changes").unwrap_or_default();
+        table.remove("changes");
+        let (spec, setup) = parts::setup(&mut table, from, faults)?;
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));
         }
-        let given: Option<String> = schema::read(&table, "title");
+        let given = spec.title.as_deref();
         let given = given.filter(|title| !title.trim().is_empty());
-        let description: Option<String> = schema::read(&table, "description");
-        let description = description.unwrap_or_default();
+        let description = spec.description.as_deref().unwrap_or_default();
         let lines: Vec<String> = description.lines().map(printable).collect();
         let scenario = Self {
             origin: origin.to_owned(),
             directory: directory.to_owned(),
-            title: printable(given.as_deref().unwrap_or(origin)),
+            title: printable(given.unwrap_or(origin)),
             description: lines.join("\n"),
-            spec: Spec::take(&mut complete),
-            table: complete,
+            spec,
             setup,
-            changes: Vec::new(),
             notes,
         };
         scenario.check_changes(&changes, from)?;
@@ -387,14 +373,5 @@ impl Scenario {
             scenario.spec.run.stated = None;
         }
         Ok(scenario)
-    }
-
-    /// All keys with these parts, `[[changes]]` included.
-    fn whole(&self, spec: &Spec) -> Table {
-        let mut table = self.table.clone();
-        let changes = Value::try_from(&self.changes).expect("changes are a list");
-        table.extend(spec.table());
-        table.insert("changes".into(), changes);
-        table
     }
 }

@@ -3,7 +3,6 @@
 //! `keys.toml` describes each key once. That table serves the reader, the errors and their hints, `--set`, the form of
 //! the explorer, completion, written scenarios, the axes of figures and the documentation.
 
-use std::str::FromStr;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
@@ -81,22 +80,6 @@ impl Parameter {
         }
         let known = words.iter().find(|known| known.word == word)?;
         Some(known.meaning)
-    }
-
-    /// Returns some allowed value, to find what else a scenario lacks; `None` for texts and lists.
-    pub(super) fn any_value(&self) -> Option<Value> {
-        let number = match self.range {
-            Range::Within(least, most) => 1f64.clamp(least, most),
-            Range::UpTo(most) => most.min(1.0),
-            _ => 1.0,
-        };
-        match self.kind {
-            Kind::Number => Some(Value::Float(number)),
-            Kind::Whole => Some(Value::Integer(number as i64)),
-            Kind::Flag => Some(Value::Boolean(true)),
-            Kind::Choice(words) => Some(words.first()?.word.into()),
-            Kind::Text | Kind::Numbers => None,
-        }
     }
 
     /// Describes the range, to follow the name of the kind; empty if every number is allowed.
@@ -194,11 +177,6 @@ pub(super) fn is_section(path: &str) -> bool {
 pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
     debug_assert!(find(path).is_some() || is_section(path), "{path} is known");
     at(table, path)?.clone().try_into().ok()
-}
-
-/// Parses the word of a key in `table`, if given.
-pub(super) fn named<T: FromStr>(table: &Table, path: &str) -> Option<T> {
-    read::<String>(table, path)?.parse().ok()
 }
 
 #[cfg(test)]

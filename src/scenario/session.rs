@@ -3,6 +3,8 @@
 //! The explorer and the headless commands both drive this, so the same scenario and the same
 //! changes give the same bits.
 
+use std::mem::replace;
+
 use thiserror::Error;
 
 use super::changes::{Change, MOST_CHANGES};
@@ -39,20 +41,34 @@ pub enum SessionError {
 pub struct Session {
     /// As loaded, without the changes.
     pub(super) loaded: Scenario,
-    /// As it is now, with the changes so far.
-    pub(super) scenario: Scenario,
-    pub(super) simulation: Simulation,
-    /// Notes on the run.
-    pub(super) log: Log,
+    pub(super) now: State,
     pub(super) changes: Vec<Change>,
     pub(super) pending: Vec<Change>,
     /// Cycles at which steps were cut short so far.
     pub(super) goals: Vec<f64>,
     /// The run before the changes of the current cycle, which are made together: each further change restarts from
     /// there, with the earlier ones.
-    pub(super) unchanged: Option<Box<Self>>,
+    pub(super) unchanged: Option<Box<Unchanged>>,
     /// Statements for the file headers, such as the estimated error.
     pub(super) statements: Vec<(String, String)>,
+}
+
+/// A moment of a run.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    /// With the changes so far.
+    pub(super) scenario: Scenario,
+    pub(super) simulation: Simulation,
+    /// Notes on the run.
+    pub(super) log: Log,
+}
+
+/// A run before the changes of a cycle.
+#[derive(Debug, Clone)]
+pub(super) struct Unchanged {
+    pub(super) state: State,
+    /// The number of changes so far.
+    pub(super) changes: usize,
 }
 
 impl Session {
@@ -68,9 +84,11 @@ impl Session {
         }
         let simulation = Simulation::new(scenario.setup().clone())?;
         let mut session = Self {
-            scenario: scenario.clone(),
-            log: Log::new(&simulation),
-            simulation,
+            now: State {
+                scenario: scenario.clone(),
+                log: Log::new(&simulation),
+                simulation,
+            },
             changes: Vec::new(),
             pending: scenario.changes().to_vec(),
             loaded: scenario,
@@ -84,7 +102,7 @@ impl Session {
 
     /// Returns the current scenario, including changes.
     pub fn scenario(&self) -> &Scenario {
-        &self.scenario
+        &self.now.scenario
     }
 
     /// Returns the scenario as loaded, ready to start again.
@@ -94,29 +112,31 @@ impl Session {
 
     /// The simulation.
     pub fn simulation(&self) -> &Simulation {
-        &self.simulation
+        &self.now.simulation
     }
 
     /// Returns the notes on the run.
     pub fn log(&self) -> &Log {
-        &self.log
+        &self.now.log
     }
 
     /// Returns the [figures](Log::cycle_figures) of the last complete period of the motion.
     pub fn cycle_figures(&self) -> Option<CycleFigures> {
-        self.log.cycle_figures(&self.simulation)
+        self.now.log.cycle_figures(&self.now.simulation)
     }
 
     /// Returns all checks available at the present moment.
     pub fn checks(&self) -> Vec<Check> {
-        self.simulation.checks(&self.log)
+        self.now.simulation.checks(&self.now.log)
     }
 
     /// A line for each way in which the run lies outside the theory, or beyond what any grid sees, and for what was left out of its
     /// files.
     pub fn warnings(&self) -> Vec<String> {
         let notes = self.loaded.notes().iter().cloned();
-        notes.chain(self.simulation.warnings(&self.log)).collect()
+        notes
+            .chain(self.now.simulation.warnings(&self.now.log))
+            .collect()
     }
 
     /// Returns the changes made so far, in order.
@@ -129,18 +149,18 @@ impl Session {
     pub fn step_until(&mut self, cycle: f64) -> Result<(), SessionError> {
         let change = self.pending.first().map(|change| change.at_cycle);
         // A scenario that records a run tells where its steps were cut short.
-        let now = self.simulation.cycle();
+        let now = self.now.simulation.cycle();
         let recorded = self.loaded.run().shortened_at.iter().copied();
         let stops = recorded.filter(|&stop| stop > now).chain(change);
         let goal = stops.fold(cycle, f64::min);
-        self.simulation.step_until(goal)?;
-        self.log.follow(&self.simulation);
+        self.now.simulation.step_until(goal)?;
+        self.now.log.follow(&self.now.simulation);
         if self.unchanged().is_none() {
             self.unchanged = None;
         }
         // A step cut short for a recorded change need not be recorded again.
         let is_new = !self.goals.contains(&goal);
-        if self.simulation.was_shortened() && is_new && change != Some(goal) {
+        if self.now.simulation.was_shortened() && is_new && change != Some(goal) {
             self.goals.push(goal);
         }
         self.make_due_changes()
@@ -188,7 +208,7 @@ impl Session {
     ) -> Result<(), SessionError> {
         loop {
             let goes_on = go_on(self);
-            if self.simulation.cycle() >= cycle {
+            if self.now.simulation.cycle() >= cycle {
                 return Ok(());
             }
             if !goes_on {
@@ -204,7 +224,7 @@ impl Session {
     ///
     /// As [`change_all`](Self::change_all).
     pub fn edit(&mut self, edit: impl FnOnce(&mut Spec)) -> Result<Edits, SessionError> {
-        let before = self.scenario.spec();
+        let before = self.now.scenario.spec();
         let mut after = before.clone();
         edit(&mut after);
         let edits = before.changes_to(&after);
@@ -227,23 +247,27 @@ impl Session {
         &mut self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<(), SessionError> {
-        let cycle = self.simulation.cycle();
+        let cycle = self.now.simulation.cycle();
         let changes = assignments.iter();
         self.make(changes.map(|(key, value)| Change::new(cycle, key.as_ref(), value.as_ref())))
     }
 
-    /// Makes changes together with those already made at this cycle.
+    /// Makes changes together with those already made at this cycle, and records the values that they gave.
     fn make(&mut self, changes: impl Iterator<Item = Change>) -> Result<(), SessionError> {
-        let mut before = self.unchanged().unwrap_or(self).clone();
-        before.unchanged = None;
-        let mut made = self.changes.clone();
-        made.extend(changes);
-        if let Some(last) = made.last().filter(|_| made.len() > MOST_CHANGES) {
+        let (before, made) = match self.unchanged() {
+            Some(before) => (&before.state, before.changes),
+            None => (&self.now, self.changes.len()),
+        };
+        let mut changes: Vec<Change> = self.changes.iter().cloned().chain(changes).collect();
+        if let Some(last) = changes.last().filter(|_| changes.len() > MOST_CHANGES) {
             let rule = format!("a run takes at most {MOST_CHANGES} changes");
             return Err(Refusal::new(&last.set, rule).into());
         }
-        let scenario = before.scenario.after(&made[before.changes.len()..])?;
-        let mut simulation = before.simulation.clone();
+        let scenario = before.scenario.after(&changes[made..])?;
+        scenario
+            .spec()
+            .write_changes(&mut changes[self.changes.len()..]);
+        let (mut simulation, mut log) = (before.simulation.clone(), before.log.clone());
         // If no key changes the domain, it may have grown.
         let radius = |scenario: &Scenario| scenario.setup().grid.radius();
         let domain = if radius(&scenario) == radius(&before.scenario) {
@@ -252,19 +276,26 @@ impl Session {
             scenario.domain()
         };
         simulation.reconfigure(scenario.setup().clone(), domain)?;
-        self.log = before.log.clone();
-        self.log.restart(&simulation);
-        self.simulation = simulation;
-        self.scenario = scenario;
-        self.changes = made;
-        self.unchanged = Some(Box::new(before));
+        log.restart(&simulation);
+        let changed = State {
+            scenario,
+            simulation,
+            log,
+        };
+        let is_first = self.unchanged().is_none();
+        let state = replace(&mut self.now, changed);
+        if is_first {
+            let changes = made;
+            self.unchanged = Some(Box::new(Unchanged { state, changes }));
+        }
+        self.changes = changes;
         Ok(())
     }
 
     /// Returns the run before the changes of the current cycle, if there are any.
-    pub(super) fn unchanged(&self) -> Option<&Self> {
+    pub(super) fn unchanged(&self) -> Option<&Unchanged> {
         let before = self.unchanged.as_deref()?;
-        (before.simulation.cycle() == self.simulation.cycle()).then_some(before)
+        (before.state.simulation.cycle() == self.simulation().cycle()).then_some(before)
     }
 
     /// Adds statements, keys and values, for the headers of this run's files, as `# key: value`; replaces those with
@@ -290,7 +321,7 @@ impl Session {
 
     /// Returns the run so far as a scenario: as loaded, with each change, up to the present cycle.
     pub fn as_run(&self, snapshot_at: Vec<f64>) -> Scenario {
-        let end = self.simulation.cycle();
+        let end = self.now.simulation.cycle();
         // The end of the run cuts a step short anyway.
         let goals = self.goals.iter().copied().filter(|&goal| goal != end);
         let plan = RunPlan {
@@ -309,7 +340,7 @@ impl Session {
     /// Makes the recorded changes whose cycle has come. Changes of one cycle are made together: a force and its control
     /// would be wrong one after the other.
     fn make_due_changes(&mut self) -> Result<(), SessionError> {
-        let now = self.simulation.cycle();
+        let now = self.now.simulation.cycle();
         let pending = self.pending.iter();
         match pending.take_while(|change| change.at_cycle <= now).count() {
             0 => Ok(()),

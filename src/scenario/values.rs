@@ -48,7 +48,7 @@ pub(super) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, toml::de::Erro
 }
 
 /// Returns the value at a dotted path.
-pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+pub(crate) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     match path.split_once('.') {
         None => table.get(path),
         Some((first, rest)) => at(table.get(first)?.as_table()?, rest),

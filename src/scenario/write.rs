@@ -21,12 +21,12 @@ pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
     text
 }
 
-/// Writes `table`, which has passed [`check::keys`](super::check::keys). Each of `follows`, a path and a value, becomes
-/// a comment if the table does not give it; the comment ends with its `source`.
-pub(super) fn scenario(table: &Table, follows: &[(&str, String)], source: &str) -> String {
+/// Writes `table`, which has passed [`check::keys`](super::check::keys). What `follows` from it becomes a comment if the
+/// table does not give it; the comment ends with its `source`.
+pub(super) fn scenario(table: &Table, follows: &Table, source: &str) -> String {
     let mut text = sections(|known| {
         let Some(value) = at(table, known.path) else {
-            let (_, value) = follows.iter().find(|(path, _)| *path == known.path)?;
+            let value = literal(at(follows, known.path)?);
             return Some(format!("# {} = {value}  # {source}", known.key()));
         };
         let comment = match (known.kind, known.unit) {

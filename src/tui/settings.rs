@@ -1,9 +1,11 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
+use toml::Value;
+
 use crate::math::scan::shifted;
 use crate::plot::units::{plain, reading};
 use crate::scenario::schema::{Kind, Parameter, parameters};
-use crate::scenario::{Scenario, units};
+use crate::scenario::{Scenario, units, values};
 
 /// A key of the scenario as the explorer shows it.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,36 +14,37 @@ pub struct Setting {
     pub parameter: &'static Parameter,
     /// The unit in this scenario.
     pub unit: &'static str,
-    /// The value: TOML, words without quotes; `None` if the scenario leaves it to the program.
-    pub value: Option<String>,
+    /// The value; `None` if the scenario leaves it to the program.
+    pub value: Option<Value>,
 }
 
 impl Setting {
     /// Returns every key that has a value or may be given one, in the order of a scenario file.
     pub fn all(scenario: &Scenario) -> Vec<Self> {
-        let fixed = ["", "run", "changes"];
+        let (fixed, given) = (["", "run", "changes"], scenario.spec().table());
         parameters()
             .filter(|parameter| !fixed.contains(&parameter.section()))
             // Long lists come from files, not from the keyboard.
             .filter(|parameter| parameter.kind != Kind::Numbers)
-            .map(|parameter| Self::new(parameter, scenario))
+            .map(|parameter| Self {
+                parameter,
+                unit: units::unit_of(parameter, scenario.prescribes_force(parameter.path)),
+                value: values::at(&given, parameter.path).cloned(),
+            })
             .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
             .collect()
     }
 
-    fn new(parameter: &'static Parameter, scenario: &Scenario) -> Self {
-        let word = |path: &str| Some(scenario.value(path)?.trim_matches('"').to_owned());
-        let control = word(&format!("{}.control", parameter.section()));
-        Self {
-            parameter,
-            unit: units::unit_of(parameter, control.as_deref() == Some("force")),
-            value: word(parameter.path),
-        }
+    /// Returns the value as TOML, words without quotes.
+    pub fn text(&self) -> Option<String> {
+        let value = self.value.as_ref()?;
+        let word = value.as_str().map(str::to_owned);
+        Some(word.unwrap_or_else(|| values::literal(value)))
     }
 
     /// Returns the value with its unit, as an engineer writes it: `230.77 GPa`.
     pub fn shown(&self, ascii: bool) -> String {
-        match (self.reading(ascii), &self.value) {
+        match (self.reading(ascii), self.text()) {
             (Some((number, unit)), _) => format!("{number} {unit}").trim_end().to_owned(),
             (None, Some(value)) => format!("{value} {}", self.unit).trim_end().to_owned(),
             (None, None) => "default".to_owned(),
@@ -50,7 +53,7 @@ impl Setting {
 
     /// Returns the number and the unit of a value that has a unit, as shown.
     fn reading(&self, ascii: bool) -> Option<(String, String)> {
-        let value: f64 = self.value.as_deref()?.parse().ok()?;
+        let value = values::number(self.value.as_ref()?)?;
         let has_unit = self.parameter.kind == Kind::Number && !self.unit.is_empty();
         has_unit.then(|| reading(value, self.unit, ascii))
     }
@@ -77,21 +80,22 @@ impl Setting {
     /// Returns the next value up or down: the next word of a choice, or the next number with two digits; `None` at the
     /// last one.
     pub fn next(&self, up: bool) -> Option<String> {
-        let value = self.value.as_deref()?;
+        let value = self.value.as_ref()?;
         match self.parameter.kind {
             Kind::Choice(_) => {
                 let places = if up { 1 } else { -1 };
-                Some(shifted(&self.words()?, value, places).to_owned())
+                Some(shifted(&self.words()?, value.as_str()?, places).to_owned())
             }
-            Kind::Flag => Some((value != "true").to_string()),
+            Kind::Flag => Some((!value.as_bool()?).to_string()),
             Kind::Whole => {
-                let next = next_number(value.parse().ok()?, up);
+                let next = next_number(values::number(value)?, up);
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
             // One step of the number as shown: 45 degrees are followed by 46.
             Kind::Number => {
                 let shown = self.reading(true);
-                let (number, unit) = shown.unwrap_or_else(|| (value.to_owned(), String::new()));
+                let bare = || (values::literal(value), String::new());
+                let (number, unit) = shown.unwrap_or_else(bare);
                 let next = plain(next_number(number.parse().ok()?, up));
                 Some(format!("{next} {unit}").trim_end().to_owned())
             }

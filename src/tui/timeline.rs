@@ -36,7 +36,8 @@ fn edit(frame: &Frame, room: usize) -> Option<String> {
     let shown = frame.live.observation.moment.cycle + 1e-9;
     let mut latest_first = frame.changes.iter().rev();
     let change = latest_first.find(|change| change.at_cycle <= shown)?;
-    let set = change.set.as_str();
+    // A whole number is shown as one.
+    let set = change.set.strip_suffix(".0").unwrap_or(&change.set);
     let whole = format!("at cycle {}: {set}", short(change.at_cycle));
     let key = set.split('=').next().unwrap_or_default();
     let ends = key.match_indices('.').map(|(at, _)| &set[at + 1..]);

@@ -1,13 +1,13 @@
 //! Builds a line contact from the keys of a scenario: its length,
 //! its motion, and checks of what a line does not support.
 
-use super::Parts;
+use super::{INDENTER, NORMAL, NUMERICS, Noted, Parts, TANGENTIAL};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
 use crate::scenario::check::length;
-use crate::scenario::error::Refusal;
+use crate::scenario::spec;
 use crate::simulation::Unworn;
 use crate::simulation::drive::{Control, Drive};
 
@@ -18,9 +18,9 @@ const PER_METRE: f64 = 1.0;
 const USUAL_GAUGE: f64 = 10.0;
 
 impl Parts<'_> {
-    /// Whether the contact is a line.
-    pub(super) fn is_line(&self) -> bool {
-        self.get::<String>("indenter.geometry").as_deref() == Some("line")
+    /// Returns the depth of the reference point for displacements, m, if given.
+    fn gauge(&self) -> Option<f64> {
+        self.spec.motion.tangential.as_ref()?.gauge_length
     }
 
     /// Builds the geometry: round, or a line of some length.
@@ -29,24 +29,25 @@ impl Parts<'_> {
     ///
     /// If there is a key of the other geometry, a method without a line kernel, or a measured section whose contact
     /// would be more than one strip.
-    pub(super) fn geometry(&self, indenter: &Indenter) -> Result<Geometry, Refusal> {
-        if !self.is_line() {
-            let of_lines = ["indenter.length", "motion.tangential.gauge_length"];
-            return match of_lines.iter().find(|key| self.has(key)) {
-                Some(key) => Err(self.refuse(key, "needs geometry = \"line\" in [indenter]")),
-                None => Ok(Geometry::Round),
+    pub(super) fn geometry(&self, indenter: &Indenter) -> Result<Geometry, Noted> {
+        let (at, given) = (self.at(INDENTER), &self.spec.indenter);
+        if given.geometry != Some(spec::Geometry::Line) {
+            let rule = "needs geometry = \"line\" in [indenter]";
+            return match (given.length, self.gauge()) {
+                (Some(_), _) => Err(at.refuse("length", rule)),
+                (None, Some(_)) => Err(self.at(TANGENTIAL).refuse("gauge_length", rule)),
+                (None, None) => Ok(Geometry::Round),
             };
         }
-        let method: AbelMethod = self.choice("numerics.method")?;
-        if method != AbelMethod::Product {
+        if self.spec.numerics.method != Some(AbelMethod::Product) {
             let rule = "must be \"product\" with geometry = \"line\": the other methods are of round contacts";
-            return Err(self.refuse("numerics.method", rule));
+            return Err(self.at(NUMERICS).refuse("method", rule));
         }
         if let Indenter::Table(measured) = indenter {
-            let refused = |invalid| self.refused("indenter")(invalid);
+            let refused = |invalid| at.refused(invalid);
             measured.check_strip().map_err(refused)?;
         }
-        let length = self.get("indenter.length").unwrap_or(PER_METRE);
+        let length = given.length.unwrap_or(PER_METRE);
         Ok(Geometry::Line { length })
     }
 
@@ -59,21 +60,22 @@ impl Parts<'_> {
         &self,
         geometry: Geometry,
         indenter: &Indenter,
-    ) -> Result<(Drive, Material), Refusal> {
-        let (drive, material) = (self.drive()?, self.material()?);
+        drive: Drive,
+        material: Material,
+    ) -> Result<(Drive, Material), Noted> {
         if !geometry.is_line() {
             return Ok((drive, material));
         }
         if drive.normal().displacement().is_some() {
             let rule = "a line contact has no depth of indentation, which is infinite in the plane; \
                         give motion.normal.control = \"force\", with mean and amplitude in N";
-            return Err(self.refuse("motion.normal.control", rule));
+            return Err(self.at(NORMAL).refuse("control", rule));
         }
-        let gauge: Option<f64> = self.get("motion.tangential.gauge_length");
+        let gauge = self.gauge();
         if gauge.is_none() && matches!(drive.tangential(), Some(Control::Displacement(_))) {
             let meaning = "depth of the point that the displacement of a line contact is told against, m; \
                            or give motion.tangential.control = \"force\"";
-            return Err(self.missing("motion.tangential.gauge_length", meaning));
+            return Err(self.at(TANGENTIAL).missing("gauge_length", meaning));
         }
         let material = material.in_plane_strain();
         let unworn = Unworn {
@@ -88,13 +90,12 @@ impl Parts<'_> {
     }
 
     /// Refuses a gauge length inside the domain, which ends at `domain` (m).
-    pub(super) fn check_gauge(&self, drive: &Drive, domain: f64) -> Result<(), Refusal> {
-        let is_given = self.has("motion.tangential.gauge_length");
+    pub(super) fn check_gauge(&self, drive: &Drive, domain: f64) -> Result<(), Noted> {
         match drive.gauge_length().filter(|&gauge| gauge <= domain) {
-            Some(_) if is_given => {
+            Some(_) if self.gauge().is_some() => {
                 let least = length(domain);
                 let rule = format!("must be greater than the contact can become wide, {least} m");
-                Err(self.refuse("motion.tangential.gauge_length", rule))
+                Err(self.at(TANGENTIAL).refuse("gauge_length", rule))
             }
             _ => Ok(()),
         }

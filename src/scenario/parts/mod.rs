@@ -1,23 +1,21 @@
 //! Turns the keys of a scenario into parts that can be run. The schema and the parts' constructors check the values;
 //! these modules add where in the scenario a refused value is.
 //!
-//! Each section of a scenario has its own file.
+//! Each section of a scenario has its own file. Parts that do not depend on each other are all made before the first that
+//! failed ends it, so that every error is told at once.
 
 use std::cell::RefCell;
 use std::fmt::Display;
-use std::str::FromStr;
 
-use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
 use super::check::{self, show};
-use super::complete;
 use super::derive;
 use super::error::{Faults, Origin, Refusal};
-use super::schema::{self, Parameter};
+use super::schema;
+use super::spec::{Geometry, Law, NORMAL, Passage, Spec, TANGENTIAL, Wear};
 use super::values::{self, join};
 use crate::contact::indenter::Indenter;
-use crate::contact::material::Material;
 use crate::contact::scar::Scar;
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
 use crate::math::grid::RadialGrid;
@@ -35,77 +33,179 @@ mod shape;
 /// Ratio beyond which a length is probably in the wrong unit.
 const HARDLY_SAME: f64 = 20.0;
 
-/// Makes the parts of a scenario from the keys that the user gave, and returns them after the
-/// [completed](super::complete::table) keys. If an accuracy leaves points and steps open, they take their defaults.
+/// Sections of a scenario.
+const INDENTER: &str = "indenter";
+const FRICTION: &str = "friction";
+const WEAR: &str = "wear";
+const NUMERICS: &str = "numerics";
+
+/// Makes the parts of a scenario from the keys that the user has `written`, and returns them after all of its keys. If
+/// an accuracy leaves points and steps open, they take their defaults.
 ///
 /// # Errors
 ///
-/// All `faults`, plus every missing key; without any of these, the refusal of the first part that fails.
+/// All `faults`, plus every missing key and what the parts refuse.
 pub(super) fn setup(
-    table: &mut Table,
+    written: &mut Table,
     origin: &Origin,
     faults: Faults,
-) -> Result<(Table, Setup), Refusal> {
-    // Replace wrong values, so that missing keys are reported as well.
+) -> Result<(Spec, Setup), Refusal> {
+    // Wrong values are left out, and count as given.
     for path in faults.paths() {
-        let wrong = values::remove(table, path).and_then(|_| schema::find(path));
-        if let Some(value) = wrong.and_then(Parameter::any_value) {
-            values::insert(table, path, value);
-        }
+        values::remove(written, path);
     }
-    let complete = complete::table(table);
+    let spec = Spec::read(written);
     let parts = Parts {
-        table: &complete,
-        written: table,
+        spec: &spec,
+        usual: Spec::usual(),
+        written,
         origin,
         faults: faults.into(),
     };
     let setup = parts.setup();
-    match parts.faults.into_inner().into_error() {
-        Some(faults) => Err(faults),
-        None => Ok((complete, setup?)),
+    match (parts.faults.into_inner().into_error(), setup) {
+        (None, Ok(setup)) => Ok((spec, setup)),
+        (faults, _) => Err(faults.expect("a part that cannot be made has noted why")),
     }
 }
 
-/// The tables of a scenario and their origin. Its parts are made from them here and in the neighbouring modules, one
-/// for each section.
+/// An error was noted.
+#[derive(Debug)]
+struct Noted;
+
+/// The keys of a scenario and their origin. Its parts are made from them here and in the neighbouring modules, one for
+/// each section.
 pub(super) struct Parts<'a> {
-    /// Values including defaults.
-    table: &'a Table,
+    spec: &'a Spec,
+    /// Defaults.
+    usual: &'a Spec,
     /// Values as the user wrote them, for messages.
     written: &'a Table,
     origin: &'a Origin,
-    /// Errors so far; missing keys are added.
+    /// Errors so far.
     faults: RefCell<Faults>,
 }
 
-impl Parts<'_> {
+/// A section of a scenario, whose keys errors blame.
+#[derive(Clone, Copy)]
+struct Section<'a> {
+    parts: &'a Parts<'a>,
+    path: &'static str,
+}
+
+impl Section<'_> {
+    /// Passes the value of a key.
+    ///
+    /// # Errors
+    ///
+    /// If the key is missing or wrong.
+    fn need<T>(self, key: &str, value: Option<T>) -> Result<T, Noted> {
+        let value = value.filter(|_| !self.is_blamed(key));
+        value.ok_or_else(|| self.missing(key, self.described(key)))
+    }
+
+    /// Passes a list that is read from the file that a key names.
+    ///
+    /// # Errors
+    ///
+    /// If there is no list: the key of the file is missing.
+    fn need_list<'b>(
+        self,
+        key: &str,
+        list: &'b Option<Vec<f64>>,
+        file: &str,
+    ) -> Result<&'b [f64], Noted> {
+        match list {
+            Some(list) => Ok(list),
+            None if self.is_blamed(key) => Err(Noted),
+            None => Err(self.missing(file, self.described(file))),
+        }
+    }
+
+    /// Describes a key.
+    fn described(self, key: &str) -> String {
+        schema::known(&join(self.path, key)).described()
+    }
+
+    /// Whether an error covers a key.
+    fn is_blamed(self, key: &str) -> bool {
+        self.parts.faults.borrow().covers(&join(self.path, key))
+    }
+
+    /// Notes that a key, which means `meaning`, is missing, unless an error already covers it.
+    fn missing(self, key: &str, meaning: impl Display) -> Noted {
+        let path = join(self.path, key);
+        if !self.is_blamed(key) {
+            let missing = || self.parts.origin.missing(&path, meaning);
+            self.parts.faults.borrow_mut().note(&path, missing);
+        }
+        Noted
+    }
+
+    /// Refuses the value of a key; `value` is shown where none was written.
+    fn refuse_value(self, key: &str, value: &str, rule: impl Display) -> Noted {
+        let path = join(self.path, key);
+        let written = values::at(self.parts.written, &path).map(show);
+        let shown = written.as_deref().unwrap_or(value);
+        let refusal = || self.parts.origin.refuse(&path, shown, rule);
+        self.parts.faults.borrow_mut().note(&path, refusal);
+        Noted
+    }
+
+    /// Refuses the value of a key.
+    fn refuse(self, key: &str, rule: impl Display) -> Noted {
+        self.refuse_value(key, "", rule)
+    }
+
+    /// Turns the refusal of a part's constructor into an error about a key.
+    fn refused(self, invalid: Invalid) -> Noted {
+        self.refuse_value(invalid.field, &invalid.value, invalid.rule)
+    }
+}
+
+impl<'a> Parts<'a> {
+    fn at(&'a self, path: &'static str) -> Section<'a> {
+        Section { parts: self, path }
+    }
+
     /// Makes all parts.
-    fn setup(&self) -> Result<Setup, Refusal> {
-        check::conflicts(self.written, self.origin)?;
-        let indenter = self.indenter()?;
+    fn setup(&self) -> Result<Setup, Noted> {
+        if let Err(conflict) = check::conflicts(self.written, self.origin) {
+            self.faults.borrow_mut().note("", || conflict);
+            return Err(Noted);
+        }
+        let (indenter, drive) = (self.indenter(), self.drive());
+        let (material, wear_coefficient) = (self.material(), self.wear_coefficient());
+        let (running_in, scar) = (self.running_in(), self.scar());
+        let indenter = indenter?;
         let geometry = self.geometry(&indenter)?;
-        let (drive, material) = self.in_plane(geometry, &indenter)?;
+        let (drive, material) = self.in_plane(geometry, &indenter, drive?, material?)?;
         let contact = Unworn {
             geometry,
             indenter: &indenter,
             material: &material,
             drive: &drive,
         };
-        let wear = self.wear(&contact)?;
-        let running_in = self.running_in(&material)?;
-        let scar = self.scar()?;
-        let domain = self.get("numerics.domain_radius").or_else(|| {
+        let wear = match &self.spec.wear {
+            Some(wear) => Some(self.wear(wear, wear_coefficient?, &contact)?),
+            None => None,
+        };
+        let (running_in, scar) = (running_in?, scar?);
+        let numerics = &self.spec.numerics;
+        let domain = numerics.domain_radius.or_else(|| {
             let runs_in = running_in.as_ref().is_some_and(|of| of.friction.is_some());
             contact.domain_radius(!runs_in, scar.as_ref().map_or(0.0, Scar::deepest))
         });
-        let method = self.choice("numerics.method")?;
+        let (at, usual) = (self.at(NUMERICS), &self.usual.numerics);
+        let method = at.need("method", numerics.method)?;
         let (spacing, scheme) = derive::choices(method);
         let grid = self.grid(method, &indenter, domain)?;
         self.check_gauge(&drive, grid.radius())?;
         if let Some(scar) = &scar {
             self.check_scar(scar, &indenter, grid.radius())?;
         }
+        let tolerance = numerics.tolerance.or(usual.tolerance);
+        let steps = numerics.steps_per_cycle.or(usual.steps_per_cycle);
         Ok(Setup {
             scar,
             grid,
@@ -118,123 +218,38 @@ impl Parts<'_> {
             running_in,
             method,
             spacing: self.spacing(spacing)?,
-            scheme: schema::named(self.table, "numerics.scheme").unwrap_or(scheme),
-            stability: self.choice("numerics.stability")?,
-            steps_per_cycle: self.require("numerics.steps_per_cycle")?,
-            integrator: match self.require::<String>("numerics.integrator")?.as_str() {
-                "cycle-jump" => Integrator::CycleJump {
-                    tolerance: self.require("numerics.tolerance")?,
+            scheme: numerics.scheme.unwrap_or(scheme),
+            stability: at.need("stability", numerics.stability)?,
+            steps_per_cycle: at.need("steps_per_cycle", steps)?,
+            integrator: match numerics.integrator {
+                Some(Passage::CycleJump) => Integrator::CycleJump {
+                    tolerance: at.need("tolerance", tolerance)?,
                 },
                 _ => Integrator::Direct,
             },
         })
     }
 
-    /// Returns the value of a key, if given.
-    fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
-        schema::read(self.table, key)
-    }
-
-    /// Returns the initial value of a coefficient: its value, or the first in the table of its `section`.
-    fn first(&self, key: &str, section: &str) -> Option<f64> {
-        let values = || self.get::<Vec<f64>>(&join(section, "values"));
-        self.get(key).or_else(|| values()?.first().copied())
-    }
-
-    /// Returns the value of a key, or its default. If there is neither, notes the error and returns any allowed value,
-    /// so that other missing keys are found too.
-    ///
-    /// # Errors
-    ///
-    /// If the key is missing and has no such value.
-    fn require<T: DeserializeOwned>(&self, key: &str) -> Result<T, Refusal> {
-        let known = schema::known(key);
-        let default = || known.default.value()?.clone().try_into().ok();
-        let value = self.get(key).or_else(default);
-        value.map_or_else(|| self.any(key, known.described()), Ok)
-    }
-
-    /// Parses the word of a key.
-    ///
-    /// # Errors
-    ///
-    /// As [`require`](Self::require).
-    fn choice<T: FromStr>(&self, key: &str) -> Result<T, Refusal> {
-        let word: String = self.require(key)?;
-        let unknown = |_| self.missing(key, schema::known(key).described());
-        word.parse().map_err(unknown)
-    }
-
-    /// Returns a list that is read from a `file`, which a key names.
-    ///
-    /// # Errors
-    ///
-    /// If there is no list: the key of the file is missing.
-    fn list(&self, list: &str, file: &str) -> Result<Vec<f64>, Refusal> {
-        let missing = || self.missing(file, schema::known(file).described());
-        self.get(list).ok_or_else(missing)
-    }
-
-    /// Notes that a key, which means `meaning`, is missing, and returns any allowed value for it.
-    fn any<T: DeserializeOwned>(&self, key: &str, meaning: impl Display) -> Result<T, Refusal> {
-        let missing = self.missing(key, meaning);
-        let any = schema::known(key).any_value();
-        any.and_then(|any| any.try_into().ok()).ok_or(missing)
-    }
-
-    /// Notes that the value at `path`, which means `meaning`, is missing, unless an error already covers it.
-    fn missing(&self, path: &str, meaning: impl Display) -> Refusal {
-        let error = self.origin.missing(path, meaning);
-        let mut faults = self.faults.borrow_mut();
-        if !faults.covers(path) {
-            faults.note(path, || error.clone());
-        }
-        error
-    }
-
-    fn has(&self, path: &str) -> bool {
-        values::at(self.written, path).is_some()
-    }
-
-    /// Refuses the value at `path`, if one was written.
-    fn refuse(&self, path: &str, rule: impl Display) -> Refusal {
-        let written = values::at(self.written, path).map(show);
-        self.origin.refuse(path, &written.unwrap_or_default(), rule)
-    }
-
-    /// Turns the refusal of a part's constructor into an error about a key of `section`.
-    fn refused(&self, section: &str) -> impl Fn(Invalid) -> Refusal {
-        move |invalid| {
-            let path = join(section, invalid.field);
-            if self.has(&path) {
-                self.refuse(&path, invalid.rule)
-            } else {
-                self.origin.refuse(&path, &invalid.value, invalid.rule)
-            }
-        }
-    }
-
     /// Builds the wear law. Keys of the power law are checked under either law, so that the law can be switched during
     /// a run.
-    fn wear(&self, contact: &Unworn) -> Result<Option<WearLaw>, Refusal> {
-        if !self.has("wear") {
-            return Ok(None);
-        }
-        let is_power = self.require::<String>("wear.law")? == "power";
-        let coefficient = self.wear_coefficient(contact.material)?;
-        let stress = self.get("wear.reference_stress");
-        let slip_rate = self.get("wear.reference_slip_rate");
-        let (any_stress, any_slip_rate) = if is_power && (stress.is_none() || slip_rate.is_none()) {
-            contact.references().ok_or_else(|| {
-                let meaning = "Pa; none could be found from the contact";
-                self.missing("wear.reference_stress", meaning)
-            })?
-        } else {
-            (1.0, 1.0)
-        };
+    fn wear(&self, wear: &Wear, coefficient: f64, contact: &Unworn) -> Result<WearLaw, Noted> {
+        let (at, usual) = (self.at(WEAR), self.usual.wear.as_ref());
+        let is_power = wear.law == Some(Law::Power);
+        let (stress, slip_rate) = (wear.reference_stress, wear.reference_slip_rate);
+        let (any_stress, any_slip_rate) =
+            match is_power && (stress.is_none() || slip_rate.is_none()) {
+                true => contact.references().ok_or_else(|| {
+                    let meaning = "Pa; none could be found from the contact";
+                    at.missing("reference_stress", meaning)
+                })?,
+                false => (1.0, 1.0),
+            };
+        let exponent = |of: fn(&Wear) -> Option<f64>| of(wear).or(usual.and_then(of));
+        let stress_exponent = exponent(|wear| wear.stress_exponent);
+        let slip_rate_exponent = exponent(|wear| wear.slip_rate_exponent);
         let powers = Powers {
-            stress_exponent: self.require("wear.stress_exponent")?,
-            slip_rate_exponent: self.require("wear.slip_rate_exponent")?,
+            stress_exponent: at.need("stress_exponent", stress_exponent)?,
+            slip_rate_exponent: at.need("slip_rate_exponent", slip_rate_exponent)?,
             reference_stress: stress.unwrap_or(any_stress),
             reference_slip_rate: slip_rate.unwrap_or(any_slip_rate),
         };
@@ -244,25 +259,31 @@ impl Parts<'_> {
         } else {
             power.and(WearLaw::archard(coefficient))
         };
-        law.map(Some).map_err(self.refused("wear"))
+        law.map_err(|invalid| at.refused(invalid))
     }
 
-    /// Returns k per friction work, 1/Pa: as given, or the coefficient
-    /// per load and distance divided by the initial friction.
-    fn wear_coefficient(&self, material: &Material) -> Result<f64, Refusal> {
-        let Some(per_load) = self.get::<f64>("wear.coefficient_per_load") else {
-            let given = self.first("wear.coefficient", "wear");
-            let key = "wear.coefficient";
-            let meaning = schema::known(key).described();
-            let meaning = format!("{meaning}; or coefficient_per_load, of a pin test");
-            return given.map_or_else(|| self.any(key, meaning), Ok);
+    /// Returns k per friction work, 1/Pa: as given, or the coefficient per load and distance divided by the initial
+    /// friction; 0 where nothing wears.
+    fn wear_coefficient(&self) -> Result<f64, Noted> {
+        let Some(wear) = &self.spec.wear else {
+            return Ok(0.0);
         };
-        if material.friction() > 0.0 {
-            return Ok(per_load / material.friction());
+        let (at, key) = (self.at(WEAR), "coefficient_per_load");
+        let Some(per_load) = wear.coefficient_per_load else {
+            let meaning = at.described("coefficient") + "; or coefficient_per_load, of a pin test";
+            return match wear.per_work.first() {
+                Some(coefficient) => Ok(coefficient),
+                None if at.is_blamed(key) => Err(Noted),
+                None => Err(at.missing("coefficient", meaning)),
+            };
+        };
+        let friction = self.friction()?;
+        if friction > 0.0 {
+            return Ok(per_load / friction);
         }
         let rule = "needs friction greater than 0: per friction work it is \
                     k = coefficient_per_load / friction";
-        Err(self.refuse("wear.coefficient_per_load", rule))
+        Err(at.refuse(key, rule))
     }
 
     fn grid(
@@ -270,61 +291,61 @@ impl Parts<'_> {
         method: AbelMethod,
         indenter: &Indenter,
         domain: Option<f64>,
-    ) -> Result<RadialGrid, Refusal> {
-        let points: usize = self.require("numerics.points")?;
-        let (most, what) = if self.is_line() {
-            (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned())
-        } else {
-            (method.most_cells(), format!("method = \"{method}\""))
+    ) -> Result<RadialGrid, Noted> {
+        let (at, numerics) = (self.at(NUMERICS), &self.spec.numerics);
+        let points = numerics.points.or(self.usual.numerics.points);
+        let points = at.need("points", points)?;
+        let (most, what) = match self.spec.indenter.geometry {
+            Some(Geometry::Line) => (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned()),
+            _ => (method.most_cells(), format!("method = \"{method}\"")),
         };
         if points > most {
             let rule = format!("must be at most {most} with {what}, which has no fast algorithm");
-            return Err(self.refuse("numerics.points", rule));
+            return Err(at.refuse("points", rule));
         }
-        if indenter.rim().is_some() && self.has("numerics.domain_radius") {
+        if indenter.rim().is_some() && numerics.domain_radius.is_some() {
             let shape = indenter.name();
             let rule =
                 format!("conflicts with shape = \"{shape}\", whose rim is the domain's edge");
-            return Err(self.refuse("numerics.domain_radius", rule));
+            return Err(at.refuse("domain_radius", rule));
         }
         let too_large = "no contact can carry this force; must be smaller";
-        let radius = domain.ok_or_else(|| self.refuse("motion.normal.mean", too_large))?;
+        let radius = domain.ok_or_else(|| self.at(NORMAL).refuse("mean", too_large))?;
         if let Indenter::Table(measured) = indenter {
             self.check_measured(measured, radius)?;
         }
         if indenter.tip_radius() >= radius {
             let edge = show(&Value::Float(radius));
             let rule = format!("must be less than the domain's edge, {edge} m");
-            return Err(self.refuse("indenter.tip_radius", rule));
+            return Err(self.at(INDENTER).refuse("tip_radius", rule));
         }
-        let grid = match self.get::<Vec<f64>>("numerics.nodes") {
+        let grid = match &numerics.nodes {
             None => RadialGrid::uniform(points, radius),
-            Some(nodes) if nodes.len() == points + 1 => RadialGrid::restored(nodes, None),
+            Some(nodes) if nodes.len() == points + 1 => RadialGrid::restored(nodes.clone(), None),
             Some(nodes) => {
                 let (wanted, given) = (points + 1, nodes.len());
                 let rule = format!("must be {wanted} numbers, one more than points, not {given}");
-                return Err(self.refuse("numerics.nodes", rule));
+                return Err(at.refuse("nodes", rule));
             }
         };
-        grid.map_err(self.refused("numerics"))
+        grid.map_err(|invalid| at.refused(invalid))
     }
 
     /// Returns the spacing of the nodes; a list of nodes takes precedence.
-    fn spacing(&self, default: Spacing) -> Result<Spacing, Refusal> {
-        let has_nodes = self.has("numerics.nodes");
+    fn spacing(&self, default: Spacing) -> Result<Spacing, Noted> {
+        let numerics = &self.spec.numerics;
+        let has_nodes = numerics.nodes.is_some();
         let default = if has_nodes { Spacing::Given } else { default };
-        let named = schema::named(self.table, "numerics.grid").unwrap_or(default);
-        match (named, has_nodes) {
+        let named = numerics.grid.unwrap_or(default);
+        let rule = match (named, has_nodes) {
             (Spacing::Given, false) => {
-                let rule =
-                    "needs numerics.nodes, the list that a run with numerics.accuracy writes";
-                Err(self.refuse("numerics.grid", rule))
+                "needs numerics.nodes, the list that a run with numerics.accuracy writes"
             }
             (Spacing::Graded | Spacing::Uniform, true) => {
-                let rule = "conflicts with numerics.nodes; give one of them";
-                Err(self.refuse("numerics.grid", rule))
+                "conflicts with numerics.nodes; give one of them"
             }
-            _ => Ok(named),
-        }
+            _ => return Ok(named),
+        };
+        Err(self.at(NUMERICS).refuse("grid", rule))
     }
 }

@@ -1,27 +1,29 @@
 //! Builds the initial scar from the keys of a scenario.
 
-use super::{HARDLY_SAME, Parts};
+use super::{HARDLY_SAME, Noted, Parts, WEAR};
 use crate::contact::indenter::Indenter;
 use crate::contact::scar::Scar;
 use crate::scenario::check::length;
-use crate::scenario::error::Refusal;
 
 /// Keys of the scar.
-const RADII: &str = "wear.initial_radii";
-const DEPTHS: &str = "wear.initial_depths";
+const RADII: &str = "initial_radii";
+const DEPTHS: &str = "initial_depths";
 
 /// Maximum depth at the end of a scar's table inside the domain, relative to its greatest depth.
 const CUT_OFF: f64 = 0.05;
 
 impl Parts<'_> {
     /// Builds the initial scar; `None` without `wear.initial`.
-    pub(super) fn scar(&self) -> Result<Option<Scar>, Refusal> {
-        if !self.has(RADII) && !self.has(DEPTHS) {
+    pub(super) fn scar(&self) -> Result<Option<Scar>, Noted> {
+        let (at, given) = (self.at(WEAR), self.spec.wear.as_ref());
+        let radii = given.and_then(|wear| wear.initial_radii.as_deref());
+        let depths = given.and_then(|wear| wear.initial_depths.as_deref());
+        if radii.is_none() && depths.is_none() {
             return Ok(None);
         }
-        let (radii, depths): (Vec<f64>, Vec<f64>) = (self.require(RADII)?, self.require(DEPTHS)?);
-        let scar = Scar::new(&radii, &depths);
-        scar.map(Some).map_err(self.refused("wear"))
+        let (radii, depths) = (at.need(RADII, radii), at.need(DEPTHS, depths));
+        let scar = Scar::new(radii?, depths?);
+        scar.map(Some).map_err(|invalid| at.refused(invalid))
     }
 
     /// Refuses a scar that does not fit a domain ending at `domain` (m), most often because of its unit.
@@ -30,7 +32,7 @@ impl Parts<'_> {
         scar: &Scar,
         indenter: &Indenter,
         domain: f64,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), Noted> {
         let (edge, (last, depth_there)) = (scar.edge(), scar.end());
         // A punch has no flank; its wear may be as deep as its slopes stay small.
         let flank = match indenter.rim() {
@@ -47,7 +49,7 @@ impl Parts<'_> {
             depth_there,
         ];
         let [ends, reaches, deepest, limit, depths, end, still] = shown.map(length);
-        let (path, rule) = if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
+        let (key, rule) = if edge > HARDLY_SAME * domain || HARDLY_SAME * last < domain {
             let rule = format!(
                 "the scar ends at r = {ends} m, where contact may reach {limit} m: is r in m? a column r_mm is converted"
             );
@@ -72,6 +74,6 @@ impl Parts<'_> {
         } else {
             return Ok(());
         };
-        Err(self.refuse(path, rule))
+        Err(self.at(WEAR).refuse(key, rule))
     }
 }

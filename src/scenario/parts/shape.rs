@@ -1,12 +1,12 @@
 //! Builds the indenter from the keys of a scenario, and checks a measured one against the domain.
 
-use super::{HARDLY_SAME, Parts};
+use super::{HARDLY_SAME, INDENTER, Noted, Parts};
 use crate::contact::indenter::Indenter;
 use crate::contact::measured::MeasuredProfile;
 use crate::scenario::check::length;
-use crate::scenario::error::Refusal;
 use crate::scenario::schema::{self, Parameter};
-use crate::scenario::values::join;
+use crate::scenario::spec::Shape;
+use crate::scenario::values;
 
 /// Allowed slopes a/R of a table at the contact's edge: beyond the steepest and the shallowest, one of its columns is
 /// in another unit.
@@ -18,31 +18,48 @@ const FEWEST_IN_CONTACT: usize = 4;
 
 impl Parts<'_> {
     /// Builds the unworn shape.
-    pub(super) fn indenter(&self) -> Result<Indenter, Refusal> {
-        let shape: String = self.require("indenter.shape")?;
-        self.refuse_keys_of_other_shapes(&shape)?;
-        let of = |key: &str| self.require::<f64>(&join("indenter", key));
-        match shape.as_str() {
-            "cone" => Indenter::cone(of("angle")?),
-            "power" => Indenter::power(of("coefficient")?, of("exponent")?),
-            "flat-punch" => Indenter::flat_punch(of("radius")?),
-            "truncated-paraboloid" => {
-                Indenter::truncated_paraboloid(of("radius")?, of("tip_radius")?)
+    pub(super) fn indenter(&self) -> Result<Indenter, Noted> {
+        let (at, given) = (self.at(INDENTER), &self.spec.indenter);
+        let shape = at.need("shape", given.shape)?;
+        self.refuse_keys_of_other_shapes(shape.into())?;
+        let radius = || at.need("radius", given.radius);
+        let angle = || at.need("angle", given.angle);
+        let tip = || at.need("tip_radius", given.tip_radius);
+        match shape {
+            Shape::Paraboloid => Indenter::paraboloid(radius()?),
+            Shape::Cone => Indenter::cone(angle()?),
+            Shape::Power => {
+                let coefficient = at.need("coefficient", given.coefficient);
+                let exponent = at.need("exponent", given.exponent);
+                Indenter::power(coefficient?, exponent?)
             }
-            "truncated-cone" => Indenter::truncated_cone(of("angle")?, of("tip_radius")?),
-            "rounded-punch" => Indenter::rounded_punch(of("radius")?, of("tip_radius")?),
-            "table" => {
-                let list = |key| self.list(key, "indenter.file");
-                let (radii, heights) = (list("indenter.radii")?, list("indenter.heights")?);
-                Indenter::table(&radii, &heights, of("smoothing")?)
+            Shape::FlatPunch => Indenter::flat_punch(radius()?),
+            Shape::TruncatedParaboloid => {
+                let (radius, tip) = (radius(), tip());
+                Indenter::truncated_paraboloid(radius?, tip?)
             }
-            _ => Indenter::paraboloid(of("radius")?),
+            Shape::TruncatedCone => {
+                let (angle, tip) = (angle(), tip());
+                Indenter::truncated_cone(angle?, tip?)
+            }
+            Shape::RoundedPunch => {
+                let (radius, tip) = (radius(), tip());
+                Indenter::rounded_punch(radius?, tip?)
+            }
+            Shape::Table => {
+                let radii = at.need_list("radii", &given.radii, "file");
+                let heights = at.need_list("heights", &given.heights, "file");
+                let smoothing = given.smoothing.or(self.usual.indenter.smoothing);
+                let smoothing = at.need("smoothing", smoothing);
+                Indenter::table(radii?, heights?, smoothing?)
+            }
         }
-        .map_err(self.refused("indenter"))
+        .map_err(|invalid| at.refused(invalid))
     }
 
-    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Refusal> {
-        let is_foreign = |key: &&Parameter| self.has(key.path) && !key.belongs_to(shape);
+    fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Noted> {
+        let has = |path| values::at(self.written, path).is_some();
+        let is_foreign = |key: &&Parameter| has(key.path) && !key.belongs_to(shape);
         let Some(foreign) = schema::parameters().find(is_foreign) else {
             return Ok(());
         };
@@ -52,7 +69,7 @@ impl Parts<'_> {
             "shape = \"{shape}\" has no such key; it takes {}",
             takes.join(", ")
         );
-        Err(self.refuse(foreign.path, rule))
+        Err(self.at(INDENTER).refuse(foreign.key(), rule))
     }
 
     /// Refuses a table that ends inside the domain, has hardly a point in the contact, or has slopes too steep for a
@@ -61,7 +78,7 @@ impl Parts<'_> {
         &self,
         measured: &MeasuredProfile,
         domain: f64,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), Noted> {
         let last = measured.last_radius();
         let points = measured.points_within(domain);
         let slope = 2.0 * measured.profile(domain.min(last)) / domain.min(last);
@@ -84,6 +101,6 @@ impl Parts<'_> {
         } else {
             return Ok(());
         };
-        Err(self.refuse("indenter.radii", rule))
+        Err(self.at(INDENTER).refuse("radii", rule))
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn with_stroke(
     let Some(Control::Displacement(motion)) = setup.drive.tangential() else {
         return Ok(scenario);
     };
-    let is_free = free.iter().any(|key| key == STROKE) || scenario.value("blocks").is_some();
+    let is_free = free.iter().any(|key| key == STROKE);
     let loops = data.iter().filter(|set| set.axes == Axes::LOOP && !is_free);
     let amplitude = |set: &Measured| {
         range(set.at.iter().copied()).map_or(0.0, |[least, most]| 0.5 * (most - least))
@@ -73,7 +73,11 @@ pub(super) fn with_stroke(
             format!("its amplitude is {other:.3e} m, that of the loop before it {first:.3e} m")
         ));
     }
-    Ok(scenario.with_numbers([(STROKE, first)])?)
+    Ok(scenario.edited(|spec| {
+        if let Some(motion) = &mut spec.motion.tangential {
+            motion.amplitude = Some(first);
+        }
+    })?)
 }
 
 /// Refuses depths that can only be in another unit.

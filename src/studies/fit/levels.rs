@@ -41,7 +41,7 @@ pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
         return Ok(scenario.clone());
     }
     let (points, steps, tolerance) = COARSE;
-    let jumps = match scenario.value("numerics.integrator") {
+    let jumps = match scenario.spec().numerics.integrator {
         Some(_) => Level::from_scenario(scenario).tolerance.is_some(),
         None => scenario.setup().drive.repeats_after().is_some(),
     };

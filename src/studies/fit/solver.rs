@@ -51,9 +51,8 @@ impl Free {
         let is_physical = !["run", "changes", "numerics"].contains(&parameter.section());
         let rule = "is not a physical property, so data cannot determine it";
         ensure!(is_physical, refused(rule));
-        let value = scenario.value(key).and_then(|value| value.parse().ok());
         let rule = format!("has no value to start from; give one with --set {key}=...");
-        let value: f64 = value.ok_or_else(|| refused(&rule))?;
+        let value = scenario.number(key).ok_or_else(|| refused(&rule))?;
         let is_zero = parameter.range == Range::NotNegative && value == 0.0;
         let rule = "starts at 0; give a value greater than 0 with --set";
         ensure!(!is_zero, refused(rule));
@@ -72,14 +71,9 @@ impl Free {
             let reach = [start - FARTHEST, start + FARTHEST];
             (start, [least.max(reach[0]), most.min(reach[1])])
         };
-        // A motion prescribes a force or a displacement.
-        let control = key
-            .rsplit_once('.')
-            .and_then(|(section, _)| scenario.value(&format!("{section}.control")));
-        let is_force = control.is_some_and(|control| control.contains("force"));
         Ok(Self {
             key: key.to_owned(),
-            unit: units::unit_of(parameter, is_force),
+            unit: units::unit_of(parameter, scenario.prescribes_force(key)),
             positive,
             start,
             bounds,

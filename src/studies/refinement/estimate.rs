@@ -8,7 +8,7 @@ use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
 use super::rung::run;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Change, Scenario};
+use crate::scenario::{Change, Scenario, Spec};
 use crate::simulation::Spacing;
 
 /// Minimum cells and steps for a useful twin.
@@ -86,15 +86,16 @@ fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
     if is_placed && session.changes().is_empty() {
         level.nodes = Some(setup.grid.clone());
     }
-    let whole = |number: f64, least: f64| (number * factor).round().max(least).to_string();
+    let whole = |number: f64, least: f64| (number * factor).round().max(least);
     let changes = session.changes().iter().map(|change| {
-        let scaled = match (change.key(), change.value().parse::<f64>()) {
-            ("numerics.points", Ok(points)) => whole(points, 8.0),
-            ("numerics.steps_per_cycle", Ok(steps)) => whole(steps, 4.0),
-            ("numerics.tolerance", Ok(before)) => format!("{:e}", at_steps(before, factor)),
-            _ => return change.clone(),
-        };
-        Change::new(change.at_cycle, change.key(), &scaled)
+        change.edited(|Spec { numerics, .. }| {
+            let points = |points| whole(points as f64, 8.0) as usize;
+            numerics.points = numerics.points.map(points);
+            let steps = |steps| whole(f64::from(steps), 4.0) as u32;
+            numerics.steps_per_cycle = numerics.steps_per_cycle.map(steps);
+            let tolerance = |before| at_steps(before, factor);
+            numerics.tolerance = numerics.tolerance.map(tolerance);
+        })
     });
     let changes: Vec<Change> = changes.collect();
     let scenario = level.scaled(factor, factor).of_scenario(loaded)?;

@@ -111,7 +111,7 @@ impl Study {
                 (Some(setting.method), guarded.or(Some(Stability::Off)));
             Level::new(setting.points, setting.steps, None).set(numerics);
             if let Some(wear) = &mut spec.wear {
-                wear.coefficient = Some(wear_number * self.unit);
+                wear.per_work.coefficient = Some(wear_number * self.unit);
                 wear.coefficient_per_load = None;
             }
         });

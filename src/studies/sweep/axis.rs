@@ -31,6 +31,26 @@ pub enum Values {
 }
 
 impl Axis {
+    /// Makes an axis of so many values at equal distances on its scale.
+    ///
+    /// # Errors
+    ///
+    /// If the key is unknown.
+    pub fn between(
+        key: &str,
+        ends: [f64; 2],
+        count: usize,
+        spread: Scale,
+    ) -> Result<Self, Refusal> {
+        known_key(key, "sweep")?;
+        Ok(Self {
+            key: key.to_owned(),
+            values: Values::Between(ends, count, Spacing::Even),
+            spread,
+            tied: Vec::new(),
+        })
+    }
+
     /// Returns the number of values.
     pub fn count(&self) -> usize {
         match &self.values {

@@ -109,14 +109,12 @@ impl Written {
         let varied = self.sensitivity.as_ref().map(sensitivity).transpose()?;
         let mut study = Study {
             title: self.title.as_deref().map(printable),
-            base,
             set: flat("set", &self.set)?.into_iter().collect(),
-            axes: Vec::new(),
             design: self.design,
-            columns: columns(self.columns.as_deref())?,
             stop: self.stop,
             sensitivity: varied.unwrap_or_default(),
             written,
+            ..Study::new(base, columns(self.columns.as_deref())?)
         };
         let has_purpose = !self.axis.is_empty() || self.sensitivity.is_some();
         let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";

@@ -64,8 +64,7 @@ pub fn run(
     };
     let valued = keys.iter().map(|(key, deviation)| {
         let deviation = Some(*deviation).filter(|known| *known > 0.0);
-        let value = middle.value(key);
-        let value = value.and_then(|value| value.parse::<f64>().ok());
+        let value = middle.number(key);
         match value.filter(|value| *value > 0.0 && value.is_finite()) {
             Some(value) => Ok((key.as_str(), deviation, value)),
             None => Err(Refusal::new(

@@ -49,6 +49,21 @@ pub struct Study {
 }
 
 impl Study {
+    /// Makes a study without axes.
+    pub fn new(base: Scenario, columns: Vec<Column>) -> Self {
+        Self {
+            title: None,
+            base,
+            set: BTreeMap::new(),
+            axes: Vec::new(),
+            design: Design::Grid,
+            columns,
+            stop: Stop::default(),
+            sensitivity: Vec::new(),
+            written: Table::new(),
+        }
+    }
+
     /// Returns the number of points.
     pub fn points(&self) -> usize {
         match self.design {
@@ -140,12 +155,11 @@ impl Study {
 
     /// Whether the motion of `key` prescribes a force, by the settings for all points or by the base.
     pub(super) fn is_force(&self, key: &str) -> bool {
-        let control = values::join(values::split(key).0, "control");
-        let control = match self.set.get(&control) {
-            Some(value) => value.as_str().map(str::to_owned),
-            None => self.base.value(&control),
-        };
-        control.is_some_and(|control| control.trim_matches('"') == "force")
+        let control = self.set.get(&values::join(values::split(key).0, "control"));
+        match control {
+            Some(control) => control.as_str() == Some("force"),
+            None => self.base.prescribes_force(key),
+        }
     }
 
     /// Sets a key for all points, as `--set` does: `KEY=VALUE`. Replaces the value in `[set]`.

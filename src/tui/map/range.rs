@@ -1,8 +1,9 @@
 //! The study of `:sweep KEY A..B`, which varies one key of the present scenario.
 
+use crate::math::scale::Scale;
 use crate::reading::Column;
 use crate::scenario::{Refusal, Scenario, schema, units};
-use crate::studies::sweep::Study;
+use crate::studies::sweep::{Axis, Study};
 
 /// Number of points.
 pub const POINTS: usize = 25;
@@ -68,18 +69,12 @@ impl Range {
     pub(super) fn study(&self, scenario: &Scenario, cycles: f64) -> Result<Study, Refusal> {
         let base = scenario.with_changes(Vec::new());
         let base = base.edited(|spec| spec.run.cycles = Some(cycles))?;
-        let ratio = self.to / self.from;
-        let spread = if self.from > 0.0 && (ratio >= DECADES || ratio <= 1.0 / DECADES) {
-            "logspace"
-        } else {
-            "linspace"
-        };
-        let (Self { key, from, to }, columns) = (self, COLUMNS.map(Column::name));
-        let text = format!(
-            "base = \"present\"\ncolumns = {columns:?}\n[[axis]]\nkey = {key:?}\n\
-             {spread} = [{from:?}, {to:?}, {POINTS}]\n"
-        );
-        Study::read_with_base(&text, "sweep", &base.to_toml())
+        let (ends, ratio) = ([self.from, self.to], self.to / self.from);
+        let is_wide = ends[0].min(ends[1]) > 0.0 && !(1.0 / DECADES..DECADES).contains(&ratio);
+        let spread = if is_wide { Scale::Log } else { Scale::Linear };
+        let mut study = Study::new(base, COLUMNS.to_vec());
+        study.axes = vec![Axis::between(&self.key, ends, POINTS, spread)?];
+        Ok(study)
     }
 }
 

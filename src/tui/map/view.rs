@@ -163,7 +163,7 @@ impl View {
     /// Returns the values of the base scenario on the shown axes, if they are on the map.
     pub fn position(&self) -> Option<[f64; 2]> {
         let value = |axis: &Axis| {
-            let value: f64 = self.slice.study.base.value(&axis.key)?.parse().ok()?;
+            let value = self.slice.study.base.number(&axis.key)?;
             axis.place_of(value).map(|_| value)
         };
         let y = match self.slice.y() {

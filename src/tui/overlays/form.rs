@@ -4,6 +4,7 @@ use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::Layout;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
+use toml::Value;
 
 use super::Overlay;
 use crate::plot::theme::{Role, Theme};
@@ -28,7 +29,7 @@ pub struct Form {
     pub(super) typed: Option<LineEdit>,
     /// The value before the requested change, until the answer is known: if the change is refused, the typed text
     /// stays.
-    sent: Option<Option<String>>,
+    sent: Option<Option<Value>>,
 }
 
 /// Commands that run while the list stays open: the run can be watched, and an edit undone.
@@ -85,7 +86,7 @@ impl Form {
             (Some(line), Key::Named(Named::Enter)) => {
                 let value = line.text().trim().to_owned();
                 let is_same =
-                    setting.value.as_ref() == Some(&value) || setting.shown(true) == value;
+                    setting.text().as_ref() == Some(&value) || setting.shown(true) == value;
                 if value.is_empty() || is_same {
                     self.typed = None;
                 } else {
@@ -197,7 +198,7 @@ impl Form {
 fn step(setting: &Setting, up: bool, explorer: &mut Explorer) {
     explorer.notice = setting.fixed();
     let next = setting.next(up).filter(|_| setting.fixed().is_none());
-    if let Some(next) = next.filter(|next| setting.value.as_ref() != Some(next)) {
+    if let Some(next) = next.filter(|next| setting.text().as_ref() != Some(next)) {
         change(setting, next, explorer);
     }
 }

@@ -89,7 +89,8 @@ impl Palette {
     /// Opens the palette with the choices of a setting, the present one selected.
     pub fn choosing(setting: &Setting) -> Self {
         let mut words = setting.words().unwrap_or_default().into_iter();
-        let now = words.position(|word| setting.value.as_deref() == Some(word));
+        let now = setting.text();
+        let now = words.position(|word| now.as_deref() == Some(word));
         Self {
             at: now.unwrap_or(0),
             ..Self::begun(&format!("set {}=", setting.parameter.path))

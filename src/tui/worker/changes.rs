@@ -6,7 +6,6 @@ use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
 use crate::panics::locked;
 use crate::scenario::Scenario;
-use crate::scenario::schema::{Kind, find};
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::{Law, Spec};
 use crate::studies::refinement::{self, Level};
@@ -179,7 +178,7 @@ fn at_cycle(run: &Session, done: &str) -> String {
     format!("{done} at cycle {:.2}", run.simulation().cycle())
 }
 
-/// The keys and values of `KEY` and `VALUE, KEY=VALUE, ...`; words that a key knows stand in quotes.
+/// Returns the keys and values of `KEY` and `VALUE, KEY=VALUE, ...`.
 fn assignments(key: &str, value: &str) -> Vec<(String, String)> {
     let mut parts: Vec<(String, String)> = Vec::new();
     let whole = format!("{key}={value}");
@@ -189,11 +188,6 @@ fn assignments(key: &str, value: &str) -> Vec<(String, String)> {
             // A comma within a value.
             (None, Some((_, value))) => value.push_str(&format!(",{part}")),
             (None, None) => {}
-        }
-    }
-    for (key, value) in &mut parts {
-        if find(key).is_some_and(|known| matches!(known.kind, Kind::Choice(_))) {
-            *value = format!("\"{value}\"");
         }
     }
     parts
@@ -208,7 +202,7 @@ mod tests {
         let parts = assignments("motion.normal.control", "force, motion.normal.mean=30.0");
         let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
         let expected = [
-            pair("motion.normal.control", "\"force\""),
+            pair("motion.normal.control", "force"),
             pair("motion.normal.mean", "30.0"),
         ];
         assert_eq!(parts, expected);

@@ -104,30 +104,20 @@ impl WearLaw {
     }
 
     /// Writes ∂Δf/∂τ of one step, m/Pa, into `answers`: how strongly the wear of each node depends on its stress `tau`
-    /// (Pa), at the slip `slip` (m) over `duration` (s); 0 where no work is done.
+    /// (Pa), at the slip `slip` (m) that has `worn` it (m); 0 where no work is done. A power law gives m Δf/|τ|.
     #[inline(always)]
-    pub fn sensitivity(&self, tau: &[f64], slip: &[f64], duration: f64, answers: &mut [f64]) {
-        let points = answers.iter_mut().zip(tau.iter().zip(slip));
-        let works = |tau: f64, slip: f64| (tau != 0.0) & (slip != 0.0);
-        let k = self.coefficient;
-        let Some(by) = self.powers else {
-            for (answer, (&tau, &slip)) in points {
-                *answer = select(works(tau, slip), k * slip.abs(), 0.0);
-            }
-            return;
-        };
-        for (answer, (&tau, &slip)) in points {
-            *answer = 0.0;
-            if works(tau, slip) {
-                let rate = slip.abs() / (by.reference_slip_rate * duration);
-                let stress = tau.abs() / by.reference_stress;
-                *answer = k
-                    * by.reference_slip_rate
-                    * duration
-                    * by.stress_exponent
-                    * stress.powf(by.stress_exponent - 1.0)
-                    * rate.powf(by.slip_rate_exponent);
-            }
+    pub fn sensitivity(&self, tau: &[f64], slip: &[f64], worn: &[f64], answers: &mut [f64]) {
+        let points = answers
+            .iter_mut()
+            .zip(tau.iter().zip(slip.iter().zip(worn)));
+        let (k, m, is_power) = (
+            self.coefficient,
+            self.stress_exponent(),
+            self.powers.is_some(),
+        );
+        for (answer, (&tau, (&slip, &worn))) in points {
+            let slope = select(is_power, m * worn / tau.abs(), k * slip.abs());
+            *answer = select((tau != 0.0) & (slip != 0.0), slope, 0.0);
         }
     }
 
@@ -219,8 +209,10 @@ mod tests {
                 wear[0]
             };
             let slope = (at(2.0001e8) - at(1.9999e8)) / 2e4;
-            let mut answers = [f64::NAN; 3];
-            law.sensitivity(&[2e8, 0.0, 2e8], &[1e-7, 1e-7, 0.0], 1e-3, &mut answers);
+            let (tau, slip) = ([2e8, 0.0, 2e8], [1e-7, 1e-7, 0.0]);
+            let (mut worn, mut answers) = ([f64::NAN; 3], [f64::NAN; 3]);
+            law.wear(&tau, &slip, 1e-3, &mut worn);
+            law.sensitivity(&tau, &slip, &worn, &mut answers);
             assert!((answers[0] / slope - 1.0).abs() < 1e-6);
             assert_eq!(answers[1..], [0.0; 2]);
         }

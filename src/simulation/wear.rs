@@ -130,19 +130,20 @@ impl Increment {
     ///
     /// Wear that answers to the stress with ∂Δf/∂τ feeds back with z at a node with cells of the width h, ρ the
     /// [largest eigenvalue](response) of the response of p to wear. That is what limits an explicit step.
-    pub fn stiffness(&mut self, model: &Model, seconds: f64) -> f64 {
+    pub fn stiffness(&mut self, model: &Model) -> f64 {
         let setup = &model.setup;
         let Some(law) = &setup.wear else { return 0.0 };
         let material = &setup.material;
         let scale = response(setup.method) * material.friction() * material.normal_modulus();
         let nodes = || self.nodes.clone();
         let (tau, slip) = (&self.shear[nodes()], &self.surface_slip[nodes()]);
-        let (per_width, at) = (&model.per_width[nodes()], nodes());
+        let (worn, per_width) = (&self.depth[nodes()], &model.per_width[nodes()]);
+        let at = nodes();
         let stiffness = &mut self.stiffness[at];
         vectorized(
             #[inline(always)]
             || {
-                law.sensitivity(tau, slip, seconds, stiffness);
+                law.sensitivity(tau, slip, worn, stiffness);
                 for (z, per_width) in stiffness.iter_mut().zip(per_width) {
                     *z *= scale * per_width;
                 }

@@ -118,8 +118,10 @@ impl Explorer {
         self.charts.begin(origin);
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
-        self.stress.follow(&frame);
-        self.calm.update(&frame, self.stage.shows_contact());
+        // The stress is drawn of the calm frame, so its range follows that one.
+        if self.calm.update(&frame, self.stage.shows_contact()) {
+            self.stress.follow(&frame);
+        }
         if self.speed_up.is_due(&frame, self.stage.presents) {
             self.order(|run| run.change_pace(1));
         }

@@ -24,8 +24,7 @@ pub(super) fn attempt(
         solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         wear(model, state, next, scratch, cycle);
     }
-    let seconds = model.seconds(cycle - state.cycle);
-    Ok(scratch.increment.stiffness(model, seconds))
+    Ok(scratch.increment.stiffness(model))
 }
 
 /// Solves the contact at `cycle` on the profile in `scratch`, from the one `before`.

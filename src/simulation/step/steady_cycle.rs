@@ -123,7 +123,7 @@ fn period(
         wear(model, memory, spare, scratch, moment);
         let increment = &mut scratch.increment;
         steady.friction_work += increment.friction_work;
-        increment.stiffness(model, model.seconds(moment - memory.cycle));
+        increment.stiffness(model);
         let nodes = increment.nodes.clone();
         let summands = &increment.stiffness[nodes.clone()];
         add_to(&mut steady.stiffness[nodes.clone()], summands);
@@ -205,7 +205,7 @@ fn plain_cycle(
     memory.stats.transforms += 2;
     increment.slip.copy_from_slice(&slip.nodal);
     increment.wear_by_load(model, contact, &memory.pressure.nodal, stuck);
-    increment.stiffness(model, 1.0);
+    increment.stiffness(model);
     let mut stiffness = vec![0.0; model.nodes()];
     let nodes = increment.nodes.clone();
     for (z, once) in stiffness[nodes.clone()]

@@ -26,7 +26,7 @@ pub fn guide(options: &Guide) -> Result<()> {
 }
 
 /// Returns the width of the terminal, in cells.
-fn columns() -> usize {
+pub(super) fn columns() -> usize {
     crossterm::terminal::size().map_or(80, |(columns, _)| usize::from(columns))
 }
 

@@ -18,6 +18,7 @@ pub fn rendered(text: &str, columns: usize) -> String {
     while let Some(line) = lines.next() {
         let goes_on = |next: &&str| !next.trim().is_empty() && kind(next) == Kind::Text;
         match kind(line) {
+            _ if line.trim().is_empty() => write(""),
             Kind::Fence => {
                 let code = lines.by_ref().take_while(|line| kind(line) != Kind::Fence);
                 code.for_each(|line| write(&format!("    {line}")));
@@ -46,9 +47,6 @@ pub fn rendered(text: &str, columns: usize) -> String {
                 for (k, line) in wrapped(&plain(&text[hang..]), room).iter().enumerate() {
                     let mark = if k == 0 { &text[..hang] } else { "" };
                     write(&format!("{:before$}{mark:hang$}{line}", ""));
-                }
-                if text.is_empty() {
-                    write("");
                 }
             }
         }

@@ -175,15 +175,22 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(io_error)
 }
 
-/// Returns an error that suggests the nearest command, if `word` looks like a mistyped one and is no preset or path.
+/// Returns an error that suggests the nearest command, or the option of that name, if `word` looks like a mistyped one and is no preset or path.
 fn mistyped_command(word: &str) -> Option<Refusal> {
     let program = Arguments::command();
     let commands = program.get_subcommands().map(clap::Command::get_name);
     let is_path = preset::is_path(word) || Path::new(word).exists();
     let is_known = word.starts_with('-') || is_path || preset::find(word).is_some();
-    let command = nearest(word, commands).filter(|command| *command != word && !is_known)?;
+    let command = nearest(word, commands).filter(|command| *command != word);
+    let mut options = program.get_arguments().filter_map(clap::Arg::get_long);
+    let option = options
+        .find(|option| *option == word)
+        .map(|option| format!("--{option}"));
+    let meant = option
+        .or(command.map(str::to_owned))
+        .filter(|_| !is_known)?;
     let refusal = Refusal::new(printable(word), "no such command or preset");
-    Some(refusal.or(format_args!("did you mean mdr-tui {command}?")))
+    Some(refusal.or(format_args!("did you mean mdr-tui {meant}?")))
 }
 
 /// Prints help and version on stdout; reports a mistake in one line.

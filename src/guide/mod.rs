@@ -36,6 +36,19 @@ impl Topic {
         name
     }
 
+    /// Returns the rows of the glossary that name `word`: symbols and words, each with its meaning.
+    pub fn explanations(word: &str) -> Vec<[&'static str; 2]> {
+        let word = word.trim().to_lowercase();
+        let glossary = Self::find("glossary").map_or("", |topic| topic.text);
+        let rows = glossary.lines().filter_map(|line| {
+            let mut cells = line.strip_prefix('|')?.split('|').map(str::trim);
+            Some([cells.next()?, cells.next()?])
+        });
+        let is_word = word.contains(char::is_alphabetic);
+        rows.filter(|[name, _]| is_word && name.to_lowercase().contains(&word))
+            .collect()
+    }
+
     /// The topic with this name.
     pub fn find(name: &str) -> Option<&'static Self> {
         TOPICS.iter().find(|topic| topic.name == name)

@@ -19,12 +19,18 @@ impl Frame<'_> {
         let (theme, units) = (plot.theme, [&self.x.unit, &self.y.unit]);
         let quiet = theme.style(Role::Quiet);
         let legend = Legend::arrange(plot, units, raster);
-        // If the legend would cover a curve, the curves are named at their ends instead.
-        let covers = |legend: &Legend| legend.covered > 0 && plot.cursor.is_none();
-        let covers = legend.as_ref().is_some_and(covers);
-        let at_ends = covers.then(|| self.names_at_ends(raster)).flatten();
+        // If the legend would cover a curve, the curves are named at their ends instead; without room for a legend, those
+        // that have room there.
+        let is_read = plot.cursor.is_some();
+        let at_ends = match &legend {
+            _ if is_read => None,
+            Some(legend) if legend.covered == 0 => None,
+            Some(_) => self.names_at_ends(raster, true),
+            None => self.names_at_ends(raster, false),
+        };
         let legend = legend.filter(|_| at_ends.is_none());
         for (place, name, style) in at_ends.into_iter().flatten() {
+            raster.blank(place);
             self.write(buf, place.x, place.y, &name, style);
         }
         if let Some(legend) = &legend {
@@ -109,23 +115,35 @@ impl Frame<'_> {
         cells(title)
     }
 
-    /// Places the names of the curves above or below their last points, in free areas; `None` unless all fit.
-    fn names_at_ends(&self, raster: &Raster) -> Option<Vec<(Rect, String, Style)>> {
+    /// Places the names of the curves above or below their last points, in free areas, the last curve's first. `None` if
+    /// some do not fit and `all` are wanted.
+    fn names_at_ends(&self, raster: &Raster, all: bool) -> Option<Vec<(Rect, String, Style)>> {
         let (theme, inner) = (self.plot.theme, self.inner);
         let mut placed: Vec<(Rect, String, Style)> = Vec::new();
-        for curve in self.plot.chart.named_curves() {
+        let curves: Vec<_> = self.plot.chart.named_curves().collect();
+        for curve in curves.into_iter().rev() {
             let name = theme.printable(&curve.name);
             let width = cells(&name);
             let cell = |(x, y)| Some((self.x.window.cell(x)?, self.y.window.cell(y)?));
-            let (column, row) = curve.points().filter_map(cell).last()?;
-            let start = inner.x + (column + 1).saturating_sub(width);
-            let row = inner.bottom() - 1 - row;
-            let spots = [row - 1, row + 1].map(|row| Rect::new(start, row, width, 1));
-            let spot = spots.into_iter().find(|spot| raster.is_free(*spot))?;
-            if placed.iter().any(|(other, ..)| other.intersects(spot)) {
-                return None;
+            let spot = curve
+                .points()
+                .filter_map(cell)
+                .last()
+                .and_then(|(column, row)| {
+                    let start = inner.x + (column + 1).saturating_sub(width);
+                    let row = inner.bottom() - 1 - row;
+                    let spots = [row - 1, row + 1].map(|row| Rect::new(start, row, width, 1));
+                    let is_free = |spot: &Rect| {
+                        let is_taken = placed.iter().any(|(other, ..)| other.intersects(*spot));
+                        raster.is_free(*spot) && !is_taken
+                    };
+                    spots.into_iter().find(is_free)
+                });
+            match spot {
+                Some(spot) => placed.push((spot, name, theme.style(curve.role))),
+                None if all => return None,
+                None => {}
             }
-            placed.push((spot, name, theme.style(curve.role)));
         }
         Some(placed)
     }

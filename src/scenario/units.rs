@@ -236,12 +236,13 @@ pub(super) fn with_decimal_point(text: &str) -> Option<String> {
     (is_number && goes_on && !fraction.contains(',')).then(|| format!("{whole}.{fraction}"))
 }
 
-/// Units of keys: an example of a value, and the unit for display if prefixes do not suit.
+/// Units of keys: an example of a value, and the unit for display if prefixes do not suit. An angular frequency is not
+/// displayed in Hz, which is the unit of another key.
 const USUAL: [(&str, &str, Option<&str>); 8] = [
     ("m", "\"10 mm\"", None),
     ("N", "\"5 mN\"", None),
-    ("rad", "\"45 deg\"", Some("°")),
-    ("rad/s", "\"50 Hz\"", Some("Hz")),
+    ("rad", "\"45 deg\"", Some("deg")),
+    ("rad/s", "\"50 Hz\"", None),
     ("Pa", "\"210 GPa\"", None),
     // 1/Pa = m³/J: per friction work, where m³/(N·m) is per load and distance.
     ("1/Pa", "\"0.13 mm^3/J\"", Some("mm³/J")),

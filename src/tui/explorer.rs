@@ -118,8 +118,10 @@ impl Explorer {
         self.charts.begin(origin);
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
-        self.stress.follow(&frame);
-        self.calm.update(&frame, self.stage.shows_contact());
+        // The stress is drawn of the calm frame, so its range follows that one.
+        if self.calm.update(&frame, self.stage.shows_contact()) {
+            self.stress.follow(&frame);
+        }
         if self.speed_up.is_due(&frame, self.stage.presents) {
             self.order(|run| run.change_pace(1));
         }
@@ -303,6 +305,12 @@ impl Explorer {
             scenario.map(|scenario| self.order_with_new_scales(|run| _ = run.load(scenario)))
         };
         self.notice = loaded.err();
+    }
+
+    /// Begins or ends a comparison; shows the panels, since the large contact has no curves.
+    pub(super) fn compare(&mut self, order: fn(&mut Worker)) {
+        self.stage.leave_contact();
+        self.order(order);
     }
 
     /// Orders something for which the scales start afresh.

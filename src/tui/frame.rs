@@ -1,12 +1,12 @@
 //! What the worker publishes about the simulation, and the slot from which the screen takes frames.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::settings::Setting;
 use crate::charts::{Live, Run};
 use crate::panics::locked;
 use crate::reading::Check;
-use crate::reading::subsurface::{Peak, SpringLoad};
+use crate::reading::subsurface::{Peak, SpringLoad, Stress};
 use crate::scenario::Change;
 use crate::studies::refinement::Difference;
 
@@ -52,8 +52,8 @@ pub struct Frame {
     pub load: Option<Arc<SpringLoad>>,
     /// The loads of the last cycle, if they are shown.
     pub cycle_loads: Vec<Arc<SpringLoad>>,
-    /// The largest von Mises and the largest principal stress in the half-space, if they are shown.
-    pub peaks: Option<[Peak; 2]>,
+    /// The largest stresses in the half-space, once [`Self::peaks`] has found them.
+    pub found_peaks: OnceLock<Option<[Peak; 2]>>,
     /// The cycle up to which the run's errors are estimated, with the errors, or why there is no estimate.
     pub errors: Result<(f64, Difference), String>,
     /// The present checks.
@@ -72,6 +72,18 @@ impl Frame {
     pub fn setting(&self, key: &str) -> Option<Setting> {
         let mut settings = self.settings().into_iter();
         settings.find(|setting| setting.parameter.path == key)
+    }
+
+    /// Returns the largest von Mises and the largest principal stress in the half-space; `None` without contact, or
+    /// unless stresses are shown.
+    pub fn peaks(&self) -> Option<[Peak; 2]> {
+        let touches = self.live.observation.moment.contact_radius > 0.0;
+        let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
+        let find = || {
+            let load = self.load.as_ref().filter(|_| touches)?;
+            Some(shown.map(|of| load.largest(of)))
+        };
+        *self.found_peaks.get_or_init(find)
     }
 }
 

@@ -204,9 +204,9 @@ const LASTS: u32 = 3;
 pub struct Calm(Option<(Arc<Frame>, u32)>);
 
 impl Calm {
-    /// Holds its frame for a few frames, then takes `newest`. In a `slow` view it is held for a whole cycle, so that a
-    /// contact shown large has the stress of one phase of the motion.
-    pub fn update(&mut self, newest: &Arc<Frame>, slow: bool) {
+    /// Holds its frame for a few frames, then takes `newest`; returns whether it has. In a `slow` view it is held for a
+    /// whole cycle, so that a contact shown large has the stress of one phase of the motion.
+    pub fn update(&mut self, newest: &Arc<Frame>, slow: bool) -> bool {
         let begins = |frame: &Frame| frame.live.observation.moment.cycle.floor();
         let may_stay = |calm: &Frame, lasted| {
             if slow {
@@ -219,6 +219,7 @@ impl Calm {
         let kept = kept.filter(|(calm, lasted)| may_stay(calm, *lasted) && may_last(calm, newest));
         let (calm, lasted) = kept.unwrap_or_else(|| (Arc::clone(newest), 0));
         self.0 = Some((calm, lasted + 1));
+        lasted == 0
     }
 
     /// Returns the frame for a calm panel when the others show `frame`.

@@ -82,6 +82,12 @@ impl Clock {
         self.holds_phase && self.pace() > BLURRED && !simulation.may_jump()
     }
 
+    /// Whether the motion can be followed. Frames then include the end of each cycle, so that what is held for a cycle is
+    /// of the same phase each time.
+    pub fn shows_motion(&self, simulation: &Simulation) -> bool {
+        self.pace() <= BLURRED && !simulation.may_jump()
+    }
+
     /// Returns the seconds until the next step is due. A jump over many cycles is due a fixed time after the one
     /// before: its length must not depend on the pace, or runs would not be repeatable.
     pub fn ahead(&self, simulation: &Simulation) -> f64 {

@@ -5,7 +5,8 @@ use toml::Value;
 use crate::math::scan::shifted;
 use crate::plot::units::{plain, reading};
 use crate::scenario::schema::{Kind, Parameter, parameters};
-use crate::scenario::{Scenario, units, values};
+use crate::scenario::units::{self, shown_in};
+use crate::scenario::{Scenario, values};
 
 /// A key of the scenario as the explorer shows it.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,11 +59,13 @@ impl Setting {
         has_unit.then(|| reading(value, self.unit, ascii))
     }
 
-    /// Returns the hint beside a value being typed: the unit of a bare number, as in a scenario file.
+    /// Returns the hint beside a value being typed: the unit of a bare number, as in a scenario file, and the one in the
+    /// list if it differs.
     pub fn typed_unit(&self) -> String {
-        match self.unit {
-            "" => String::new(),
-            unit => format!("{unit}, or with a unit"),
+        match (self.unit, shown_in(self.unit)) {
+            ("", _) => String::new(),
+            (unit, None) => format!("{unit}, or with a unit"),
+            (unit, Some((other, _))) => format!("{unit}, or with a unit: {other}"),
         }
     }
 
@@ -155,18 +158,36 @@ mod tests {
             found.unwrap_or_else(|| panic!("no {path}"))
         };
         assert_eq!(of("motion.normal.mean").shown(false), "1 µm");
-        assert_eq!(of("motion.tangential.phase").shown(true), "45 deg");
+        for ascii in [true, false] {
+            assert_eq!(of("motion.tangential.phase").shown(ascii), "45 deg");
+        }
+        assert_eq!(
+            of("motion.normal.angular_frequency").shown(false),
+            "100 rad/s"
+        );
         let next = of("motion.tangential.phase").next(true);
         assert_eq!(next.as_deref(), Some("46 deg"));
         let modulus = of("material.effective_modulus");
         assert_eq!(modulus.shown(true), "230.77 GPa");
-        // What is shown is also accepted as input.
-        for setting in &settings {
-            let (path, shown) = (setting.parameter.path, setting.shown(true));
-            if setting.value.is_some() {
+        // What is shown means the same when typed, and its unit is named beside the line.
+        for setting in settings.iter().filter(|known| known.value.is_some()) {
+            let path = setting.parameter.path;
+            for shown in [true, false].map(|ascii| setting.shown(ascii)) {
                 let again = scenario.with(path, &shown);
-                assert!(again.is_ok(), "{path} = {shown}: {again:?}");
+                let again = again.unwrap_or_else(|error| panic!("{path} = {shown}: {error}"));
+                let number = |of: &Scenario| of.value(path)?.parse::<f64>().ok();
+                let [before, after] = [&scenario, &again].map(number);
+                let is_same = match before.zip(after) {
+                    Some((before, after)) => (before - after).abs() <= 1e-6 * before.abs(),
+                    None => scenario.value(path) == again.value(path),
+                };
+                assert!(is_same, "{path} = {shown}: {before:?} {after:?}");
             }
+            let shown = setting.shown(false);
+            let unit = shown.split_once(' ').map_or("", |(_, unit)| unit);
+            let unit = unit.trim_start_matches(['p', 'n', 'µ', 'm', 'k', 'M', 'G']);
+            let hint = setting.typed_unit();
+            assert!(hint.contains(unit), "{path} = {shown}: {hint}");
         }
         assert_eq!(of("numerics.method").next(true).as_deref(), Some("a"));
         assert_eq!(of("numerics.method").next(false).as_deref(), Some("benad"));

@@ -2,6 +2,7 @@
 //! in time. Keys are played by `--keys`, and the screen comes from `--print`.
 
 use crate::common::{begin, load, rehearsed, rehearsed_on};
+use crate::hostile::fuzzed::strokes;
 use crate::random::Random;
 use crate::screen_table::{hold, part_of};
 use crate::test_dir::{Said, TestDir, has};
@@ -113,6 +114,65 @@ fn typing_in_the_parameter_list_loses_no_run() {
             keys += &format!("e{}<Enter>{word}<Enter><Esc><Esc>", "<Down>".repeat(row));
         }
         has(&shot(&keys), "cycle 3.00/");
+    }
+}
+
+/// Keys do what the topmost overlay says: none changes the run below, its pace or its plan. What steps the run beside an
+/// overlay is left out, and Enter, which chooses.
+#[test]
+fn no_key_of_an_overlay_changes_the_run() {
+    let sets = ["numerics.points=20", "numerics.steps_per_cycle=10"];
+    let start = begin(load("li2019-fig3", &sets));
+    let told = |keys: &str| {
+        let screen = rehearsed_on(start.clone(), &format!(",,,+{keys}"), (110, 24));
+        ["status", "timeline"].map(|part| part_of(&screen, part))
+    };
+    let expected = told("");
+    let study = ":sweep friction.coefficient 0.1..0.2<Enter>";
+    for (open, acts) in [
+        ("p", ""),
+        ("?", ""),
+        ("/", ""),
+        (":", ""),
+        ("i", ""),
+        ("e", "<Space> , [ ] + = - <Left> <Right>"),
+        ("efric", "<Left> <Right>"),
+        ("e<Down><Enter>", ""),
+        ("<Enter>", "<Space> . ,"),
+        ("a", "<Space> . , + = -"),
+        ("a<Tab>", "<Space> . , + = -"),
+        (study, ""),
+        (&format!("{study}?"), ""),
+    ] {
+        let acts: Vec<&str> = acts.split(' ').chain(["<Enter>"]).collect();
+        let more = [
+            "a",
+            "b",
+            "q",
+            "Q",
+            "R",
+            "s",
+            "S",
+            "{",
+            "}",
+            ">",
+            "2",
+            "<paste:load cone>",
+        ];
+        let keys = strokes::KEYS.split_whitespace().chain(more);
+        let keys = keys.filter(|key| !acts.contains(key));
+        let script: String = match open.starts_with(study) {
+            // Opened once, since that takes long: q would close it.
+            true => open.to_owned() + &keys.filter(|key| *key != "q").collect::<String>(),
+            false => keys
+                .map(|key| format!("{open}{key}<Esc><Esc><Esc>"))
+                .collect(),
+        };
+        assert_eq!(
+            told(&format!("{script}<Esc><Esc><Esc>")),
+            expected,
+            "{open}"
+        );
     }
 }
 

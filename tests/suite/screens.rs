@@ -382,6 +382,26 @@ fn fast_runs_are_shown_at_one_phase() {
     assert!(frames(8).iter().any(|frame| is_off(frame)));
 }
 
+/// A run slow enough to watch shows each end of a cycle, whenever else frames are due: the stress of the large contact,
+/// which is held for a cycle, is of one phase.
+#[test]
+fn slow_runs_show_the_end_of_each_cycle() {
+    let never = Duration::from_secs(3600);
+    let worker = LiveWorker::on(load("li2019-fig3", &[]), never, true);
+    worker.orders.send(|worker| worker.change_pace(2));
+    let mut ends = Vec::new();
+    while ends.len() < 2 {
+        let event = worker.events.recv_timeout(Duration::from_secs(30));
+        if let Event::Frame(slot) = event.expect("a frame") {
+            let cycles = slot.take().map(|frame| frame.live.observation.moment.cycle);
+            ends.extend(cycles.filter(|cycle| *cycle > 0.5));
+        }
+    }
+    let off = |cycle: &f64| (cycle - cycle.round()).abs() > 1e-9;
+    assert!(!ends.iter().any(off), "{ends:?}");
+    assert!(ends[1] > ends[0]);
+}
+
 /// Space at the planned end runs on only when pressed twice.
 #[test]
 fn space_at_the_end_asks_first() {

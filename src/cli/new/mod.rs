@@ -15,10 +15,12 @@ use dialoguer::{Confirm, Input, Select};
 use signal_hook::iterator::Signals;
 
 use super::args::{Arguments, New};
+use super::guide::columns;
 use super::{FAILED, complain, explore, stop};
 use crate::export::file::shell_path;
 use crate::export::target::Target;
 use crate::scenario::{Refusal, printable};
+use crate::tui::line::wrapped;
 use crate::tui::modes::Modes;
 
 mod answers;
@@ -270,7 +272,7 @@ impl Interview {
             (Some(given), _) => given.to_owned(),
             (None, None) => question.default.clone(),
             (None, Some(theme)) => {
-                writeln!(io::stderr(), "  {}", question.meaning)?;
+                say(&question.meaning)?;
                 Input::<String>::with_theme(&**theme)
                     .with_prompt(&question.prompt)
                     .default(question.default.clone())
@@ -299,8 +301,16 @@ impl Interview {
             && let Ok(scenario) = draft.scenario("so far")
             && let Some(forecast) = Forecast::from_scenario(&scenario)
         {
-            writeln!(io::stderr(), "  = {}", what(&forecast))?;
+            say(&format!("= {}", what(&forecast)))?;
         }
         Ok(())
     }
+}
+
+/// Writes a text between the questions, in lines that fit the terminal.
+fn say(text: &str) -> io::Result<()> {
+    for line in wrapped(text, columns().saturating_sub(3)) {
+        writeln!(io::stderr(), "  {line}")?;
+    }
+    Ok(())
 }

@@ -40,9 +40,12 @@ const WATCHED: &[Command] = &[
     Command::TimeForth,
 ];
 
-/// The width of the keys, in cells, and in the list beside the panels.
+/// The width of the keys, in cells, and in a narrow list or one beside the panels.
 const KEYS: usize = 38;
 const BRIEF: usize = 30;
+
+/// Minimum width for whole keys and a title with all of the keys.
+const WIDE: u16 = 76;
 
 /// The rows of the description below the list, and in the list beside the panels.
 const BELOW: u16 = 4;
@@ -159,9 +162,10 @@ impl Form {
         let filter = self.filter.text();
         let is_typed = matches!(seen, Some((.., Some(_))));
         let is_beside = canvas.area.width <= LIST;
+        let is_narrow = canvas.area.width < WIDE;
         let title = match filter.as_str() {
             _ if is_typed => "parameters (Enter applies, Esc cancels)".to_owned(),
-            "" if is_beside => "parameters (type: find, + -: step)".to_owned(),
+            "" if is_narrow => "parameters (type: find, + -: step)".to_owned(),
             "" => "parameters (type: find, Enter: edit, + -: step, [: undo, Esc: close)".to_owned(),
             filter => format!("parameters: {filter} (Enter: edit, arrows: step)"),
         };
@@ -177,7 +181,7 @@ impl Form {
         let theme = inside.theme;
         let rows = [Fill(1), Length(told.min(inside.area.height))];
         let [above, below] = Layout::vertical(rows).areas(inside.area);
-        let room = if is_beside { BRIEF } else { KEYS };
+        let room = if is_narrow { BRIEF } else { KEYS };
         let key = |setting: &Setting| key(setting.parameter.path, room);
         let mut lines: Vec<Line> = settings
             .iter()

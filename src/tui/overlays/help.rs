@@ -12,6 +12,7 @@ use crate::plot::theme::Role;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{self, Command, Row};
 use crate::tui::keys::{Key, Named};
+use crate::tui::line::wrapped;
 use crate::tui::manual::groups;
 use crate::tui::overlays::answer::{Answer, PAGE, watch};
 
@@ -43,16 +44,18 @@ impl Help {
     /// Draws all keys by group, in two columns if there is room, else scrolled.
     pub(super) fn draw(&self, mut canvas: Canvas) {
         let (area, style) = (canvas.area, canvas.style(Role::Title));
+        let room = usize::from(area.width.min(WIDTH)).saturating_sub(BEFORE + 2);
         let mut lines = Vec::new();
         for (group, rows) in groups() {
             if !lines.is_empty() {
                 lines.push(Line::default());
             }
             lines.push(Line::styled(format!(" {group}"), style));
-            lines.extend(rows.iter().map(|row| line(row, style)));
+            let explained = |row: &Row| explain(&row.key_names().join(" "), row.help, room, style);
+            lines.extend(rows.iter().flat_map(explained));
         }
         lines.extend([Line::default(), Line::styled(" mouse", style)]);
-        lines.extend(MOUSE.map(|text| Line::raw(format!(" {:KEYS$}  {text}", ""))));
+        lines.extend(explain("", MOUSE, room, style));
         let count = lines.len();
         let height = usize::from(area.height);
         let columns = 1 + usize::from(area.width >= 2 * WIDTH && count + 2 > height);
@@ -76,18 +79,22 @@ impl Help {
 }
 
 /// How the mouse is used.
-const MOUSE: [&str; 3] = [
-    "with --mouse, or mouse = true in the configuration:",
-    "a click focuses, moves the cursor or travels in time;",
-    "a second one zooms; the wheel zooms about the cursor",
-];
+const MOUSE: &str = "with --mouse, or mouse = true in the configuration:\n\
+                     a click focuses, moves the cursor or travels in time;\n\
+                     a second one zooms; the wheel zooms about the cursor";
 
-/// The width of a column, and of the keys in it.
+/// The width of a column, of the keys in it, and of what stands before an explanation.
 const WIDTH: u16 = 80;
 const KEYS: usize = 15;
+const BEFORE: usize = KEYS + 3;
 
-/// Returns the keys of a command, and what it does.
-fn line(row: &Row, style: Style) -> Line<'static> {
-    let keys = format!(" {:>KEYS$}  ", row.key_names().join(" "));
-    Line::from(vec![Span::styled(keys, style), Span::raw(row.help)])
+/// Returns keys and their explanation, in lines with this `room` for it.
+fn explain(keys: &str, text: &str, room: usize, style: Style) -> Vec<Line<'static>> {
+    let lines = wrapped(text, room).into_iter().enumerate();
+    let line = |(k, text)| {
+        let keys = if k == 0 { keys } else { "" };
+        let keys = Span::styled(format!(" {keys:>KEYS$}  "), style);
+        Line::from(vec![keys, Span::raw(text)])
+    };
+    lines.map(line).collect()
 }

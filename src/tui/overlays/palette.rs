@@ -2,8 +2,9 @@
 
 use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::Layout;
-use ratatui::text::{Line, Span};
+use ratatui::text::{Line, Span, Text};
 
+use crate::guide::Topic;
 use crate::plot::theme::Role;
 use crate::scenario::nearest::nearest;
 use crate::tui::canvas::Canvas;
@@ -140,6 +141,7 @@ impl Palette {
         let found = completions(&self.line.text(), frame);
         let rows = (canvas.area.height / 2).clamp(6, 12);
         let title = "commands (Tab completes, Enter runs, Esc closes)";
+        let theme = canvas.theme;
         let mut inside = canvas.docked(title, rows + 3);
         let roles = [Role::Quiet, Role::Focus, Role::Title];
         let [quiet, focus, title] = roles.map(|role| inside.style(role));
@@ -159,7 +161,15 @@ impl Palette {
         let [_, below] = Layout::vertical([Length(1), Fill(1)]).areas(inside.area);
         let mut below_line = inside.at(below);
         if found.is_empty() {
-            return below_line.write_text("no such command", Role::Quiet);
+            // Who looks for a word of the field finds what it means.
+            return match Topic::explanations(&self.line.text()) {
+                rows if rows.is_empty() => below_line.write_text("no such command", Role::Quiet),
+                rows => below_line
+                    .indented()
+                    .write(Text::from_iter(rows.into_iter().map(|[name, meaning]| {
+                        theme.printable(&format!("{name}: {meaning}"))
+                    }))),
+            };
         }
         // Completions of a value omit the key, which is visible in the line above.
         let typed = self.line.text();

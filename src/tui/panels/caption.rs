@@ -1,5 +1,5 @@
 //! The text of the cross-section: the phase of the cycle in a plain sentence, what has worn, a and c, and the meaning
-//! of the colours. A small picture has only the load and the scale of the stress.
+//! of the colours. A small picture has no captions below; the smallest has only the load and the scale of the stress.
 
 use ratatui::buffer::Cell;
 use ratatui::layout::Constraint::{Length, Min};
@@ -26,8 +26,10 @@ const TURNS: f64 = 0.2;
 /// Below this fraction of a, a zone is too small to see.
 const NOTHING: f64 = 0.02;
 
-/// The width of the longest phase, "The outer ring slips, the middle sticks: sliding right".
+/// The width of the longest phase, "The outer ring slips, the middle sticks: sliding right", and the minimum rows of a
+/// picture with room for it.
 const LONGEST: u16 = 54;
+const TELLING: u16 = 9;
 
 /// Returns the areas of the picture and of its captions.
 pub fn split(area: Rect) -> [Rect; 2] {
@@ -149,9 +151,7 @@ fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
 /// Draws the text on the picture and below it.
 pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     let (frame, area) = (section.of.frame, canvas.area);
-    // Numbers change too fast to be read in every frame, so they come from the calm one.
-    let seen = section.of.calm;
-    let calm = &seen.live.observation.moment;
+    let (seen, moment) = (section.of.calm, &frame.live.observation.moment);
     let value = |value, unit| format_value(value, unit, 3);
     if area.height < 5 || area.width < 30 {
         return;
@@ -162,15 +162,20 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     } else {
         ["load ", "shift "]
     };
-    let mut forces = format!("{load}F_z {}", value(calm.normal_force, "N"));
-    if calm.stick_radius.is_some() {
+    let mut forces = format!("{load}F_z {}", value(moment.normal_force, "N"));
+    if moment.stick_radius.is_some() {
         // Ignores motion due to rounding.
-        let moved = calm.shift * f64::from(calm.shift.abs() > 1e-12 * calm.contact_radius);
+        let moved = moment.shift * f64::from(moment.shift.abs() > 1e-12 * moment.contact_radius);
         forces.push_str(&format!(", {shift}u_x {}", value(moved, "m")));
+    }
+    let tells = area.width > LONGEST && area.height >= TELLING;
+    if tells {
+        write_phase(frame, &forces, &mut canvas);
     }
     if is_brief {
         let forces = format!(" {forces} ");
-        if let Some(spare) = area.width.checked_sub(Line::raw(&forces).width() as u16) {
+        let spare = area.width.checked_sub(Line::raw(&forces).width() as u16);
+        if let Some(spare) = spare.filter(|_| !tells) {
             write_over(&mut canvas, area.x + spare / 2, area.y, &forces);
         }
         // A wide picture has room for the meaning of all colours.
@@ -187,23 +192,9 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
         let place = Rect::new(left, area.bottom() - 1, width, 1);
         return canvas.at(place).show(scale);
     }
-    let speed = speed(frame);
-    let geometry = frame.live.observation.geometry;
-    let said = geometry.term(&phase(&frame.live.observation.moment, speed));
-    // The words stay where they are when the motion turns.
-    let start = area.x + area.width.saturating_sub(LONGEST) / 2;
-    write_over(&mut canvas, start, area.y, &said);
-    match speed {
-        _ if area.width < LONGEST + 10 => {}
-        Some(speed) if speed >= TURNS => {
-            write_over(&mut canvas, start + LONGEST + 2, area.y, "━━▶")
-        }
-        Some(speed) if speed <= -TURNS => write_over(&mut canvas, start - 5, area.y, "◀━━"),
-        _ => {}
-    }
-    write_over(&mut canvas, start, area.y + 1, &forces);
     radii(section, &mut canvas);
     let [first, second] = Layout::vertical([Length(1); ROWS as usize]).areas(below);
+    let geometry = frame.live.observation.geometry;
     let text = geometry.term(&worn(seen, |depth| value(depth, "m")));
     let text = canvas.printable(&text);
     // What is obvious from the rest is said where there is room for it.
@@ -217,6 +208,23 @@ pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
     let room = second.width.saturating_sub(key.width() as u16);
     key.extend(stress_key(section, room));
     canvas.at(second).show(key);
+}
+
+/// Writes at the top of the picture what the contact does, and below it the `forces`.
+fn write_phase(frame: &Frame, forces: &str, canvas: &mut Canvas) {
+    let (area, speed) = (canvas.area, speed(frame));
+    let seen = &frame.live.observation;
+    let said = seen.geometry.term(&phase(&seen.moment, speed));
+    // The words stay where they are when the motion turns.
+    let start = area.x + (area.width - LONGEST) / 2;
+    write_over(canvas, start, area.y, &said);
+    match speed {
+        _ if area.width < LONGEST + 10 => {}
+        Some(speed) if speed >= TURNS => write_over(canvas, start + LONGEST + 2, area.y, "━━▶"),
+        Some(speed) if speed <= -TURNS => write_over(canvas, start - 5, area.y, "◀━━"),
+        _ => {}
+    }
+    write_over(canvas, start, area.y + 1, forces);
 }
 
 /// Draws c and a: a short line over each border, and its name.

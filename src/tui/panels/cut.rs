@@ -17,10 +17,11 @@ use crate::tui::frame::Frame;
 /// The picture is this many times as wide as the domain, so that the sides of the bodies are visible.
 const WIDER: f64 = 1.35;
 
-/// Maximum amplitude of the motion, as a fraction of the picture's width and in columns, because each column of the
-/// flanks is redrawn.
+/// Maximum amplitude of the motion, as a fraction of the picture's width and in columns, and the steps of the flanks, in
+/// columns.
 const SWING: f64 = 0.025;
 const FARTHEST: f64 = 4.0;
+const STRIDE: f64 = 2.0;
 
 /// Maximum height of the wear, as a fraction of the picture's height, and its minimum magnification: in true size the
 /// lost material has no room where the bodies touch.
@@ -97,10 +98,15 @@ pub struct Section<'a> {
     /// The magnification of the wear, in heights of the picture, and of the motion, in its widths.
     wear: f64,
     pub motion: f64,
-    /// The drawn shift of the indenter, and how far both bodies are lifted. The indenter moves by whole columns and
-    /// rows, so that a small motion does not redraw everything in every frame.
+    /// The drawn shift of the indenter: whole columns, so that a small motion does not redraw everything in every frame.
     pub shift: f64,
-    lift: f64,
+    /// The shift of its flanks, which takes steps of [`STRIDE`] columns: each step redraws all of them.
+    flanks: f64,
+    /// The frame of the half-space outside the contact, and of the stress below. It is held while the indenter stays
+    /// within a row of its height there, so that the half-space stands still.
+    resting: &'a Frame,
+    /// The depth that is drawn in the contact, in whole rows.
+    level: f64,
     /// The drawn height of the contact surface, and the height from the lowest point of the indenter to the upper edge,
     /// m, on the scale of the surfaces.
     pub thick: f64,
@@ -124,6 +130,10 @@ impl<'a> Section<'a> {
             _ => 0.0,
         };
         let half = (high - low) / (2.0 * f64::from(area.height));
+        let depths = [frame, of.calm].map(|frame| frame.live.observation.moment.depth);
+        let may_rest = (depths[0] - depths[1]).abs() < 2.0 * half
+            && !of.calm.live.observation.depression.is_empty();
+        let resting = if may_rest { of.calm } else { frame };
         let deepest = largest(seen.wear()).max(frame.live.expected_wear);
         let wear = magnification(deepest, WEAR * (high - low)).max(LEAST_WEAR);
         let room = [area.width, 2 * area.height].map(usize::from);
@@ -137,13 +147,15 @@ impl<'a> Section<'a> {
             wear: if seen.law.is_some() { wear } else { 1.0 },
             motion,
             shift: round_to_step(motion * seen.moment.shift, width),
-            lift: seen.moment.depth - round_to_step(seen.moment.depth, 2.0 * half),
+            flanks: round_to_step(motion * seen.moment.shift, STRIDE * width),
+            resting,
+            level: round_to_step(resting.live.observation.moment.depth, 2.0 * half),
             thick: half * if area.height >= LARGE { 2.0 } else { 1.0 },
             tall: 0.0,
             // The bodies move with every frame, the stress below changes more calmly.
             stress: of.drawn.shares(of.stress, of.calm, room, width),
         };
-        section.tall = high - section.cut(0.0).surface;
+        section.tall = round_to_step(high - section.cut(0.0).surface, 2.0 * half).max(half);
         Some(section)
     }
 
@@ -156,16 +168,24 @@ impl<'a> Section<'a> {
         );
         let indenter = &scenario.setup().indenter;
         let (moment, edge, r) = (&seen.moment, self.of.frame.run.edge(), x.abs());
-        let sunk = |r: f64| interpolate(seen.radii(), &seen.depression, r.min(edge));
+        // In the contact the surface is the indenter's. Around it, it is of the frame at rest.
+        let is_in_contact = r <= moment.contact_radius;
+        let of = if is_in_contact {
+            seen
+        } else {
+            &self.resting.live.observation
+        };
+        let (touching, lift) = (of.moment.contact_radius, of.moment.depth - self.level);
+        let sunk = |r: f64| interpolate(of.radii(), &of.depression, r.min(edge));
         let back = if r > edge { edge / r } else { 1.0 };
         // Far from the contact nothing is lifted, and nothing at all while the bodies are apart.
-        let deepest = sunk(moment.contact_radius).max(sunk(r));
-        let lifted = match r > moment.contact_radius {
+        let deepest = sunk(touching).max(sunk(r));
+        let lifted = match r > touching {
             true if deepest > 0.0 => sunk(r) * back / deepest,
             true => 0.0,
             false => 1.0,
         };
-        let surface = self.lift * lifted - sunk(r) * back;
+        let surface = lift * lifted - sunk(r) * back;
         // The half-space wears only if the scenario says so.
         let share = scenario.wear_share().unwrap_or(1.0);
         let wear = |r: f64| {
@@ -178,11 +198,11 @@ impl<'a> Section<'a> {
         let ground = surface - (1.0 - share) * wear(r);
         let rim = indenter.rim().unwrap_or(f64::INFINITY);
         // In the contact the indenter stays on the surface; its flanks are shifted as a whole.
-        let along = (x - self.shift_at(moment.contact_radius, r)).abs();
-        let unworn = if (x - self.shift).abs() > rim {
+        let along = (x - self.shift_at(r)).abs();
+        let unworn = if (x - self.flanks).abs() > rim {
             f64::INFINITY
         } else {
-            indenter.profile(along.min(rim)) - moment.depth + self.lift
+            indenter.profile(along.min(rim)) - self.level
         };
         Cut {
             indenter: (unworn + share * wear(along)).max(ground),
@@ -194,11 +214,12 @@ impl<'a> Section<'a> {
     }
 
     /// Returns how far the indenter is shifted at `r`: zero in the contact, fully some distance away from it.
-    fn shift_at(&self, contact: f64, r: f64) -> f64 {
-        let way = 4.0 * self.shift.abs();
+    fn shift_at(&self, r: f64) -> f64 {
+        let contact = self.resting.live.observation.moment.contact_radius;
+        let way = 4.0 * self.flanks.abs();
         match r - contact {
-            _ if contact == 0.0 => self.shift,
-            beyond if beyond > 0.0 && way > 0.0 => self.shift * (beyond / way).min(1.0),
+            _ if contact == 0.0 => self.flanks,
+            beyond if beyond > 0.0 && way > 0.0 => self.flanks * (beyond / way).min(1.0),
             _ => 0.0,
         }
     }

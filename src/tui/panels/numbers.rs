@@ -80,7 +80,7 @@ fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
     let (moment, figures) = (&frame.live.observation.moment, frame.live.figures.as_ref());
     let setup = frame.live.scenario.setup();
     let k = setup.wear.map(|law| law.coefficient());
-    let [mises, tension] = frame.peaks.map_or([None; 2], |peaks| peaks.map(Some));
+    let [mises, tension] = frame.peaks().map_or([None; 2], |peaks| peaks.map(Some));
     let (moves, c) = (moment.stick_radius.is_some(), moment.permanent_stick_radius);
     let (cells, steps) = (
         frame.live.observation.grid.cells(),

@@ -2,15 +2,14 @@
 
 use std::fmt::Display;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use super::Worker;
 use crate::charts::{Live, Run};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
-use crate::reading::subsurface::Stress;
 use crate::reading::{Curves, Observation, Passed};
 use crate::scenario::Scenario;
 use crate::scenario::session::Session;
@@ -110,9 +109,6 @@ impl Worker {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
         });
-        let touches = observation.moment.contact_radius > 0.0;
-        let shown: [fn(&Stress) -> f64; 2] = [Stress::von_mises, Stress::max_principal];
-        let peaks = load.as_ref().filter(|_| touches);
         let is_running = self.activity == Activity::Running;
         let rival = self.rival.as_ref().map(|rival| &rival.run);
         let ghosts = self.ghosts.iter().chain(&self.before).chain(rival);
@@ -124,9 +120,9 @@ impl Worker {
                 ..self.run.charted(&observation)
             },
             warnings: Arc::clone(&self.facts.warnings),
-            peaks: peaks.map(|load| shown.map(|of| load.largest(of))),
             load,
             cycle_loads: self.cycle_loads.all(),
+            found_peaks: OnceLock::new(),
             live: self.live(observation),
             shows_ends: self.clock.shows_ends(simulation),
             activity: self.activity.clone(),

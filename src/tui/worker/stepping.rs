@@ -78,7 +78,12 @@ impl Worker {
             self.step();
             let simulation = self.run.simulation();
             let is_end = ends_cycle(before, simulation.cycle());
-            if is_end && self.clock.shows_ends(simulation) && self.screen.is_due() {
+            let is_shown = if self.clock.shows_ends(simulation) {
+                self.screen.is_due()
+            } else {
+                self.clock.shows_motion(simulation)
+            };
+            if is_end && is_shown {
                 self.publish();
             }
         }

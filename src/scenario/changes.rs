@@ -1,39 +1,13 @@
 //! Changes made during a run: `[[changes]]`, and the resulting scenarios.
 
+use super::change::Change;
 use super::error::Origin;
 use super::escape::echo;
 use super::spec::{Control, Spec};
 use super::{Refusal, Scenario, assign, schema, units, values};
-use serde::{Deserialize, Serialize};
 use toml::Table;
 
-/// Maximum number of changes of a run. Each is checked by assembling the scenario that results.
-pub const MOST_CHANGES: usize = 1_000;
-
-/// `[[changes]]`: one key that was changed during the run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Change {
-    /// Cycles since the start.
-    pub at_cycle: f64,
-    /// The key and its new value, `KEY = VALUE` with the value as TOML.
-    pub set: String,
-}
-
 impl Change {
-    /// The change of `key` to `value` (as TOML, or a bare word) at `at_cycle` cycles.
-    pub fn new(at_cycle: f64, key: &str, value: &str) -> Self {
-        Self {
-            at_cycle,
-            set: format!("{key} = {value}"),
-        }
-    }
-
-    /// Returns the dotted path of the changed key.
-    pub fn key(&self) -> &str {
-        self.set.split_once('=').map_or("", |(key, _)| key.trim())
-    }
-
     /// Returns the change with another value of the key: what it sets, edited.
     #[must_use]
     pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Self {
@@ -43,13 +17,6 @@ impl Change {
             spec.write_changes(std::slice::from_mut(&mut edited));
         }
         edited
-    }
-
-    /// Returns the new value, as TOML or as a bare word.
-    pub fn value(&self) -> &str {
-        self.set
-            .split_once('=')
-            .map_or("", |(_, value)| value.trim())
     }
 }
 

@@ -20,7 +20,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::bounded_read::{self, Unread};
-use super::changes::{Change, at_one_cycle};
+use super::change::Change;
+use super::changes::at_one_cycle;
 use super::session::{Session, State, Unchanged};
 use super::{Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;

@@ -16,6 +16,7 @@ use crate::simulation::{Domain, Integrator, Setup, Spacing};
 pub(crate) mod assign;
 pub(crate) mod blocks;
 pub(crate) mod bounded_read;
+mod change;
 mod changes;
 mod check;
 pub mod checkpoint;
@@ -40,7 +41,7 @@ pub mod units;
 pub(crate) mod values;
 pub(crate) mod write;
 
-pub use changes::{Change, MOST_CHANGES};
+pub use change::{Change, MOST_CHANGES};
 pub use derive::choices;
 pub use error::Refusal;
 use error::{Faults, Origin};

@@ -7,7 +7,7 @@ use std::mem::replace;
 
 use thiserror::Error;
 
-use super::changes::{Change, MOST_CHANGES};
+use super::change::{Change, MOST_CHANGES};
 use super::spec::Edits;
 use super::{Refusal, RunPlan, Scenario, Spec};
 use crate::reading::{Check, CycleFigures, Log};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use strum::{IntoStaticStr, VariantNames};
 use toml::Table;
 
-use super::changes::Change;
+use super::change::Change;
 use super::run::RunPlan;
 use super::{schema, values};
 use crate::math::abel::AbelMethod;

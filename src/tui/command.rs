@@ -129,9 +129,10 @@ commands! {
         Finer [Char('>')] "finer", "more accurate, slower: chooses method, cells, steps", Work(|run| run.refine(1));
     }
     "compare and check" {
-        Compare [Char('c')] "compare", "compare with a second method; m and M change it", Work(Worker::compare_or_stop);
+        Compare [Char('c')] "compare", "compare with a second method; m and M change it",
+            Screen(|on| on.compare(Worker::compare_or_stop));
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
-            Work(|run| run.compare(0, Since::Start));
+            Screen(|on| on.compare(|run| run.compare(0, Since::Start)));
         Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
         DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_with_new_scales(Worker::drop_ghosts));
         Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Open;

@@ -307,6 +307,12 @@ impl Explorer {
         self.notice = loaded.err();
     }
 
+    /// Begins or ends a comparison; shows the panels, since the large contact has no curves.
+    pub(super) fn compare(&mut self, order: fn(&mut Worker)) {
+        self.stage.leave_contact();
+        self.order(order);
+    }
+
     /// Orders something for which the scales start afresh.
     pub(super) fn order_with_new_scales(
         &mut self,

@@ -209,7 +209,7 @@ impl Stage {
     }
 
     /// Leaves the large contact and restores the focus; returns whether it was shown.
-    fn leave_contact(&mut self) -> bool {
+    pub fn leave_contact(&mut self) -> bool {
         let is_shown = self.shows_contact();
         if is_shown {
             (self.zoomed, self.presents) = (false, false);

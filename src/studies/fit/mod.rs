@@ -36,6 +36,7 @@ use search::{Found, Search};
 use solver::Free;
 
 mod checked;
+mod coarse;
 mod errors;
 mod hypotheses;
 mod levels;
@@ -159,7 +160,7 @@ impl Fit {
             .map(|budget| Instant::now() + Duration::from_secs_f64(budget));
         let in_time = || deadline.is_none_or(|deadline| Instant::now() < deadline);
         let start: Vec<f64> = self.free.iter().map(|free| free.start).collect();
-        let scenario = levels::of_search(&self.scenario)?;
+        let scenario = coarse::of_search(&self.scenario)?;
         let first = Search::new(self, scenario, on_run, &in_time);
         let mut search = first.clone();
         let mut best: Result<(Search, Found)> = Err(anyhow!("no minimum was found"));

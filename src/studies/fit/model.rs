@@ -3,7 +3,7 @@
 use super::scar::WornDepth;
 use anyhow::Result;
 
-use super::levels;
+use super::coarse;
 use crate::contact::indenter::Indenter;
 use crate::math::scan::{largest, value_at};
 use crate::reading::Column;
@@ -149,7 +149,7 @@ pub struct ModelCycle {
 /// # Errors
 /// A contact that cannot be computed.
 pub fn model_cycle(scenario: &Scenario, cycle: f64) -> Result<Option<ModelCycle>> {
-    let mut session = Session::start(levels::of_figures(scenario)?)?;
+    let mut session = Session::start(coarse::of_figures(scenario)?)?;
     session.advance_while(cycle, |_| true)?;
     let Some(period) = session.simulation().fine_period() else {
         return Ok(None);

@@ -1,6 +1,6 @@
 //! How often fits find the truth within twice the error that they state, from starts a factor of 100 away.
 //!
-//! `cargo bench --bench coverage -- [--sets 40] [--first 0] [--all]`: so many random data sets of each kind, from this seed on;
+//! `cargo bench --bench coverage -- [--sets 40] [--first 0] [--all]`: random data sets of each kind and the first seed;
 //! `--all` prints a line per fit.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]

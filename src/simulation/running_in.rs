@@ -319,9 +319,13 @@ impl RunningIn {
         corners
             .chain([threshold])
             .fold([f64::INFINITY; 2], |least, corner| {
-                std::array::from_fn(|k| match corner[k] > now[k] {
-                    true => least[k].min(corner[k] - now[k]),
-                    false => least[k],
+                std::array::from_fn(|k| {
+                    let left = corner[k] - now[k];
+                    if left > 0.0 {
+                        least[k].min(left)
+                    } else {
+                        least[k]
+                    }
                 })
             })
     }

@@ -94,7 +94,7 @@ impl Past {
         self.make_room(MOST, MOST_NUMBERS);
     }
 
-    /// Thins the past, then drops the oldest states, until there are at most `states`, with at most so many `numbers`.
+    /// Thins the past, then drops the oldest states, until at most `states` with at most `numbers` are left.
     /// The last state stays, and the first as long as possible.
     fn make_room(&mut self, states: usize, numbers: usize) {
         while self.kept.len() > 2 && (self.kept.len() > states || self.numbers() > numbers) {

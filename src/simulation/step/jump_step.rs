@@ -35,14 +35,10 @@ pub(super) struct Means<'a> {
     pub scratch: &'a mut Scratch,
 }
 
-/// What a jump sums up besides the wear: cycles, the work of friction, J, and the volume that it explains, m³.
+/// What a jump has summed up besides the wear: cycles, the work of friction, J, and the volume that it explains, m³.
 type Sums = [f64; 3];
 
 impl Means<'_> {
-    fn sums(&self) -> Sums {
-        [self.memory.cycle, self.memory.ledger.dissipated_energy, 0.0]
-    }
-
     /// A steady cycle on a worn depth (m), whose 1D image is written, with the friction and k that have run in by then;
     /// and what it adds to the sums.
     fn look(
@@ -56,7 +52,9 @@ impl Means<'_> {
             None => self.model,
             Some(_) => {
                 let model = run_in.insert(self.model.clone());
-                model.setup.run_in(cycle, work);
+                let before = &self.memory;
+                let energy = before.ledger.dissipated_energy + work;
+                model.setup.run_in(before.cycle + cycle, energy);
                 &*model
             }
         };
@@ -86,7 +84,7 @@ impl Means<'_> {
         let nodes = self.model.nodes();
         let with_sums = |wear: &[f64], sums: Sums| [wear, &sums].concat();
         let apart = |y: &[f64]| [y[nodes], y[nodes + 1], y[nodes + 2]];
-        let start = with_sums(&self.memory.wear, self.sums());
+        let start = with_sums(&self.memory.wear, Sums::default());
         let slope = with_sums(&self.first.wear, rates(self.model, self.first));
         let mut image = vec![0.0; nodes];
         let end = chebyshev::step(stages, covered, &start, &slope, |y, out| {
@@ -110,7 +108,7 @@ impl Means<'_> {
             error_of_work,
             wear,
             image,
-            friction_work: sums[1] - apart(&start)[1],
+            friction_work: sums[1],
             expected_volume: sums[2],
             steady,
         })
@@ -127,11 +125,11 @@ impl Means<'_> {
         let mut image = vec![0.0; model.nodes()];
         let solve = |b: &[f64]| response.solve(b);
         let wear = rosenbrock::step(covered, &start, &first.wear, solve, |y, out| {
-            let (steady, _) = self.look(y, self.sums(), &mut image)?;
+            let (steady, _) = self.look(y, Sums::default(), &mut image)?;
             out.copy_from_slice(&steady.wear);
             Ok::<(), Cause>(())
         })?;
-        let (steady, _) = self.look_at_end(&wear, self.sums(), &mut image)?;
+        let (steady, _) = self.look_at_end(&wear, Sums::default(), &mut image)?;
         let defect = rosenbrock::defect(covered, [&start, &wear], [&first.wear, &steady.wear]);
         let error = response.solve(&defect);
         self.memory.stats.transforms += response.transforms;

@@ -17,10 +17,10 @@ use crate::math::abel::worn::SCAR;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;
 
-/// The factors need so many worn nodes.
+/// Minimum number of worn nodes for the factors.
 const FEWEST: usize = 4;
 
-/// The edge lies so far into its cell at least.
+/// Minimum distance of the edge from the last worn node, in cells.
 const INTO_CELL: f64 = 1e-3;
 
 /// The worn depth as a function of the radius.
@@ -29,6 +29,8 @@ pub(super) struct WornDepth {
     grid: RadialGrid,
     /// At the nodes, m.
     worn: Vec<f64>,
+    /// The largest of them, m.
+    deepest: f64,
     shape: Option<Shape>,
 }
 
@@ -49,7 +51,13 @@ impl WornDepth {
     /// Interpolates the depths `worn`, m, at the nodes of a grid.
     pub fn new(grid: RadialGrid, worn: Vec<f64>) -> Self {
         let shape = Shape::new(&grid, &worn);
-        Self { grid, worn, shape }
+        let deepest = largest(&worn);
+        Self {
+            grid,
+            worn,
+            deepest,
+            shape,
+        }
     }
 
     /// Returns the depth at a radius, m; nothing wears outside the grid.
@@ -63,7 +71,7 @@ impl WornDepth {
 
     /// Returns whether nothing to speak of has worn at a radius.
     pub fn is_unworn(&self, r: f64) -> bool {
-        self.at(r) <= 0.01 * largest(&self.worn)
+        self.at(r) <= 0.01 * self.deepest
     }
 }
 

@@ -31,7 +31,7 @@ pub enum Values {
 }
 
 impl Axis {
-    /// Makes an axis of so many values at equal distances on its scale.
+    /// Makes an axis of `count` values at equal distances on its scale.
     ///
     /// # Errors
     ///

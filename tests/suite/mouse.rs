@@ -204,6 +204,12 @@ fn shown_when(terminal: &Terminal, is_there: impl Fn(&Shown) -> bool) -> Shown {
     }
 }
 
+/// What the screen shows once a whole frame is there, and no part of it.
+fn settled(terminal: &mut Terminal) -> Shown {
+    terminal.wait_for_silence();
+    shown(terminal)
+}
+
 #[test]
 fn the_wheel_moves_in_lists_and_help() {
     let [down, up] = ["\x1b[B", "\x1b[A"];
@@ -211,12 +217,14 @@ fn the_wheel_moves_in_lists_and_help() {
     // The help is longer than this screen.
     let mut terminal = paused(&["--mouse"]);
     terminal.resize(80, 18);
-    let before = shown(&terminal);
+    let before = settled(&mut terminal);
     for open in ["?", "p", "e", ":"] {
         terminal.press(open);
-        let first = shown_when(&terminal, |now| *now != before);
+        shown_when(&terminal, |now| *now != before);
+        let first = settled(&mut terminal);
         terminal.press(down);
-        let second = shown_when(&terminal, |now| *now != first);
+        shown_when(&terminal, |now| *now != first);
+        let second = settled(&mut terminal);
         assert!(first != second, "{open}: {}", terminal.text());
         // A click in what is open does nothing to the panels below.
         for (keys, wanted) in [

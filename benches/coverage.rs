@@ -1,7 +1,7 @@
 //! How often fits find the truth within twice the error that they state, from starts a factor of 100 away.
 //!
-//! `cargo bench --bench coverage -- [--sets 40] [--first 0] [--all]`: random data sets of each kind and the first seed;
-//! `--all` prints a line per fit.
+//! `cargo bench --bench coverage -- [--sets 40] [--first 0] [--kind Scar] [--all]`: random data sets of each kind and the
+//! first seed; `--kind` for one kind alone, `--all` for a line per fit.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 
@@ -17,15 +17,18 @@ use coverage::Kind;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    let number = |name: &str, default: u64| {
+    let value = |name: &str| {
         let at = arguments.iter().position(|argument| argument == name);
-        let text = at.and_then(|at| arguments.get(at + 1));
-        text.map_or(default, |text| text.parse().expect("a number"))
+        at.and_then(|at| arguments.get(at + 1))
+    };
+    let number = |name: &str, default: u64| {
+        value(name).map_or(default, |text| text.parse().expect("a number"))
     };
     let (sets, first) = (number("--sets", 40), number("--first", 0));
     let shows_all = arguments.iter().any(|argument| argument == "--all");
     println!("kind         key                              within  of  mean   rms  s/fit");
-    for kind in Kind::ALL {
+    let is_wanted = |kind: &Kind| value("--kind").is_none_or(|name| format!("{kind:?}") == *name);
+    for kind in Kind::ALL.into_iter().filter(is_wanted) {
         let begin = Instant::now();
         let mut all: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
         for seed in first..first + sets {

@@ -197,6 +197,8 @@ pub enum Kind {
     ScarAndLoop,
     /// Partial slip: a scar.
     Scar,
+    /// Gross slip: a scar.
+    GrossScar,
     /// Partial slip: a loop behind the compliance of a rig.
     PartialRig,
     /// Gross slip: a loop behind the compliance of a rig.
@@ -206,9 +208,10 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::ScarAndLoop,
         Self::Scar,
+        Self::GrossScar,
         Self::PartialRig,
         Self::GrossRig,
         Self::History,
@@ -216,11 +219,11 @@ impl Kind {
 
     /// Each key that is sought, and how many stated errors it is off.
     pub fn deviations(self, seed: u64) -> Vec<(&'static str, f64)> {
-        let is_gross = matches!(self, Self::GrossRig | Self::History);
+        let is_gross = matches!(self, Self::GrossScar | Self::GrossRig | Self::History);
         let mut rig = Rig::new(seed, if is_gross { [1.5, 5.0] } else { [0.35, 0.9] });
         let keys = match self {
             Self::ScarAndLoop => &[K, MU][..],
-            Self::Scar | Self::History => &[K],
+            Self::Scar | Self::GrossScar | Self::History => &[K],
             Self::PartialRig | Self::GrossRig => &[MU, RIG],
         };
         let (data, stroke) = match self {
@@ -228,7 +231,7 @@ impl Kind {
                 let (scar, (one, stroke)) = (rig.scar(), rig.fretting_loop(false));
                 (vec![scar, one], stroke)
             }
-            Self::Scar => (vec![rig.scar()], rig.contact.amplitude),
+            Self::Scar | Self::GrossScar => (vec![rig.scar()], rig.contact.amplitude),
             Self::History => (vec![rig.history()], rig.contact.amplitude),
             Self::PartialRig | Self::GrossRig => {
                 let (one, stroke) = rig.fretting_loop(true);
@@ -244,11 +247,20 @@ impl Kind {
 fn truths_lie_within_two_stated_errors() {
     let cases = Kind::ALL
         .into_iter()
-        .flat_map(|kind| (0..3).map(move |seed| (kind, seed)));
+        .flat_map(|kind| (0..4).map(move |seed| (kind, seed)));
     let all: Vec<_> = cases
         .flat_map(|(kind, seed)| kind.deviations(seed))
         .collect();
     let within = all.iter().filter(|(_, off)| off.abs() < 2.0).count();
     eprintln!("{within} of {} within two errors: {all:.1?}", all.len());
     assert!(within as f64 >= 0.9 * all.len() as f64, "{all:.1?}");
+}
+
+/// The first needs a search on the finest level, the second one from more than the best start.
+#[test]
+fn minima_beside_others_are_found() {
+    for (kind, seed) in [(Kind::ScarAndLoop, 9069), (Kind::GrossRig, 7000)] {
+        let found = kind.deviations(seed);
+        assert!(found.iter().all(|(_, off)| off.abs() < 2.0), "{found:.1?}");
+    }
 }

@@ -42,7 +42,15 @@ use crate::math::grid::RadialGrid;
 use crate::math::scan::{largest, second_differences};
 
 /// Surface shallower than this fraction of the largest worn depth does not count as scar.
-pub const SCAR: f64 = 1e-3;
+const SCAR: f64 = 1e-3;
+
+/// Returns the first and the last node of the scar; `None` if nothing has worn.
+pub fn scar(wear: &[f64]) -> Option<[usize; 2]> {
+    let least = SCAR * largest(wear);
+    let is_worn = |&depth: &f64| depth > least;
+    let first = wear.iter().position(is_worn)?;
+    Some([first, wear.iter().rposition(is_worn)?])
+}
 
 /// Eq. (1) on the worn depth: weights of its 1D image, δ(0) included.
 pub fn profile(grid: &RadialGrid) -> DMatrix<f64> {

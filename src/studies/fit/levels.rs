@@ -1,10 +1,8 @@
 //! The levels of numerics of a fit: a coarse one for the search, finer ones at the minimum.
 //!
-//! A finer level is run once at the minimum so far, which tells how far it moves the keys. While that is much beside their
-//! errors, the search goes on there. The finest level is run that once only: what it adds to the level before is added
-//! to all runs of that one, and these are fitted again (manifold mapping: D. Echeverría, P. W. Hemker, 2005, Comput.
-//! Methods Appl. Math. 5, 107–136). The derivatives are those of the level before, and of no coarser one than the second:
-//! a border of slip between few cells moves in steps.
+//! A finer level is run once at the minimum so far, which tells how far it moves the keys; then the search goes on there,
+//! until the next level would move them by little beside their errors. No fit ends on a coarser level than the third: a
+//! border of slip between few cells moves in steps.
 
 use anyhow::Result;
 
@@ -67,11 +65,7 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
         numerical = Some(left);
         let is_last = round > 0 && (is_small || is_met && is_costly);
         let before = search.clone();
-        if is_last {
-            search.correct(&changes);
-        } else {
-            search.move_to(scenario);
-        }
+        search.move_to(scenario);
         let better = search.descend(&found.theta).ok();
         let better = better.map(|found| (search.uncertainty(&found, &[]), found));
         // What the end of the time has cut off tells nothing.

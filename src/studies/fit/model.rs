@@ -16,14 +16,7 @@ use crate::traces::Axes;
 
 /// Prediction of a run for one data set, at arbitrary points.
 #[derive(Debug, Clone)]
-pub(super) struct Response {
-    course: Course,
-    /// What a finer run adds at each point.
-    pub correction: Vec<f64>,
-}
-
-#[derive(Debug, Clone)]
-enum Course {
+pub(super) enum Response {
     /// What has worn, and the unworn shape where the profile was measured.
     Scar(WornDepth, Option<Indenter>),
     /// One finely stepped cycle.
@@ -36,23 +29,23 @@ impl Response {
     /// Returns the simulated values of a data set whose abscissae are off by `shift`, and whose values by `level` and
     /// by `tilt` per unit of the abscissa.
     pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
-        let plain = |i: usize, x: f64| match &self.course {
-            Course::Scar(worn, unworn) => {
+        let plain = |i: usize, x: f64| match self {
+            Self::Scar(worn, unworn) => {
                 let r = (x - shift).abs();
                 unworn.as_ref().map_or(0.0, |unworn| unworn.profile(r)) + worn.at(r)
             }
-            Course::Loop(strokes) => strokes.force(x - shift, set.rising[i]),
-            Course::History(values) => values[i],
+            Self::Loop(strokes) => strokes.force(x - shift, set.rising[i]),
+            Self::History(values) => values[i],
         };
         let points = set.at.iter().enumerate();
         points
-            .map(|(i, &x)| plain(i, x) + self.correction[i] + level + tilt * x)
+            .map(|(i, &x)| plain(i, x) + level + tilt * x)
             .collect()
     }
 
     /// Returns the share of a scar's points where nothing has worn.
     pub fn unworn_share(&self, set: &Measured, shift: f64) -> f64 {
-        let Course::Scar(worn, _) = &self.course else {
+        let Self::Scar(worn, _) = self else {
             return 0.0;
         };
         let is_unworn = |x: &&f64| worn.is_unworn((**x - shift).abs());
@@ -72,7 +65,7 @@ pub(super) fn simulate(
 ) -> Result<(Vec<Response>, u64), SessionError> {
     let mut session = Session::start(scenario.clone())?;
     let start = session.simulation().moment().depth;
-    let mut responses: Vec<Course> = Vec::new();
+    let mut responses: Vec<Response> = Vec::new();
     // Where the run must stop, and for which points.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
@@ -85,7 +78,7 @@ pub(super) fn simulate(
             }
         };
         moments.extend(stops.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
-        responses.push(Course::History(vec![0.0; set.at.len()]));
+        responses.push(Response::History(vec![0.0; set.at.len()]));
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_over_energy = data.iter().any(|set| set.axes.x == Column::Energy);
@@ -104,15 +97,15 @@ pub(super) fn simulate(
         match (&mut responses[i], set.axes) {
             (response, Axes::LOOP) => {
                 let strokes = Strokes::new(&last_period(simulation));
-                *response = strokes.map_or_else(|| response.clone(), Course::Loop);
+                *response = strokes.map_or_else(|| response.clone(), Response::Loop);
             }
             (response, axes) if axes.over_r() => {
                 let setup = simulation.setup();
                 let unworn = (axes == Axes::PROFILE).then(|| setup.indenter.clone());
                 let worn = WornDepth::new(setup.grid.clone(), simulation.worn_depth().to_vec());
-                *response = Course::Scar(worn, unworn);
+                *response = Response::Scar(worn, unworn);
             }
-            (Course::History(values), axes) if axes.x == Column::Energy => {
+            (Response::History(values), axes) if axes.x == Column::Energy => {
                 let column = |k: usize| course.iter().map(|row| row[k]).collect::<Vec<f64>>();
                 let (energies, worn) = (column(0), column(1 + quantity(axes)));
                 let found = set
@@ -121,16 +114,13 @@ pub(super) fn simulate(
                     .map(|&energy| value_at(&energies, &worn, energy));
                 *values = found.map(|value| value.unwrap_or(f64::NAN)).collect();
             }
-            (Course::History(values), axes) => values[j] = worn(simulation, start)[quantity(axes)],
+            (Response::History(values), axes) => {
+                values[j] = worn(simulation, start)[quantity(axes)]
+            }
             _ => {}
         }
     }
-    let responses = responses.into_iter().zip(data);
-    let responses = responses.map(|(course, set)| Response {
-        course,
-        correction: vec![0.0; set.at.len()],
-    });
-    Ok((responses.collect(), session.simulation().steps()))
+    Ok((responses, session.simulation().steps()))
 }
 
 /// A cycle of the model as a rig would record it.

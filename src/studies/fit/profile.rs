@@ -2,8 +2,7 @@
 //! is at least so much, and nothing more.
 //!
 //! The other keys follow at their best, and the interval ends where Σz² has risen by 2²: S. S. Wilks (1938), Ann. Math.
-//! Stat. 9, 60–62. All runs are on the level on which the data were fitted, since what finer runs add near the minimum
-//! does not hold far from it.
+//! Stat. 9, 60–62.
 
 use super::errors::Errors;
 use super::search::{Found, Search};
@@ -37,7 +36,6 @@ pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<
     if !is_vague.contains(&true) {
         return none;
     }
-    let search = &search.without_corrections();
     let Ok((theta, least)) = search.least_squares(&found.theta, None) else {
         return none;
     };

@@ -13,7 +13,7 @@
 //! whichever predicts the last node better from the two before. Of Cattaneo and Mindlin's scar on 40 cells that leaves
 //! 4e-3 of the depth at the points of a trace, where lines leave 2e-2.
 
-use crate::math::abel::worn::SCAR;
+use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::scan::largest;
 
@@ -78,9 +78,7 @@ impl WornDepth {
 impl Shape {
     /// `None` for a scar without an edge, or on too few nodes.
     fn new(grid: &RadialGrid, worn: &[f64]) -> Option<Self> {
-        let (least, t) = (SCAR * largest(worn), grid.squares());
-        let first = worn.iter().position(|&depth| depth > least)?;
-        let last = worn.iter().rposition(|&depth| depth > least)?;
+        let ([first, last], t) = (worn::scar(worn)?, grid.squares());
         let next = *t.get(last + 1)?;
         if last + 1 < first + FEWEST {
             return None;

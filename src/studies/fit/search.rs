@@ -57,8 +57,6 @@ pub(super) struct Search<'a> {
     /// Smallest number of steps of a run.
     fewest_steps: Cell<u64>,
     remembered: RefCell<Vec<(Vec<u64>, Responses)>>,
-    /// What the finest run adds to the values of each data set.
-    corrections: Vec<Vec<f64>>,
     /// The best of all evaluations so far.
     best: RefCell<Option<Found>>,
 }
@@ -96,7 +94,6 @@ impl<'a> Search<'a> {
             in_time,
             fewest_steps: Cell::new(u64::MAX),
             remembered: RefCell::default(),
-            corrections: fit.data.iter().map(|set| vec![0.0; set.at.len()]).collect(),
             best: RefCell::default(),
         }
     }
@@ -119,28 +116,9 @@ impl<'a> Search<'a> {
         Ok((values.zip(&found.simulated).map(change).collect(), steps))
     }
 
-    /// Adds `changes` to the values of all runs.
-    pub fn correct(&mut self, changes: &[Vec<f64>]) {
-        for (correction, changes) in self.corrections.iter_mut().zip(changes) {
-            correction
-                .iter_mut()
-                .zip(changes)
-                .for_each(|(one, change)| *one += change);
-        }
-        self.remembered.take();
-    }
-
     /// Whether its time is not over.
     pub fn is_in_time(&self) -> bool {
         (self.in_time)()
-    }
-
-    /// The same search without what finer runs add.
-    pub fn without_corrections(&self) -> Self {
-        let mut search = self.clone();
-        search.corrections.iter_mut().for_each(|one| one.fill(0.0));
-        search.remembered.take();
-        search
     }
 
     /// The best of all evaluations so far, also of those of a search that has failed.
@@ -175,11 +153,8 @@ impl<'a> Search<'a> {
         }
         let fewest = self.fewest_steps.get();
         let most = fewest.saturating_mul(MOST_STEPS).max(ENOUGH_STEPS);
-        let (mut found, steps) = self.run(&self.scenario, theta, most)?;
+        let (found, steps) = self.run(&self.scenario, theta, most)?;
         self.fewest_steps.set(fewest.min(steps));
-        for (response, correction) in found.iter_mut().zip(&self.corrections) {
-            response.correction.clone_from(correction);
-        }
         let found = Rc::new(found);
         let mut remembered = self.remembered.borrow_mut();
         remembered.truncate(REMEMBERED - 1);

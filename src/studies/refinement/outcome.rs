@@ -217,10 +217,7 @@ impl Outcome {
 
     /// Returns where the scar begins and ends, m, if there is one.
     fn scar(&self) -> Option<(f64, f64)> {
-        let least = worn::SCAR * self.scar_depth();
-        let is_worn = |&wear: &f64| wear > least;
-        let first = self.wear.iter().position(is_worn)?;
-        let last = self.wear.iter().rposition(is_worn)?;
+        let [first, last] = worn::scar(&self.wear)?;
         let before = first.saturating_sub(1);
         let after = (last + 1).min(self.grid.cells());
         Some((self.grid.nodes()[before], self.grid.nodes()[after]))

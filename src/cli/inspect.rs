@@ -84,8 +84,8 @@ pub fn inspect(options: &Inspect) -> Result<()> {
     };
     let Some(measured) = measured else {
         bail!(columns.refuse(format!(
-            "holds no scar (r, wear or f), loop (u, F) or history (cycle, wear_volume or depth): its columns are {}; \
-             --fields r=1,wear=2 --units um,nm says which is which",
+            "holds no scar (r, wear or f), loop (u, F) or history (cycle, wear_volume or depth) with units: its columns are \
+             {}; --fields r=1,wear=2 --units um,nm says which is which",
             columns.list_names()
         )));
     };
@@ -160,7 +160,10 @@ fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Unde
 /// Describes sides, centre, offset and tilt of a trace, as far as they can be seen without a model.
 fn of_trace(measured: &Measured) -> Vec<String> {
     let (at, values) = (&measured.at, &measured.values);
-    if measured.is_averaged || !measured.is_two_sided() {
+    if measured.is_averaged {
+        return Vec::new();
+    }
+    if !measured.is_two_sided() {
         return vec![
             "one side of the axis, or a trace whose zero is at its end: a fit tells which"
                 .to_owned(),

@@ -108,6 +108,10 @@ pub(super) struct Layout {
     pub separator: Separator,
     /// Whether numbers have decimal commas.
     pub has_decimal_commas: bool,
+    /// The first row with a decimal comma, where other rows have decimal points.
+    pub mixed: Option<Row>,
+    /// Number of fields of the line above the first row; 0 without one.
+    pub fields_above: usize,
     /// Names of the columns; `None` if no line gives them.
     pub names: Option<Vec<String>>,
     /// Units from a separate line, or empty.
@@ -154,6 +158,7 @@ impl Layout {
         let first = rows.iter().position(|(_, row)| is_data(row));
         let begin = first.unwrap_or(rows.len().min(1));
         let above: Vec<Row> = rows.drain(..begin).collect();
+        let fields_above = above.last().map_or(0, |(_, row)| row.len());
         let begin = rows.first().map_or(u64::MAX, |(line, _)| *line);
         let (names, units) = names_and_units(text, &above, begin, fields);
         let mut fields = fields;
@@ -170,11 +175,17 @@ impl Layout {
             fields -= 1;
             rows.iter_mut().for_each(|(_, row)| row.truncate(fields));
         }
-        let has_decimal_commas = rows.iter().any(|(_, row)| row.iter().any(is_decimal_comma));
+        let with_comma = rows
+            .iter()
+            .find(|(_, row)| row.iter().any(is_decimal_comma));
+        let is_point = |field: &str| field.contains('.') && number(field).is_some();
+        let has_points = rows.iter().any(|(_, row)| row.iter().any(is_point));
         let uneven = rows.iter().find(|(_, row)| row.len() != fields).cloned();
         Ok(Self {
             separator,
-            has_decimal_commas,
+            has_decimal_commas: with_comma.is_some(),
+            mixed: with_comma.filter(|_| has_points).cloned(),
+            fields_above,
             names,
             units,
             fields,

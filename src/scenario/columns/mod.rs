@@ -113,10 +113,23 @@ impl Columns {
             columns.names.is_empty() && naming.fields.is_empty(),
             columns.rows.first(),
         ) {
+            // Twice as many fields as names: each number is cut in two.
+            if found.separator == Separator::Comma && fields == 2 * found.fields_above {
+                return Err(refuse(format!(
+                    "line {line}: has {fields} fields, but the line before names {}; decimal commas need another \
+                     separator, such as semicolons",
+                    found.fields_above
+                )));
+            }
             return Err(refuse(format!(
                 "line {line}: begins the numbers, and a line before must name the columns, as in r_m,f_m; or name them \
                  with {}",
                 naming.example("r=1,wear=2", "um,nm")
+            )));
+        }
+        if let Some((line, _)) = found.mixed {
+            return Err(refuse(format!(
+                "line {line}: a comma in a number, and points in others; export without separators of thousands"
             )));
         }
         if let Some((line, row)) = found.uneven {
@@ -413,6 +426,25 @@ mod tests {
                 );
             }
             assert_eq!([0, 1].map(|row| columns.line(row)), lines, "{text}");
+        }
+    }
+
+    #[test]
+    fn commas_that_cannot_be_decimal_marks_are_refused() {
+        for (text, expected) in [
+            (
+                "r_um,wear_nm\n1,5,2,5\n3,5,4,5\n5,0,4,0\n",
+                "line 2: has 4 fields, but the line before names 2; decimal commas need another separator",
+            ),
+            (
+                "r_nm,wear_nm\n\"1,500\",2.5\n\"3,500\",4.5\n",
+                "line 2: a comma in a number, and points in others; export without separators of thousands",
+            ),
+        ] {
+            let refused = Columns::parse(text, "scar.csv")
+                .expect_err(text)
+                .to_string();
+            assert!(refused.contains(expected), "{refused}");
         }
     }
 

@@ -149,7 +149,9 @@ impl Measured {
             } else {
                 String::new()
             };
-            measured.notes.push(format!("{whole} whole cycles{rest}"));
+            let plural = if whole == 1 { "" } else { "s" };
+            let note = format!("{whole} whole cycle{plural}{rest}");
+            measured.notes.push(note);
         }
         if let Some(pick) = pick {
             record.pick(pick).map_err(|why| columns.refuse(why))?;
@@ -357,9 +359,13 @@ mod tests {
             open.push_str(&format!("{},{}\n", i, 2 * i));
         }
         let refused = Measured::fretting_loop(&columns(&open), None).expect_err("refused");
-        assert!(
-            refused.to_string().contains("the loop does not close"),
-            "{refused}"
-        );
+        let half = (0..100).map(|i| f64::from(i) * std::f64::consts::PI / 100.0);
+        let half = half.map(|t| format!("{},{}\n", t.sin(), (t + 0.4).sin()));
+        let half = half.fold("u_m,F_N\n".to_owned(), |text, row| text + &row);
+        let half = Measured::fretting_loop(&columns(&half), None).expect_err("refused");
+        for refused in [refused, half] {
+            let said = refused.to_string();
+            assert!(said.contains("the loop does not close"), "{said}");
+        }
     }
 }

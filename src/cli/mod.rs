@@ -24,6 +24,7 @@ mod accuracy;
 mod args;
 mod complete;
 mod config;
+mod cycles;
 mod documents;
 mod explore;
 mod figure;

@@ -154,6 +154,10 @@ columns! {
         Approach "approach_m" "approach" "approach of the bodies";
         Mass "mass_kg" "m" "worn mass";
         StandardError "error" "" "standard error of the ordinate";
+        Opening "opening_m" "d0" "half the width of a loop at its mean force";
+        EnergyFriction "friction" "mu_e" "mu_e = E_d/(4 P d0)";
+        MeanShift "mean_displacement_m" "" "mean of a cycle's extreme displacements";
+        MeanForce "mean_force_N" "" "mean of a cycle's extreme forces";
     }
 }
 

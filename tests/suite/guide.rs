@@ -141,7 +141,10 @@ fn the_chapter_on_measuring_finds_mu_and_k() {
             "{key}: {value:e} ± {error:e}"
         );
     }
-    // What was fitted makes the loop that was measured.
+    // What was fitted makes the loops that were measured, a row and a loop of the log for each.
+    let text = dir.done("inspect record.txt@2 --scenario fitted.toml --marker ascii");
+    assert_eq!(text.matches("\nmodel ").count(), 3, "{text}");
+    has(&text, "F_x up to");
     let beside = dir.done("inspect record.txt@2 --scenario fitted.toml --json");
     let beside: serde_json::Value = serde_json::from_str(&beside).expect("JSON");
     for (figure, share) in [
@@ -152,6 +155,16 @@ fn the_chapter_on_measuring_finds_mu_and_k() {
     ] {
         let ratio = beside["beside"]["ratio"][figure].as_f64().expect("a ratio");
         assert!((ratio - 1.0).abs() < share, "{figure}: {ratio}");
+        for (model, measured) in
+            [0, 1, 2].map(|k| (&beside["beside"]["model"][k], &beside["cycles"][k]))
+        {
+            let [model, measured] =
+                [model, measured].map(|row| row[figure].as_f64().expect("a figure"));
+            assert!(
+                (measured / model - 1.0).abs() < share,
+                "{figure}: {measured} {model}"
+            );
+        }
     }
     let nuisance = |set: usize, k: usize| {
         told["data"][set]["nuisances"][k]["value"]

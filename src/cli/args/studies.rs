@@ -259,7 +259,8 @@ pub struct Inspect {
     /// How its columns are to be read.
     #[command(flatten)]
     pub naming: Naming,
-    /// Print the figures of this scenario beside those of a loop; of its cycle X with FILE@X, else of its last one.
+    /// Print the figures of this scenario beside those of each cycle of a loop's record, which ends with the scenario's cycle
+    /// X with FILE@X, else with its last one.
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<OsString>,
     /// Look at these cycles of a loop's record, counted from 1.

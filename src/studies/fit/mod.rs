@@ -50,7 +50,7 @@ mod solver;
 mod starts;
 mod structure;
 
-pub use model::{ModelCycle, model_cycle};
+pub use model::{ModelCycle, model_cycles};
 pub use nuisance::NAMES;
 pub use report::{Fitted, Nuisance, SetResult, Value};
 pub use structure::Structure;

@@ -134,23 +134,28 @@ pub struct ModelCycle {
     pub load: f64,
 }
 
-/// Runs a scenario up to the end of `cycle`, on the cells and steps of a fit; `None` without tangential motion.
+/// Runs a scenario, on the cells and steps of a fit, and returns the cycles that end at `ends`, which rise; none without
+/// tangential motion.
 ///
 /// # Errors
 /// A contact that cannot be computed.
-pub fn model_cycle(scenario: &Scenario, cycle: f64) -> Result<Option<ModelCycle>> {
+pub fn model_cycles(scenario: &Scenario, ends: &[f64]) -> Result<Vec<ModelCycle>> {
     let mut session = Session::start(coarse::of_figures(scenario)?)?;
-    session.advance_while(cycle, |_| true)?;
-    let Some(period) = session.simulation().fine_period() else {
-        return Ok(None);
-    };
-    let (displacements, forces) = last_period(session.simulation()).into_iter().unzip();
-    let loads = period.points.iter().map(|point| point.normal_force);
-    Ok(Some(ModelCycle {
-        displacements,
-        forces,
-        load: loads.sum::<f64>() / period.points.len() as f64,
-    }))
+    let mut cycles = Vec::new();
+    for end in ends {
+        session.advance_while(*end, |_| true)?;
+        let Some(period) = session.simulation().fine_period() else {
+            break;
+        };
+        let (displacements, forces) = last_period(session.simulation()).into_iter().unzip();
+        let loads = period.points.iter().map(|point| point.normal_force);
+        cycles.push(ModelCycle {
+            displacements,
+            forces,
+            load: loads.sum::<f64>() / period.points.len() as f64,
+        });
+    }
+    Ok(cycles)
 }
 
 /// What one cycle adds to an abscissa of histories.

@@ -108,6 +108,7 @@ pub(super) fn read(columns: &Columns, axes: Axes) -> Result<Measured, Refusal> {
         ),
         cycle: None,
         rising: Vec::new(),
+        cycles: Vec::new(),
         is_averaged,
         notes: vec![format!("a map of {} points, averaged {how}", rows.len())],
     })

@@ -8,7 +8,7 @@ use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::scenario::columns::Columns;
 use crate::traces::Axes;
-use record::Record;
+use record::{Cycle, Record};
 
 mod map;
 pub mod record;
@@ -91,6 +91,8 @@ pub struct Measured {
     pub cycle: Option<f64>,
     /// For a loop, which points belong to rising strokes; otherwise empty.
     pub rising: Vec<bool>,
+    /// The cycles of a loop.
+    pub cycles: Vec<Cycle>,
     /// Whether its values are means around the axis, which leave nothing to centre.
     pub is_averaged: bool,
     /// What was left out or corrected, one line each.
@@ -165,11 +167,12 @@ impl Measured {
                 .notes
                 .push("it runs backwards (its area is negative): turned".to_owned());
         }
-        let kept: Vec<usize> = record
-            .cycles
-            .iter()
-            .flat_map(|cycle| cycle.points.clone())
-            .collect();
+        let mut kept = Vec::new();
+        for cycle in &mut record.cycles {
+            let first = kept.len();
+            kept.extend(cycle.points.clone());
+            cycle.points = first..kept.len();
+        }
         let choose = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
         measured.rising = record
             .cycles
@@ -179,6 +182,7 @@ impl Measured {
         measured.at = choose(&measured.at);
         measured.values = choose(&measured.values);
         measured.errors = measured.errors.as_deref().map(choose);
+        measured.cycles = record.cycles;
         Ok(measured)
     }
 
@@ -244,7 +248,7 @@ impl Measured {
 }
 
 /// The columns of displacement and force in a file of loops.
-pub fn loop_columns(columns: &Columns) -> [Column; 2] {
+fn loop_columns(columns: &Columns) -> [Column; 2] {
     let is_own = columns.has(Column::Shift) && columns.has(Column::TangentialForce);
     let is_sensed = columns.column(Column::RigDisplacement.name()).is_ok();
     match (is_own, is_sensed) {
@@ -281,6 +285,7 @@ fn read(columns: &Columns, axes: Axes, [at, values]: [Column; 2]) -> Result<Meas
         errors: has_errors.then_some(errors),
         cycle: cycle.and_then(|(_, cycle)| cycle.parse().ok()),
         rising: Vec::new(),
+        cycles: Vec::new(),
         is_averaged: false,
         notes: columns.left_out(&rows).into_iter().collect(),
     })

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use super::{rises, span};
 use crate::math::scan::range;
+use crate::reading::Column;
 
 /// Allowed gap between the ends of a loop, in distances between its rows.
 const OPEN: f64 = 3.0;
@@ -65,19 +66,50 @@ pub struct Figures {
     pub means: [f64; 2],
 }
 
-impl Figures {
-    /// A = E_d/(4 Q* U), D = δ₀/U and B = A/D.
-    pub fn ratios(&self) -> [f64; 3] {
-        let (a, d) = (
-            self.energy / (4.0 * self.force * self.amplitude),
-            self.opening / self.amplitude,
-        );
-        [a, d, a / d]
-    }
+/// The columns of a row of figures.
+pub const COLUMNS: [Column; 10] = [
+    Column::EnergyPerCycle,
+    Column::ForceAmplitude,
+    Column::ShiftAmplitude,
+    Column::Opening,
+    Column::EnergyRatio,
+    Column::EnergyRatioB,
+    Column::SlidingRatio,
+    Column::EnergyFriction,
+    Column::MeanShift,
+    Column::MeanForce,
+];
 
-    /// μ_e = E_d/(4 P δ₀) under a normal force, N.
-    pub fn friction(&self, normal_force: f64) -> f64 {
-        self.energy / (4.0 * normal_force * self.opening)
+/// A value for each of [`COLUMNS`].
+pub type Row = [f64; COLUMNS.len()];
+
+impl Figures {
+    /// Returns the figures under a normal force, N; NaN for μ_e = E_d/(4 P δ₀) without one.
+    pub fn row(&self, normal_force: Option<f64>) -> Row {
+        let a = self.energy / (4.0 * self.force * self.amplitude);
+        let d = self.opening / self.amplitude;
+        let load = normal_force.unwrap_or(f64::NAN);
+        let friction = self.energy / (4.0 * load * self.opening);
+        let [mean_shift, mean_force] = self.means;
+        let Self {
+            energy,
+            force,
+            amplitude,
+            opening,
+            ..
+        } = *self;
+        [
+            energy,
+            force,
+            amplitude,
+            opening,
+            a,
+            a / d,
+            d,
+            friction,
+            mean_shift,
+            mean_force,
+        ]
     }
 
     fn new(u: &[f64], force: &[f64]) -> Self {

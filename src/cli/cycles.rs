@@ -1,0 +1,263 @@
+//! The figures of each cycle of a measured record, beside those of a scenario: a table, and plots over the cycles.
+
+use anyhow::{Context, Result, ensure};
+use serde::{Serialize, Serializer};
+
+use crate::charts::fretting_log;
+use crate::plot::theme::Role;
+use crate::plot::{Axis, Chart, Curve};
+use crate::reading::Column;
+use crate::scenario::{Refusal, Scenario};
+use crate::studies::fit::model_cycles;
+use crate::studies::measured::Measured;
+use crate::studies::measured::record::{self, COLUMNS, Record, Row};
+use crate::traces::{Axes, Loop};
+
+/// Maximum number of cycles printed; a longer record is thinned evenly to this number.
+const MOST_ROWS: usize = 20;
+
+/// How the model is drawn: dotted.
+const MODEL: Role = Role::Ghost(0);
+
+/// The cycles of a record.
+#[derive(Default, Serialize)]
+pub(super) struct Cycles {
+    /// The measured ones.
+    cycles: Vec<Figures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beside: Option<Beside>,
+}
+
+#[derive(Serialize)]
+struct Beside {
+    /// The model's cycles, one for each cycle of the record that is printed.
+    model: Vec<Figures>,
+    /// The sums over these measured cycles in units of the model's.
+    ratio: Figures,
+}
+
+/// The figures of a cycle.
+struct Figures {
+    /// Its number in the record, or its end in the model; `None` for a ratio.
+    cycle: Option<f64>,
+    row: Row,
+    /// The loop about its zeros, m and N: the zeros of instruments are arbitrary.
+    u: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl Serialize for Figures {
+    /// Writes an object with the names of a history's columns, where these are the same.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let cycle = self.cycle.map(|cycle| (Column::Cycle, cycle));
+        let all = cycle.into_iter().chain(COLUMNS.into_iter().zip(self.row));
+        serializer.collect_map(all.map(|(column, value)| (column.name(), value)))
+    }
+}
+
+impl Figures {
+    fn new(cycle: f64, u: &[f64], force: &[f64], of: &record::Figures, load: Option<f64>) -> Self {
+        let less = |values: &[f64], zero: f64| values.iter().map(|value| value - zero).collect();
+        Self {
+            cycle: Some(cycle),
+            row: of.row(load),
+            u: less(u, of.means[0]),
+            force: less(force, of.means[1]),
+        }
+    }
+
+    fn value(&self, wanted: Column) -> f64 {
+        let mut row = COLUMNS.into_iter().zip(self.row);
+        row.find(|(column, _)| *column == wanted)
+            .map_or(f64::NAN, |(_, value)| value)
+    }
+
+    /// Returns its line in the table.
+    fn text(&self, label: &str) -> String {
+        let cells = printed().map(|column| match (self.value(column), column.unit()) {
+            (value, _) if value.is_nan() => format!("{:>10}", "-"),
+            (value, unit) if unit.is_empty() || self.cycle.is_none() => format!("{value:10.4}"),
+            (value, _) => format!("{value:10.3e}"),
+        });
+        format!("{label:>5}") + &cells.collect::<String>()
+    }
+}
+
+/// Whether a column tells a zero of the instrument, which has a line of its own and no ratio to the model's.
+fn is_zero(column: Column) -> bool {
+    [Column::MeanShift, Column::MeanForce].contains(&column)
+}
+
+/// The columns of the printed table.
+fn printed() -> impl Iterator<Item = Column> {
+    COLUMNS.into_iter().filter(|column| !is_zero(*column))
+}
+
+/// Returns the cycles to show: the last one, and others at even distances.
+fn shown<T>(cycles: &[T]) -> Vec<&T> {
+    let every = cycles.len().div_ceil(MOST_ROWS).max(1);
+    let mut shown: Vec<&T> = cycles.iter().rev().step_by(every).collect();
+    shown.reverse();
+    shown
+}
+
+impl Cycles {
+    /// Computes the figures of a record, with μ_e under a normal force, N, and beside them those of a scenario's cycles:
+    /// the record ends at the given one, and its cycles follow each other. Without a force, the scenario's is taken.
+    ///
+    /// # Errors
+    /// A scenario without a loop, or whose contact cannot be computed.
+    pub fn new(
+        measured: &Measured,
+        load: Option<f64>,
+        beside: Option<(&Scenario, f64)>,
+    ) -> Result<Self> {
+        let numbers = shown(&measured.cycles);
+        let numbers: Vec<f64> = numbers.iter().map(|one| one.number as f64).collect();
+        let mut model = Vec::new();
+        let mut load = load;
+        if let Some((scenario, end)) = beside {
+            let first = end - numbers.last().copied().unwrap_or_default();
+            let ends: Vec<f64> = numbers
+                .iter()
+                .map(|number| (first + number).max(1.0))
+                .collect();
+            let ours = model_cycles(scenario, &ends)?;
+            let rule = "has no tangential motion, so no loop stands beside the measured one";
+            ensure!(!ours.is_empty(), Refusal::new(scenario.title(), rule));
+            for (one, end) in ours.iter().zip(&ends) {
+                let (u, force) = (&one.displacements, &one.forces);
+                let record = Record::new(u, force).map_err(anyhow::Error::msg)?;
+                let cycle = record.cycles.first().context("the model has no cycle")?;
+                model.push(Figures::new(*end, u, force, &cycle.figures, Some(one.load)));
+            }
+            load = load.or(ours.last().map(|one| one.load));
+        }
+        let cycles = measured.cycles.iter().map(|one| {
+            let [u, force] = [&measured.at, &measured.values].map(|all| &all[one.points.clone()]);
+            Figures::new(one.number as f64, u, force, &one.figures, load)
+        });
+        let cycles: Vec<Figures> = cycles.collect();
+        let sum = |all: &mut dyn Iterator<Item = &Figures>, column: Column| {
+            all.map(|one| one.value(column)).sum::<f64>()
+        };
+        let ratio = COLUMNS.map(|column| match column {
+            column if is_zero(column) => f64::NAN,
+            _ => sum(&mut shown(&cycles).into_iter(), column) / sum(&mut model.iter(), column),
+        });
+        let ratio = Figures {
+            cycle: None,
+            row: ratio,
+            u: Vec::new(),
+            force: Vec::new(),
+        };
+        let beside = beside.is_some().then_some(Beside { model, ratio });
+        Ok(Self { cycles, beside })
+    }
+
+    fn of_model(&self) -> &[Figures] {
+        self.beside.as_ref().map_or(&[], |beside| &beside.model)
+    }
+
+    fn values(figures: &[Figures], column: Column) -> Vec<f64> {
+        figures.iter().map(|one| one.value(column)).collect()
+    }
+
+    /// Describes zeros that are off, and drift from the first cycle to the last.
+    pub fn trends(&self) -> Vec<String> {
+        let mean = |column: Column| {
+            Self::values(&self.cycles, column).iter().sum::<f64>() / self.cycles.len() as f64
+        };
+        let mut notes = Vec::new();
+        if !self.cycles.is_empty() {
+            notes.push(format!(
+                "stroke ±{:.3e} m, mean displacement {:.2e} m, mean force {:.2e} N",
+                mean(Column::ShiftAmplitude),
+                mean(Column::MeanShift),
+                mean(Column::MeanForce)
+            ));
+        }
+        if let [first, .., last] = &self.cycles[..] {
+            let change = |column: Column| last.value(column) - first.value(column);
+            notes.push(format!(
+                "from cycle {} to {}: mean displacement {:+.1e} m, mean force {:+.1e} N, energy {:+.1} %",
+                first.cycle.unwrap_or_default(),
+                last.cycle.unwrap_or_default(),
+                change(Column::MeanShift),
+                change(Column::MeanForce),
+                100.0 * change(Column::EnergyPerCycle) / first.value(Column::EnergyPerCycle)
+            ));
+        }
+        notes
+    }
+
+    /// Returns the lines of the table; none without a cycle.
+    pub fn lines(&self) -> Vec<String> {
+        if self.cycles.is_empty() {
+            return Vec::new();
+        }
+        let names = printed().map(|column| match (column.symbol(), column.unit()) {
+            // A history has E_d since the start under this symbol.
+            ("", unit) => format!("E_d/{unit}"),
+            (symbol, "") => symbol.to_owned(),
+            (symbol, unit) => format!("{symbol}/{unit}"),
+        });
+        let names: String = names.map(|name| format!("{name:>10}")).collect();
+        let mut lines = vec!["cycle".to_owned() + &names];
+        for (k, one) in shown(&self.cycles).into_iter().enumerate() {
+            lines.push(one.text(&one.cycle.unwrap_or_default().to_string()));
+            lines.extend(self.of_model().get(k).map(|model| model.text("model")));
+        }
+        if let Some(Beside { model, ratio }) = &self.beside {
+            lines.push(ratio.text("ratio"));
+            let ends = [model.first(), model.last()].map(|one| one.and_then(|one| one.cycle));
+            let [first, last] = ends.map(Option::unwrap_or_default);
+            lines.push(format!(
+                "model: its cycles {first} to {last}; ratio: measured to model, by their means"
+            ));
+        }
+        lines
+    }
+
+    /// Draws the last loop where there is a model; for several cycles E_d over these, and the loops at their heights.
+    pub fn charts(&self) -> Vec<Chart> {
+        let (measured, model) = (shown(&self.cycles), self.of_model());
+        let chart = |x: Axis, y: Axis| Chart::new("", x, y);
+        let mut charts = Vec::new();
+        if let Some((one, other)) = measured.last().zip(model.last()) {
+            let Axes { x, y } = Axes::LOOP;
+            let curves = [(*one, Role::Profile), (other, MODEL)];
+            let curves = curves.map(|(one, role)| Curve::new("", &one.u[..], &one.force[..], role));
+            let axes = [
+                Axis::new(x.quantity(), x.unit()),
+                Axis::new(y.symbol(), y.unit()),
+            ];
+            let [x, y] = axes;
+            charts.push(chart(x, y).curves(curves));
+        }
+        if measured.len() > 1 {
+            let at: Vec<f64> = measured.iter().filter_map(|one| one.cycle).collect();
+            let energy = |of: &[&Figures]| {
+                of.iter()
+                    .map(|one| one.value(Column::EnergyPerCycle))
+                    .collect::<Vec<f64>>()
+            };
+            let ours: Vec<&Figures> = model.iter().collect();
+            let curves = [(&measured, Role::Profile), (&ours, MODEL)];
+            let curves = curves.map(|(of, role)| Curve::new("", &at[..of.len()], energy(of), role));
+            charts.push(chart(Axis::new("cycle", ""), Axis::new("E_d", "J")).curves(curves));
+            let logs = [&measured, &ours].map(|of| {
+                let loops = of.iter().zip(&at).map(|(one, at)| Loop {
+                    end: *at,
+                    shifts: one.u.clone(),
+                    forces: one.force.clone(),
+                    ..Loop::default()
+                });
+                loops.collect::<Vec<_>>()
+            });
+            let logs = logs.each_ref().map(|log| log.iter().collect::<Vec<_>>());
+            charts.extend(fretting_log::of_logs(logs.each_ref().map(|log| &log[..])));
+        }
+        charts
+    }
+}

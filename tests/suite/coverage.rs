@@ -245,9 +245,9 @@ impl Kind {
 
 #[test]
 fn truths_lie_within_two_stated_errors() {
-    let cases = Kind::ALL
-        .into_iter()
-        .flat_map(|kind| (0..4).map(move |seed| (kind, seed)));
+    // Kinds of one seed share their noise.
+    let cases = Kind::ALL.into_iter().zip((0..).step_by(100));
+    let cases = cases.flat_map(|(kind, first)| (first..first + 3).map(move |seed| (kind, seed)));
     let all: Vec<_> = cases
         .flat_map(|(kind, seed)| kind.deviations(seed))
         .collect();

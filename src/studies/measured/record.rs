@@ -10,6 +10,9 @@ use crate::reading::Column;
 /// Allowed gap between the ends of a loop, in distances between its rows.
 const OPEN: f64 = 3.0;
 
+/// Allowed gap, relative to the loop's ranges, between two least displacements, which noise moves: half a loop is no cycle.
+const HALF: f64 = 0.25;
+
 /// Share of the stroke, from either end, within which a motion counts as turned.
 const NEAR_END: f64 = 0.25;
 
@@ -162,11 +165,10 @@ impl Record {
             last.end = (last.end + 1).min(u.len());
         }
         if whole.is_empty() {
+            check_closed(u, force, 0.0)?;
             whole.push(0..u.len());
-        }
-        // Half a loop between two least displacements is no cycle.
-        if let [one] = &whole[..] {
-            check_closed(&u[one.clone()], &force[one.clone()])?;
+        } else if let [one] = &whole[..] {
+            check_closed(&u[one.clone()], &force[one.clone()], HALF)?;
         }
         let cycle = |(k, points): (usize, Range<usize>)| {
             let u = &u[points.clone()];
@@ -242,8 +244,8 @@ fn minima(u: &[f64]) -> Vec<usize> {
     found
 }
 
-/// Refuses a record whose end is far from its beginning.
-fn check_closed(u: &[f64], force: &[f64]) -> Result<(), String> {
+/// Refuses a record whose end is far from its beginning, and by more than is `allowed`.
+fn check_closed(u: &[f64], force: &[f64], allowed: f64) -> Result<(), String> {
     let spans = [u, force].map(span);
     let distance =
         |i: usize, j: usize| ((u[i] - u[j]) / spans[0]).hypot((force[i] - force[j]) / spans[1]);
@@ -251,7 +253,7 @@ fn check_closed(u: &[f64], force: &[f64]) -> Result<(), String> {
     let mut steps: Vec<f64> = (1..u.len()).map(|i| distance(i, i - 1)).collect();
     steps.sort_by(f64::total_cmp);
     let gap = distance(last, 0);
-    if gap > OPEN * steps[last / 2].max(1e-3) && gap > steps[last - 1] {
+    if gap > allowed.max(OPEN * steps[last / 2].max(1e-3)) && gap > steps[last - 1] {
         return Err(format!(
             "the loop does not close: it begins at u = {:e} m, F = {:e} N and ends at {:e} m, {:e} N; \
              give one whole cycle or more",

@@ -9,6 +9,7 @@ use crate::tui::keys::{Key, Named};
 use crate::tui::map::draw;
 use crate::tui::map::live::Live;
 use crate::tui::overlays::answer::Answer;
+use crate::tui::worker::Order;
 
 /// The message until a point is open.
 pub const OPENING: &str = "opening the point ...";
@@ -29,7 +30,7 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
                 Ok(scenario) => {
                     live.halt();
                     explorer.notice = Some(OPENING.to_owned());
-                    explorer.order_with_new_scales(|run| run.open_point(scenario));
+                    explorer.order_with_new_scales(Order::OpenPoint(Box::new(scenario)));
                 }
                 Err(error) => explorer.notice = Some(error.to_string()),
             }

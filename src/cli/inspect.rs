@@ -241,7 +241,7 @@ fn beside(cycles: &[CycleRow], cycle: f64, ours: &ModelCycle) -> Result<Beside> 
         energy_ratio_B: ratio(|row| row.energy_ratio_B),
         sliding_ratio: ratio(|row| row.sliding_ratio),
         friction: Some(ratio(friction)),
-        // The zeros of an instrument have no ratio to those of the model.
+        // An instrument's zeros are arbitrary, so their ratios to the model's mean nothing.
         mean_displacement_m: f64::NAN,
         mean_force_N: f64::NAN,
     };

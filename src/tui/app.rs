@@ -7,7 +7,7 @@ use super::event::Event;
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
 use super::keys::{Key, Named};
-use super::map::live::Live;
+use super::map::live::LiveStudy;
 use super::mouse::Gesture;
 use super::overlays::{Answer, Form, Help, Library, OPENING, Overlay, Palette};
 use super::reader::Input;
@@ -22,7 +22,7 @@ pub struct App {
     /// The stack of overlays: the last is drawn, and handles the keys.
     pub overlays: Vec<Overlay>,
     /// The map from which the run was opened, to which the user can return.
-    map: Option<Live>,
+    map: Option<LiveStudy>,
 }
 
 impl App {
@@ -61,7 +61,7 @@ impl App {
                 explorer.notice.take_if(|told| told == OPENING);
                 for overlay in self.overlays.drain(..) {
                     if let Overlay::Sweep(live) = overlay {
-                        self.map = Some(live).filter(Live::is_of_file);
+                        self.map = Some(live).filter(LiveStudy::is_of_file);
                     }
                 }
                 self.make_room();

@@ -97,7 +97,7 @@ pub struct Options {
     /// The look of the terminal, from [`theme_of`].
     pub theme: Theme,
     /// The map of a study to begin with.
-    pub map: Option<map::live::Live>,
+    pub map: Option<map::live::LiveStudy>,
     /// Whether to present on a projector.
     pub present: bool,
     /// The panels to show first.

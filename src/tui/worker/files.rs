@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::Order;
 use crate::scenario::Scenario;
 use crate::tui::event::Event;
-use crate::tui::map::live::Live;
+use crate::tui::map::live::LiveStudy;
 use crate::tui::map::range::Range;
 use crate::tui::trend::Recorded;
 use crate::tui::{figure as drawing, snapshot as state};
@@ -32,7 +32,7 @@ pub fn sweep(range: Range) -> Order {
         let tell = move || {
             let _ = events.send(Event::News);
         };
-        let live = Live::start(&range, run.session.scenario(), cycles, tell);
+        let live = LiveStudy::start(&range, run.session.scenario(), cycles, tell);
         if let Some(live) = screen.or_notice(live) {
             screen.send(Event::Sweep(live));
         }

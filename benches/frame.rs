@@ -20,7 +20,7 @@ use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::Activity;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::worker::{Orders, Worker};
+use mdr_tui::tui::worker::{Order, Orders, Worker};
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
@@ -83,7 +83,7 @@ impl Stage {
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        self.orders.send(Worker::quit);
+        self.orders.send(Order::Quit);
     }
 }
 

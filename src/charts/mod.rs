@@ -108,7 +108,7 @@ impl<M> Recipe<M> {
     }
 }
 
-/// The description of a chart or of another panel, however it is made.
+/// The description of a panel, whatever it shows: a chart or a picture.
 pub type About = Recipe<dyn Sync>;
 
 impl Recipe {
@@ -177,7 +177,7 @@ fn over_r(
     }
 }
 
-/// A column over the radius at every state, by the states' cycles where there are several; else under this name.
+/// Returns a column over the radius, one curve per state; a single state is called `alone`, several by their cycles.
 fn of_states(run: &Run, column: Column, alone: &str, role: Role) -> Vec<Curve> {
     let count = run.states.len();
     let states = run.states.iter().enumerate();
@@ -189,7 +189,7 @@ fn of_states(run: &Run, column: Column, alone: &str, role: Role) -> Vec<Curve> {
     curves.collect()
 }
 
-/// Returns the name and the role of the `k`th of `count` states, which ends at `cycle`; a single state takes `alone`.
+/// Returns the name and the role of the `k`th of `count` states, which ends at `cycle`; a single state gets `alone`.
 fn state_name(k: usize, count: usize, cycle: f64, alone: (&str, Role)) -> (String, Role) {
     match count {
         1 => (alone.0.to_owned(), alone.1),

@@ -12,7 +12,7 @@ use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, given, job};
 use crate::charts::{Recipe, Run, USUAL, depth, scar_depth, volume};
 use crate::export::target::Target;
-use crate::figure::look::Look;
+use crate::figure::look::FigureStyle;
 use crate::figure::{DATA_COLUMNS, Format, Sheet, paper, study as figure_of_study};
 use crate::plot::Chart;
 use crate::plot::theme::Role;
@@ -60,7 +60,7 @@ pub fn figure(options: &Figure) -> Result<()> {
             target.refuse_existing(options.force)?;
         }
     }
-    let look = Look {
+    let look = FigureStyle {
         font: options.font_size * POINT,
         style: options.style,
     };

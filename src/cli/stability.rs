@@ -11,7 +11,7 @@ use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
 use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
-use crate::studies::stability::{Limit, Study, Variant};
+use crate::studies::stability::{Limit, StabilityStudy, Variant};
 
 /// Runs the study and prints and writes its results.
 pub fn stability(options: &Stability) -> Result<ExitCode> {
@@ -20,7 +20,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let name = printable(scenario.origin());
     let title = scenario.title().to_owned();
     let settings = settings(options, scenario.setup().geometry);
-    let Some(study) = Study::new(scenario, options.cycles)? else {
+    let Some(study) = StabilityStudy::new(scenario, options.cycles)? else {
         let rule = "nothing wears: the scenario needs [wear], and contact at its start";
         bail!(Refusal::new(name, rule));
     };
@@ -47,7 +47,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
 
 /// Computes the lines of the study, until `go_on` says to stop.
 fn lines(
-    study: &Study,
+    study: &StabilityStudy,
     options: &Stability,
     settings: &[Variant],
     go_on: &dyn Fn() -> bool,

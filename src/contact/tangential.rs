@@ -226,9 +226,9 @@ pub fn borders(
     stick_radius.unwrap_or(contact_radius).min(contact_radius)
 }
 
-/// The radius within which nothing slips but [slightly](SLIGHT), m, if something does so there, and by less than what
-/// rises from a border on a line in t = x², whose values are `squares`, up to the first of the other springs. `slip` (m) is
-/// that of the springs in contact.
+/// Returns the radius, m, within which springs slip only [slightly](SLIGHT); `None` if none do, or if they slip by more
+/// than a line in t = x² (`squares`) that rises from a border to the first of the other springs. `slip` (m) covers the
+/// springs in contact.
 fn end_of_slight_slip(slip: &[f64], squares: &[f64], states: &[SpringState]) -> Option<f64> {
     let slight = SLIGHT * slip.last()?.abs();
     let stuck = leading(&states[..slip.len()], |&state| state == SpringState::Stick);

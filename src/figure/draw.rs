@@ -2,8 +2,8 @@
 
 use super::canvas::{Anchor, BLACK, Canvas, WHITE};
 use super::font;
-use super::frame::{BAR, Frame, symbol};
-use super::look::Look;
+use super::interior::{BAR, Interior, symbol};
+use super::look::FigureStyle;
 use super::map::Key;
 use super::ruler::{column, numeral, ruler, title};
 use crate::plot::segment::clip;
@@ -28,7 +28,7 @@ const INSET: [f64; 2] = [0.58, 0.5];
 impl Chart {
     /// Returns the height of the legend below the frame, mm. Only a map has its legend there, where it hides no
     /// colours.
-    pub(super) fn height_below(&self, look: &Look) -> f64 {
+    pub(super) fn height_below(&self, look: &FigureStyle) -> f64 {
         match self.map {
             Some(_) => self.named_curves().count() as f64 * LEGEND_LINE * look.font,
             None => 0.0,
@@ -36,7 +36,7 @@ impl Chart {
     }
 
     /// Lays out the ordinate of a chart of `height` mm, with a legend of `below` mm under it.
-    pub(super) fn ordinate(&self, height: f64, below: f64, look: &Look) -> Ordinate {
+    pub(super) fn ordinate(&self, height: f64, below: f64, look: &FigureStyle) -> Ordinate {
         let font = look.font;
         let top = if self.title.is_empty() { 0.6 } else { 1.8 } * font;
         let height = (height - top - 3.4 * font - below).max(1.0);
@@ -59,7 +59,7 @@ impl Chart {
         canvas: &mut Canvas,
         [at, size]: [[f64; 2]; 2],
         ordinate: Ordinate,
-        look: &Look,
+        look: &FigureStyle,
     ) {
         let font = look.font;
         let (left, top, height) = (ordinate.left, ordinate.top, ordinate.height);
@@ -71,7 +71,7 @@ impl Chart {
         // A digit is about 0.57 times as wide as the font size.
         let across = width / (0.57 * font);
         let across = ruler(&self.x, self.bounds_on_paper()[0], across, Labels::Row(0));
-        let frame = Frame {
+        let frame = Interior {
             left: at[0] + left,
             top: at[1] + top,
             size: [width, height],
@@ -117,7 +117,7 @@ impl Chart {
         canvas.text(above, &self.title, font, Anchor::Start);
         if let Some(inset) = &self.inset {
             let size = [INSET[0] * width, INSET[1] * height];
-            let small = Look {
+            let small = FigureStyle {
                 font: 0.8 * font,
                 ..*look
             };
@@ -155,7 +155,7 @@ impl Chart {
     }
 
     /// Draws the frame with its ticks and labels; the paper begins at `edge`.
-    fn axes(&self, frame: &Frame, edge: f64, canvas: &mut Canvas, font: f64) {
+    fn axes(&self, frame: &Interior, edge: f64, canvas: &mut Canvas, font: f64) {
         let [left, top, width, height] = [frame.left, frame.top, frame.size[0], frame.size[1]];
         let (right, bottom) = (frame.right(), frame.bottom());
         let corners = [
@@ -203,7 +203,13 @@ impl Chart {
     }
 
     /// Draws the names of the curves in the corner where they cover the least of them, or below a map.
-    fn legend(&self, frame: &Frame, drawn: &[[[f64; 2]; 2]], canvas: &mut Canvas, look: &Look) {
+    fn legend(
+        &self,
+        frame: &Interior,
+        drawn: &[[[f64; 2]; 2]],
+        canvas: &mut Canvas,
+        look: &FigureStyle,
+    ) {
         let font = 0.9 * look.font;
         if self.named_curves().next().is_none() {
             return;

@@ -18,7 +18,7 @@ pub enum Style {
 
 /// How a figure looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
+pub struct FigureStyle {
     /// The font size, mm.
     pub font: f64,
     /// Colours or greys.
@@ -75,7 +75,7 @@ fn rank(role: Role) -> usize {
     }
 }
 
-impl Look {
+impl FigureStyle {
     /// Returns the colour of a curve.
     pub fn color(&self, role: Role) -> Rgb {
         if matches!(role, Role::Border(_)) {
@@ -133,7 +133,7 @@ mod tests {
     /// Each state has different dashes, and the curves drawn beside them have others.
     #[test]
     fn greys_tell_states_apart_from_the_unworn_profile_and_the_limit() {
-        let look = Look {
+        let look = FigureStyle {
             font: 2.8,
             style: Style::Grey,
         };

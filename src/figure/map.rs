@@ -2,8 +2,8 @@
 
 use super::canvas::{Anchor, Canvas};
 use super::font;
-use super::frame::Frame;
-use super::look::Look;
+use super::interior::Interior;
+use super::look::FigureStyle;
 use super::ruler::{column, numeral, title};
 use crate::plot::ticks::Ruler;
 use crate::plot::{Axis, Map};
@@ -32,7 +32,7 @@ impl<'a> Key<'a> {
         (widest.fold(0.0, f64::max) + 2.3 + title) * font
     }
 
-    pub fn draw(&self, frame: &Frame, canvas: &mut Canvas, look: &Look) {
+    pub fn draw(&self, frame: &Interior, canvas: &mut Canvas, look: &FigureStyle) {
         let font = look.font;
         let (left, top, height) = (frame.right() + 0.8 * font, frame.top, frame.size[1]);
         let beside = left + 1.4 * font;
@@ -67,7 +67,13 @@ impl<'a> Key<'a> {
 
     /// Draws the map, equal neighbours as one area. Each area extends under the ones drawn after it, except where they
     /// are blank: between areas that only touch, viewers let the paper show through.
-    pub fn fill(&self, axes: [&Axis; 2], frame: &Frame, canvas: &mut Canvas, look: &Look) {
+    pub fn fill(
+        &self,
+        axes: [&Axis; 2],
+        frame: &Interior,
+        canvas: &mut Canvas,
+        look: &FigureStyle,
+    ) {
         let map = self.map;
         let range = map.range();
         let is_there = |value: &f64| value.is_finite();

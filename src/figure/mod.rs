@@ -1,7 +1,7 @@
 //! Figures for a paper: charts on sheets, as SVG, PNG or PDF, and their data as CSV.
 //!
 //! One idea per file: `canvas` (lines, areas and text in millimetres), `svg`, `png` and `pdf` (one writer each),
-//! `font`, `look` (colours and greys), `draw` (a chart on the canvas), `frame` and `map` (its parts), `study` (the
+//! `font`, `look` (colours and greys), `draw` (a chart on the canvas), `interior` and `map` (its parts), `study` (the
 //! charts of a sweep), `paper` (the figures of the paper). Charts, ticks and units are the same as on the screen
 //! (`plot`).
 
@@ -12,7 +12,7 @@ use std::path::Path;
 pub mod canvas;
 mod draw;
 pub mod font;
-mod frame;
+mod interior;
 pub mod look;
 mod map;
 pub mod paper;
@@ -24,7 +24,7 @@ pub mod svg;
 
 use canvas::Canvas;
 use draw::Ordinate;
-use look::Look;
+use look::FigureStyle;
 
 use crate::export::file::WriteError;
 use crate::export::header::{field, line, number};
@@ -87,7 +87,7 @@ impl Sheet {
     /// The error of the first file that cannot be made or written.
     pub fn save(
         &self,
-        look: &Look,
+        look: &FigureStyle,
         size: Option<[f64; 2]>,
         dpi: f64,
         pictures: &[(Target, Format)],
@@ -129,7 +129,7 @@ impl Sheet {
     }
 
     /// Draws all charts on paper of a size in mm; several charts are lettered.
-    pub fn draw(&self, size: [f64; 2], look: &Look) -> Canvas {
+    pub fn draw(&self, size: [f64; 2], look: &FigureStyle) -> Canvas {
         let mut canvas = Canvas {
             size,
             shapes: Vec::new(),

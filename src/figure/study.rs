@@ -114,14 +114,14 @@ fn facts(slice: &Slice, name: &str) -> Vec<(String, String)> {
 }
 
 /// Returns the positions of an axis' values: the numbers themselves, or the indices of words.
-fn places(axis: &sweep::Axis) -> Vec<f64> {
+fn places(axis: &sweep::StudyAxis) -> Vec<f64> {
     let all = 0..axis.count();
     all.map(|place| axis.number(place).unwrap_or(place as f64))
         .collect()
 }
 
 /// Returns an axis of a study with its title and unit.
-pub fn paper_axis(slice: &Slice, axis: &sweep::Axis) -> Axis {
+pub fn paper_axis(slice: &Slice, axis: &sweep::StudyAxis) -> Axis {
     let unit = slice.study.unit(axis);
     let label = schema::find(&axis.key).and_then(|known| known.label);
     let mut label = match (axis.key.as_str(), unit) {
@@ -158,7 +158,8 @@ fn values(slice: &Slice, column: Column, points: impl Iterator<Item = usize>) ->
         .collect()
 }
 
-/// A column over the axes that are shown: a curve, or a map with borders in closed form and criteria of the field.
+/// Plots a column over one axis as a curve, or over two as a map; `lines` are borders in closed form and criteria from
+/// the literature.
 pub fn chart(slice: &Slice, column: Column, lines: [Vec<Contour>; 2]) -> Chart {
     match slice.y() {
         Some(upwards) => map(slice, upwards, column, lines),
@@ -167,7 +168,7 @@ pub fn chart(slice: &Slice, column: Column, lines: [Vec<Contour>; 2]) -> Chart {
 }
 
 /// Returns an axis of a map, its positions, and the edges between them.
-fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
+fn gridded(slice: &Slice, axis: &sweep::StudyAxis) -> (Axis, Vec<f64>, Vec<f64>) {
     let (shown, places) = (paper_axis(slice, axis), places(axis));
     let edges = shown.edges(&places);
     let [first, last] = [edges[0], edges[edges.len() - 1]];
@@ -178,7 +179,7 @@ fn gridded(slice: &Slice, axis: &sweep::Axis) -> (Axis, Vec<f64>, Vec<f64>) {
 /// Makes a chart of a column as colours over two axes, with a letter at the end of each line.
 fn map(
     slice: &Slice,
-    upwards: &sweep::Axis,
+    upwards: &sweep::StudyAxis,
     column: Column,
     [borders, criteria]: [Vec<Contour>; 2],
 ) -> Chart {
@@ -199,7 +200,7 @@ fn map(
         places: [xs, ys],
     });
     // The value of a word is its index.
-    let value = |axis: &sweep::Axis, place: f64| axis.value_at(place).unwrap_or(place);
+    let value = |axis: &sweep::StudyAxis, place: f64| axis.value_at(place).unwrap_or(place);
     let spot = |[x, y]: [f64; 2]| (value(slice.x(), x), value(upwards, y));
     let criteria = criteria.into_iter().enumerate();
     let criteria = criteria.map(|(k, line)| (3 + k, line));
@@ -244,8 +245,8 @@ fn regime_border(slice: &Slice, column: Column) -> Option<Curve> {
     (!xs.is_empty()).then(|| Curve::new(name, xs, ys, Role::Border(2)))
 }
 
-/// A column over the first axis, a symbol a point, with error bars where the study has recorded them; joined where
-/// one axis alone tells the points apart.
+/// Plots a column over the first axis: one symbol per point, with error bars if the study has recorded them. Joins the
+/// points unless they differ in more than this axis.
 fn points(slice: &Slice, column: Column) -> Chart {
     let places = places(slice.x());
     let is_joined = matches!(slice.study.design, Design::Grid | Design::Zip);

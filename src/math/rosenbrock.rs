@@ -64,7 +64,7 @@ mod tests {
     use super::*;
     use std::convert::Infallible;
 
-    /// y′ = F(y) up to x = 1, with an A of its own.
+    /// Integrates y′ = F(y) up to x = 1, with `a` as the approximate derivative.
     fn run(steps: usize, start: f64, f: impl Fn(f64) -> f64, a: f64) -> f64 {
         let h = 1.0 / steps as f64;
         let mut y = vec![start];

@@ -16,9 +16,9 @@ const DIGITS: usize = 4;
 /// Maximum length of a name, in cells; longer names are cut.
 const LONGEST_NAME: usize = 24;
 
-/// One line: its left-aligned and right-aligned text, and its style.
+/// One line of a legend: its left-aligned and right-aligned text, and its style.
 #[derive(Debug, Clone)]
-struct Line {
+struct Entry {
     left: String,
     right: String,
     style: Style,
@@ -27,7 +27,7 @@ struct Line {
 /// Lines with their position.
 #[derive(Debug, Clone)]
 pub(super) struct Legend {
-    lines: Vec<Line>,
+    lines: Vec<Entry>,
     /// The area on the screen.
     pub(super) area: Rect,
     /// The number of dots of curves that it covers.
@@ -49,9 +49,9 @@ impl Legend {
 
     /// Places the lines where they cover the fewest dots: in a corner, preferably the top right, or else in the free
     /// place nearest to it. `None` if they take more than half of the width or the height.
-    fn place(lines: Vec<Line>, raster: &Raster) -> Option<Self> {
+    fn place(lines: Vec<Entry>, raster: &Raster) -> Option<Self> {
         let (area, height) = (raster.area, lines.len() as u16);
-        let width = lines.iter().map(Line::width).max().unwrap_or(0);
+        let width = lines.iter().map(Entry::width).max().unwrap_or(0);
         if width == 0 || width > area.width / 2 || lines.len() > usize::from(area.height / 2) {
             return None;
         }
@@ -92,7 +92,7 @@ impl Legend {
     }
 }
 
-impl Line {
+impl Entry {
     fn width(&self) -> u16 {
         let gap = if self.right.is_empty() { 0 } else { 2 };
         cells(&self.left) + gap + cells(&self.right)
@@ -101,9 +101,9 @@ impl Line {
 
 /// Returns a line for `x` and one for each named curve. If there is an `x`, a curve's line has its value there: with
 /// unit and prefix if `is_full`, else as a bare number in the axis' unit.
-fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) -> Vec<Line> {
+fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) -> Vec<Entry> {
     let (theme, chart, [x_unit, y_unit]) = (plot.theme, plot.chart, units);
-    let header = x.map(|x| Line {
+    let header = x.map(|x| Entry {
         left: theme.printable(&chart.x.label),
         right: theme.printable(&with_unit(x, &chart.x, x_unit)),
         style: theme.style(Role::Quiet),
@@ -118,7 +118,7 @@ fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) 
             Some(Some(y)) if is_full => with_unit(y, &chart.y, y_unit),
             Some(Some(y)) => format_number(y / y_unit.factor, DIGITS),
         };
-        Line {
+        Entry {
             left: format!("{swatch} {name}"),
             right: theme.printable(&read),
             style: theme.style(curve.role),

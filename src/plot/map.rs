@@ -78,7 +78,7 @@ impl Map {
     }
 }
 
-/// The colour of signs on a ground: white on the dark blues with which maps begin, black on what is bright.
+/// Returns the colour of text on a map: white on its dark blues, black on bright colours.
 pub(super) fn ink_on(ground: Color) -> Color {
     let rgb = match ground {
         Color::Reset => return Color::Reset,

@@ -43,7 +43,7 @@ pub fn share(value: f64, [low, high]: [f64; 2]) -> f64 {
     ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
-/// Which of the shades a share of the range has.
+/// Returns the index of the shade for a `share` of the range, 0 to 1.
 pub fn shade(share: f64) -> usize {
     ((share * SHADES as f64) as usize).min(SHADES - 1)
 }

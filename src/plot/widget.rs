@@ -28,7 +28,7 @@ impl Plot<'_> {
         if area.is_empty() {
             return None;
         }
-        let frame = Frame::new(self, area);
+        let frame = PlotLayout::new(self, area);
         let window = frame.x.window;
         let column = cell.x.checked_sub(frame.inner.x)?;
         frame.inner.contains(cell).then(|| window.middle(column, 1))
@@ -41,7 +41,7 @@ impl Widget for Plot<'_> {
         if area.is_empty() {
             return;
         }
-        let frame = Frame::new(&self, area);
+        let frame = PlotLayout::new(&self, area);
         let mut raster = frame.raster();
         if !is_bare(area) {
             frame.words(&mut raster, buf);
@@ -85,7 +85,7 @@ fn name_start(first: u16, width: u16, name: u16, cells: u16) -> u16 {
 }
 
 /// The layout: the plot area, and the axes around it.
-pub(super) struct Frame<'p> {
+pub(super) struct PlotLayout<'p> {
     pub plot: &'p Plot<'p>,
     pub area: Rect,
     pub inner: Rect,
@@ -97,7 +97,7 @@ pub(super) struct Frame<'p> {
     pub y: Ruler,
 }
 
-impl<'p> Frame<'p> {
+impl<'p> PlotLayout<'p> {
     fn new(plot: &'p Plot<'p>, area: Rect) -> Self {
         let (chart, bare) = (plot.chart, is_bare(area));
         let [x_data, y_data] = chart.extent(|_| true);
@@ -134,7 +134,7 @@ impl<'p> Frame<'p> {
         let inner = Rect::new(area.x + left, top, area.width - left, rows);
         let window = Window::new(x_bounds, chart.x.scale, inner.width, across);
         let unit = chart.x.unit_for(x_bounds);
-        Frame {
+        PlotLayout {
             plot,
             area,
             inner,

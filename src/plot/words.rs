@@ -10,9 +10,9 @@ use super::axis::titled;
 use super::legend::{self, Legend, cells};
 use super::raster::Raster;
 use super::theme::Role;
-use super::widget::Frame;
+use super::widget::PlotLayout;
 
-impl Frame<'_> {
+impl PlotLayout<'_> {
     /// Writes the legend, the title row and the labels of the marks, and removes the dots below them.
     pub(super) fn words(&self, raster: &mut Raster, buf: &mut Buffer) {
         let (plot, area, inner) = (self.plot, self.area, self.inner);

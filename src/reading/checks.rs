@@ -122,7 +122,7 @@ impl Simulation {
             checks.extend(error.map(|error| Check { subject, error }));
         };
         add(Subject::Energy, moment.energy_residual);
-        // A limit of the method: as long as it is kept there is nothing to tell.
+        // A limit of the method; a run within it has nothing to report.
         add(
             Subject::Tension,
             self.tension().filter(|tension| *tension < -FAILS),

@@ -52,7 +52,7 @@ pub(super) fn put(table: &mut Table, origin: &mut Origin, path: &str, value: Val
     values::insert(table, path, value);
 }
 
-/// Drops the keys whose place the one that is assigned takes, or that do not go with it.
+/// Drops the keys that an assignment to `path` replaces or excludes.
 fn drop_replaced(table: &mut Table, path: &str) {
     let twins = schema::SCHEMA.exclusive.iter().filter(|of| of.are_twins);
     for of in twins {

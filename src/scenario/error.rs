@@ -84,7 +84,7 @@ impl Refusal {
     }
 }
 
-/// A line that already names place and rule.
+/// Makes a refusal of a line that already names place and rule.
 impl From<String> for Refusal {
     fn from(line: String) -> Self {
         Self {

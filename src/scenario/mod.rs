@@ -154,13 +154,8 @@ impl Scenario {
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<Self, Refusal> {
         let (mut origin, mut spec) = (Origin::new(&self.origin), self.spec.clone());
-        let is_accuracy = |key: &str| key.trim() == "numerics.accuracy";
-        if assignments.iter().any(|(key, _)| is_accuracy(key.as_ref()))
-            && self.accuracy().is_none()
-            && self.setup.integrator == Integrator::Direct
-        {
-            // An accuracy chooses the integrator; a default written
-            // out for explicit numbers does not count as a choice.
+        if self.accuracy().is_none() && self.setup.integrator == Integrator::Direct {
+            // An assigned accuracy chooses the integrator; otherwise the default is written out again.
             spec.numerics.integrator = None;
         }
         let mut table = spec.table();

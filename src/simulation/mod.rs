@@ -56,6 +56,8 @@ mod choices;
 pub mod contact;
 pub mod drive;
 mod fine_period;
+mod friction;
+mod mean_shear;
 mod model;
 mod moments;
 pub(crate) mod placing;
@@ -84,6 +86,8 @@ pub use setup::Setup;
 pub use state::{State, Stats};
 use step::Scratch;
 pub use unworn::Unworn;
+
+use crate::math::abel::counted;
 
 /// A running simulation.
 #[derive(Debug, Clone)]
@@ -122,7 +126,7 @@ impl Simulation {
         if model.setup.scar.is_some() {
             state.wear = model.setup.initial_wear(&model.grid);
             model.plan.image(&state.wear, &mut state.image);
-            // Nobody knows by which work it was worn.
+            // The work that wore it is unknown.
             state.ledger.initial_volume = scar_volume(&model, &state.wear, None);
             state.ledger.unexplained_volume = state.ledger.initial_volume;
         }
@@ -236,9 +240,11 @@ impl Simulation {
         }
         use step::Jumped;
         let (state, spare) = (&self.state, &mut self.spare[0]);
-        let jumped = step::jump(&self.model, state, spare, &mut self.scratch, most)
-            .map_err(|cause| self.refused(cause))?;
+        let (jumped, transforms) =
+            counted(|| step::jump(&self.model, state, spare, &mut self.scratch, most));
+        let jumped = jumped.map_err(|cause| self.refused(cause))?;
         std::mem::swap(&mut self.state, &mut self.spare[0]);
+        self.state.stats.transforms += transforms;
         // A jump uses other buffers.
         self.spare[0].clone_from(&self.state);
         if jumped == Jumped::WithoutRoom && self.grow()? {
@@ -274,7 +280,9 @@ impl Simulation {
     /// Takes one step into the spare state, which becomes the present one on success.
     fn step_to(&mut self, cycle: f64, turns: bool) -> Result<(), Breakdown> {
         let (state, spare) = (&self.state, &mut self.spare);
-        if let Err(cause) = step::step(&mut self.model, state, spare, &mut self.scratch, cycle) {
+        let (stepped, transforms) =
+            counted(|| step::step(&mut self.model, state, spare, &mut self.scratch, cycle));
+        if let Err(cause) = stepped {
             self.run_in();
             return if cause.lacks_room() && self.grow()? {
                 self.step_to(cycle, turns)
@@ -283,6 +291,7 @@ impl Simulation {
             };
         }
         std::mem::swap(&mut self.state, &mut self.spare[0]);
+        self.state.stats.transforms += transforms;
         if turns {
             self.state.last.duration = 0.0;
         }
@@ -301,15 +310,17 @@ impl Simulation {
     /// Solves the contact at the present cycle, without wear and without advancing time.
     fn solve_contact(&mut self) -> Result<(), Breakdown> {
         self.run_in();
-        step::solve_contact(&self.model, &mut self.state, &mut self.scratch)
-            .map_err(|cause| self.refused(cause))?;
+        let (solved, transforms) =
+            counted(|| step::solve_contact(&self.model, &mut self.state, &mut self.scratch));
+        solved.map_err(|cause| self.refused(cause))?;
+        self.state.stats.transforms += transforms;
         self.spare[0].clone_from(&self.state);
         self.run_in();
         self.next = self.look_ahead();
         Ok(())
     }
 
-    /// The state remains that of the last good step.
+    /// Makes the error of a refused step; the state stays as the last good step left it.
     fn refused(&self, cause: Cause) -> Breakdown {
         Breakdown {
             cycle: self.state.cycle,

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
-use crate::math::abel::{AbelMethod, AbelPlan};
+use crate::math::abel::{AbelMethod, AbelPlan, counted};
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
 use crate::math::vector::{vectorized, write_each};
@@ -68,7 +68,8 @@ impl Operators {
     /// a depth worn at the one before it, at itself and at the one behind, 1/m. Half of what the rest of the row sums up to
     /// is added to its own.
     pub fn near_response(&self) -> &[[f64; 3]] {
-        self.near_response.get_or_init(|| {
+        // Not counted: which of the runs that share it needs it first is a matter of chance.
+        let probe = || {
             let nodes = self.grid.len();
             let mut image = vec![0.0; nodes];
             let mut respond = |worn: &[f64]| {
@@ -96,7 +97,8 @@ impl Operators {
                 row[1] += 0.5 * (all - row.iter().sum::<f64>());
             }
             rows
-        })
+        };
+        self.near_response.get_or_init(|| counted(probe).0)
     }
 }
 

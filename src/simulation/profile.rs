@@ -36,14 +36,14 @@ impl Profile {
         }
     }
 
-    /// That of a worn depth (m), whose 1D image (m) is given with it, under a load that ends [evenly](even_end).
+    /// Makes the profile of a worn depth (m), given with its 1D image (m), under a load that ends [evenly](even_end).
     pub fn of_worn(model: &Model, worn: [&[f64]; 2], even: Option<f64>) -> Self {
         let mut profile = Self::new(model);
         profile.find(model, worn, even);
         profile
     }
 
-    /// Becomes that of a worn depth (m), whose 1D image (m) is given with it, under a load that ends [evenly](even_end).
+    /// Sets the profile of a worn depth (m), given with its 1D image (m), under a load that ends [evenly](even_end).
     pub fn find(&mut self, model: &Model, [wear, image]: [&[f64]; 2], even: Option<f64>) {
         model.profile(image, 0.0, &[], &mut self.g);
         self.end_scar(model, |j| wear[j], even);

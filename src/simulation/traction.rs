@@ -36,10 +36,11 @@ impl Pressure {
         contact: &Contact,
         first: usize,
         rest: &mut Vec<f64>,
-    ) {
+    ) -> &Self {
         let out = (&mut self.nodal[..], rest);
         self.from = stress(model, contact, &contact.load, first, out);
         self.nodal[..self.from].fill(0.0);
+        self
     }
 }
 

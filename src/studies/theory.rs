@@ -16,7 +16,7 @@ pub struct Theory {
     /// The permanent stick radius by Melan's theorem, m; `None` without a permanent stick zone.
     pub stick_radius: Option<f64>,
     limit: Option<LimitingProfile>,
-    line: Option<Line>,
+    line: Option<LineContact>,
     unworn: Option<(PowerLaw, f64)>,
     cattaneo: Option<CattaneoMindlin>,
     /// 1/κ = μE*/G*: the ratio of u_x to depth at which gross slip of the unworn indenter begins.
@@ -25,7 +25,7 @@ pub struct Theory {
 
 /// A cylinder on a flat, under its largest load.
 #[derive(Debug, Clone)]
-struct Line {
+struct LineContact {
     cylinder: Cylinder,
     /// Whether it wears to a limit.
     is_limited: bool,
@@ -36,7 +36,7 @@ struct Line {
     amplitude: Option<f64>,
 }
 
-impl Line {
+impl LineContact {
     /// The same under another load, N/m.
     fn under(&self, load: f64) -> Cylinder {
         Cylinder {
@@ -129,7 +129,7 @@ impl Theory {
             }
             _ => None,
         };
-        let line = |radius| Line {
+        let line = |radius| LineContact {
             cylinder: Cylinder {
                 e_star: setup.material.normal_modulus(),
                 radius,

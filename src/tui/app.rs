@@ -7,11 +7,12 @@ use super::event::Event;
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
 use super::keys::{Key, Named};
-use super::map::live::Live;
+use super::map::live::LiveStudy;
 use super::mouse::Gesture;
 use super::overlays::{Answer, Form, Help, Library, OPENING, Overlay, Palette};
 use super::reader::Input;
-use super::worker::{Orders, Worker};
+use super::worker::ghosts::Ghosts;
+use super::worker::{Order, Orders};
 use crate::plot::theme::Theme;
 
 /// The state of the screen.
@@ -21,7 +22,7 @@ pub struct App {
     /// The stack of overlays: the last is drawn, and handles the keys.
     pub overlays: Vec<Overlay>,
     /// The map from which the run was opened, to which the user can return.
-    map: Option<Live>,
+    map: Option<LiveStudy>,
 }
 
 impl App {
@@ -60,7 +61,7 @@ impl App {
                 explorer.notice.take_if(|told| told == OPENING);
                 for overlay in self.overlays.drain(..) {
                     if let Overlay::Sweep(live) = overlay {
-                        self.map = Some(live).filter(Live::is_of_file);
+                        self.map = Some(live).filter(LiveStudy::is_of_file);
                     }
                 }
                 self.make_room();
@@ -122,7 +123,8 @@ impl App {
         let has_list = self.overlays.iter().any(is_form);
         let stage = &mut self.explorer.stage;
         if std::mem::replace(&mut stage.has_list, has_list) && !has_list {
-            self.explorer.order(Worker::end_changes);
+            let order = Order::Ghosts(Box::new(Ghosts::drop_before));
+            self.explorer.order(order);
         }
     }
 
@@ -131,7 +133,7 @@ impl App {
         let row = command.row();
         match row.act {
             Act::Screen(act) => act(&mut self.explorer),
-            Act::Worker(act) => self.explorer.order(act),
+            Act::Worker(order) => self.explorer.order(order()),
             Act::Open => self.open(command),
             Act::Words(key) => match self.explorer.frame.setting(key) {
                 Some(setting) => self
@@ -159,7 +161,7 @@ impl App {
             Command::Accept => Overlay::Explain,
             Command::Edit => Overlay::Form(Form::default()),
             Command::Accuracy => {
-                explorer.order(Worker::estimate_errors);
+                explorer.order(Order::EstimateErrors);
                 Overlay::Accuracy { explains: false }
             }
             _ => Overlay::Palette(Palette::default()),

@@ -12,8 +12,10 @@ use super::ghosts::Since;
 use super::keys::Key::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
 use super::panels::StressMap;
-use super::undo::Past;
-use super::worker::{Worker, ends_cycle};
+use super::undo::Way;
+use super::worker::ghosts::Ghosts;
+use super::worker::pace::Pace;
+use super::worker::{Order, changes, ends_cycle, files};
 use Act::{Argument, Open, Screen, Words, Worker as Work};
 
 /// A command, its keys and its help.
@@ -37,8 +39,8 @@ pub struct Row {
 pub(super) enum Act {
     /// Changes something on the screen.
     Screen(fn(&mut Explorer)),
-    /// Changes something in the run.
-    Worker(fn(&mut Worker)),
+    /// Orders something of the worker.
+    Worker(fn() -> Order),
     /// Takes an argument, with these completions.
     Argument(fn(&str, &Frame) -> Vec<Completion>),
     /// Opens the choices of a scenario's key.
@@ -77,14 +79,14 @@ commands! {
         Overlay [] "overlay", "data, a run or a scenario over the plots: overlay FILE", Argument(completion::overlay);
     }
     "run" {
-        RunPause [Char(' ')] "run/pause", "run or pause the simulation", Work(Worker::run_or_pause);
-        Step [Char('.')] "step", "pause and take one step", Work(Worker::step_once);
-        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(|run| run.step_manually(ends_cycle));
-        Faster [Char('+'), Char('=')] "faster", "more cycles per second, up to full speed", Work(|run| run.change_pace(1));
-        Slower [Char('-')] "slower", "fewer cycles per second", Work(|run| run.change_pace(-1));
+        RunPause [Char(' ')] "run/pause", "run or pause the simulation", Work(|| Order::Run(Pace::run_or_pause));
+        Step [Char('.')] "step", "pause and take one step", Work(|| Order::Step(|_, _| true));
+        Cycle [Char(',')] "cycle", "pause and step to the end of the cycle", Work(|| Order::Step(ends_cycle));
+        Faster [Char('+'), Char('=')] "faster", "more cycles per second, up to full speed", Work(|| Order::Pace(1));
+        Slower [Char('-')] "slower", "fewer cycles per second", Work(|| Order::Pace(-1));
         HoldPhase [Char('f')] "phase", "fast runs: frames at one phase of the motion, or at any",
-            Work(Worker::hold_or_release_phase);
-        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|on| on.order_with_new_scales(Worker::restart));
+            Work(|| Order::Run(Pace::hold_or_release_phase));
+        Restart [Char('r')] "restart", "restart the scenario as it was loaded", Screen(|on| on.order_with_new_scales(Order::Restart));
     }
     "look" {
         Accept [Named(N::Enter)] "explain", "explain the focused panel; in a list, choose the entry", Open;
@@ -119,44 +121,44 @@ commands! {
         Presets [Char('p')] "presets", "another preset, or a file of your own", Open;
         Edit [Char('e')] "edit", "edit any parameter while it runs; changes are recorded", Open;
         NextMethod [Char('m')] "method", "next transform method; the state is carried over",
-            Work(|run| run.change_method(1));
-        PreviousMethod [Char('M')] "method back", "previous transform method", Work(|run| run.change_method(-1));
+            Work(|| Order::Method(1));
+        PreviousMethod [Char('M')] "method back", "previous transform method", Work(|| Order::Method(-1));
         Methods [Char('i')] "methods", "all transform methods, and what each is", Words("numerics.method");
-        NextLaw [Char('w')] "wear law", "next wear law; the state is carried over", Work(|run| run.change_law(1));
-        PreviousLaw [Char('W')] "law back", "previous wear law", Work(|run| run.change_law(-1));
+        NextLaw [Char('w')] "wear law", "next wear law; the state is carried over", Work(|| Order::Change(changes::shift_law(1)));
+        PreviousLaw [Char('W')] "law back", "previous wear law", Work(|| Order::Change(changes::shift_law(-1)));
         Laws [Char('I')] "wear laws", "all wear laws, and what each is", Words("wear.law");
-        Coarser [Char('<')] "coarser", "less accurate, faster: chooses method, cells, steps", Work(|run| run.refine(-1));
-        Finer [Char('>')] "finer", "more accurate, slower: chooses method, cells, steps", Work(|run| run.refine(1));
+        Coarser [Char('<')] "coarser", "less accurate, faster: chooses method, cells, steps", Work(|| Order::Change(changes::refine(-1)));
+        Finer [Char('>')] "finer", "more accurate, slower: chooses method, cells, steps", Work(|| Order::Change(changes::refine(1)));
     }
     "compare and check" {
         Compare [Char('c')] "compare", "compare with a second method; m and M change it",
-            Screen(|on| on.compare(Worker::compare_or_stop));
+            Screen(|on| on.compare(Ghosts::compare_or_stop));
         CompareFromStart [Char('C')] "compare from start", "compare from the start of the scenario",
-            Screen(|on| on.compare(|run| run.compare(0, Since::Start)));
-        Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(Worker::freeze);
-        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_with_new_scales(Worker::drop_ghosts));
+            Screen(|on| on.compare(|with, run| with.compare(run, 0, Since::Start)));
+        Freeze [Char('g')] "ghost", "freeze this state as a ghost in the plots", Work(|| Order::Ghosts(Box::new(Ghosts::freeze)));
+        DropGhosts [Char('G')] "no ghosts", "remove all ghosts: frozen states and overlays", Screen(|on| on.order_with_new_scales(Order::Ghosts(Box::new(Ghosts::drop_fixed))));
         Accuracy [Char('a')] "accuracy", "checks of the run, and its estimated errors", Open;
     }
     "time and files" {
         TimeBack [Char('[')] "back in time", "back in time; running or editing branches from there",
-            Work(|run| run.travel(Past::back, "this is the start of the run"));
+            Work(|| Order::Travel(Way::Places(-1)));
         TimeForth [Char(']')] "forward in time", "forward in time, up to the present",
-            Work(|run| run.travel(Past::forward, "this is the present"));
+            Work(|| Order::Travel(Way::Places(1)));
         TimeFarBack [Named(N::PageUp)] "far back", "ten states back in time",
-            Work(|run| run.travel(|past| past.go(-10), "this is the start of the run"));
+            Work(|| Order::Travel(Way::Places(-10)));
         TimeFarForth [Named(N::PageDown)] "far forward", "ten states forward in time",
-            Work(|run| run.travel(|past| past.go(10), "this is the present"));
+            Work(|| Order::Travel(Way::Places(10)));
         TimeStart [Named(N::Home)] "start", "the start of the run",
-            Work(|run| run.travel(|past| past.visit_before(0.0), "this is the start of the run"));
+            Work(|| Order::Travel(Way::Before(0.0)));
         TimePresent [Named(N::End)] "present", "the present of the run",
-            Work(|run| run.travel(Past::visit_present, "this is the present"));
+            Work(|| Order::Travel(Way::Present));
         StateBack [Char('{')] "state back", "back to a state that the scenario writes",
-            Work(|run| run.go_to_planned(false));
+            Work(|| Order::GoToPlanned(false));
         StateForth [Char('}')] "state", "on to the next state that the scenario writes",
-            Work(|run| run.go_to_planned(true));
+            Work(|| Order::GoToPlanned(true));
         Copy [Char('y')] "copy", "copy readings, scenario or run command", Argument(completion::copy);
         Snapshot [Char('s')] "snapshot", "write state, history and loop to a new directory",
-            Work(|run| run.write_snapshot(None));
+            Work(|| files::snapshot(None));
         SnapshotNote [Char('S')] "snapshot, note", "the same, with a note in both files", Argument(completion::note);
     }
     "program" {

@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use super::explorer::{Copied, Explorer};
+use super::explorer::Explorer;
 use super::frame::Frame;
 use super::map::range::{POINTS, Range};
 use super::panels::Panel;
 use super::settings::Setting;
+use super::worker::files::{self, Copied};
+use super::worker::{Order, changes};
 use crate::charts::About;
 use crate::scenario::preset;
 use crate::scenario::schema::Kind;
@@ -64,7 +66,7 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
         let right = if value == now { "now" } else { "" };
         Completion::new(format!("set {key}={value}"), help)
             .with_right(right)
-            .doing(move |explorer| explorer.order(move |run| run.change(&key, &given)))
+            .doing(move |explorer| explorer.order(Order::Change(changes::set(key, given))))
     };
     let words = found.and_then(Setting::words).unwrap_or_default();
     let begun = words.iter().filter(|word| word.starts_with(value));
@@ -91,7 +93,7 @@ pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
     if let Some(range) = Range::parse(typed, &units.collect::<Vec<_>>()) {
         let help = format!("runs {POINTS} values on all cores and shows the curve");
         let sweep = Completion::new(format!("sweep {typed}"), help)
-            .doing(move |explorer| explorer.order(move |run| run.sweep(&range)));
+            .doing(move |explorer| explorer.order(files::sweep(range)));
         return vec![sweep];
     }
     let key = typed.split([' ', '=']).next().unwrap_or_default();
@@ -124,7 +126,7 @@ fn keys<'a>(
 pub fn goto(typed: &str, frame: &Frame) -> Vec<Completion> {
     let go = |cycle: f64, help: String| {
         let there = Completion::new(format!("goto {cycle}"), help);
-        there.doing(move |explorer| explorer.order(move |run| run.go_to(cycle)))
+        there.doing(move |explorer| explorer.order(Order::GoTo(cycle)))
     };
     let given = typed
         .parse()
@@ -191,7 +193,7 @@ pub fn focus(typed: &str, _: &Frame) -> Vec<Completion> {
 pub fn figure(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a figure of this state: a file that ends in .svg, .png or .pdf";
     vec![argument("figure", typed, help, |explorer, file| {
-        explorer.order(move |run| run.write_figure(Path::new(&file)));
+        explorer.order(files::figure(file.into()));
     })]
 }
 
@@ -207,7 +209,9 @@ pub fn load(typed: &str, _: &Frame) -> Vec<Completion> {
 pub fn overlay(typed: &str, _: &Frame) -> Vec<Completion> {
     let help = "a CSV file, a run's directory, or a scenario";
     preset_or(typed, "overlay", help, |explorer, given| {
-        explorer.order(move |run| run.overlay(&given));
+        explorer.order(Order::Ghosts(Box::new(move |with, run| {
+            with.overlay(run, &given)
+        })));
     })
 }
 
@@ -216,7 +220,7 @@ pub fn note(typed: &str, _: &Frame) -> Vec<Completion> {
     let note = Some(typed.to_owned()).filter(|note| !note.is_empty());
     let help = "writes state, history and loop with this note";
     let written = Completion::new(format!("snapshot, note {typed}"), help);
-    vec![written.doing(|explorer| explorer.order(move |run| run.write_snapshot(note.as_deref())))]
+    vec![written.doing(|explorer| explorer.order(files::snapshot(note)))]
 }
 
 /// Offers a command with the typed argument, and with each preset whose name contains it.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::frame::Slot;
-use super::map::live::Live;
+use super::map::live::LiveStudy;
 use super::reader::Input;
 
 /// An event for the main thread.
@@ -26,7 +26,7 @@ pub enum Event {
     /// A requested file could not be written, and why: a notice, and a failure of a script.
     Unwritten(String),
     /// A study has begun.
-    Sweep(Live),
+    Sweep(LiveStudy),
     /// A point of the study has been opened.
     Opened,
     /// The process should be suspended.

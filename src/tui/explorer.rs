@@ -14,8 +14,11 @@ use super::live_charts::{Calm, LiveCharts};
 use super::panels::{self, Drawn, Panel, StressMap, numbers};
 use super::present::SpeedUp;
 use super::stage::Stage;
-use super::undo::Past;
-use super::worker::{Orders, Worker};
+use super::trend::Recorded;
+use super::undo::Way;
+use super::worker::files::{self, Copied};
+use super::worker::ghosts::Ghosts;
+use super::worker::{Order, Orders};
 use super::{clipboard, layout, readout, snapshot, timeline};
 use crate::plot::theme::Theme;
 use crate::reading::Curves;
@@ -34,17 +37,6 @@ pub enum Next {
     Leave,
     /// Leave, and keep the last screen visible.
     LeaveScreen,
-}
-
-/// What can be copied.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Copied {
-    /// The numbers of the moment.
-    Readings,
-    /// The scenario that repeats the run.
-    Scenario,
-    /// The command that repeats the run.
-    Command,
 }
 
 /// The state of the screen below the overlays.
@@ -123,7 +115,7 @@ impl Explorer {
             self.stress.follow(&frame);
         }
         if self.speed_up.is_due(&frame, self.stage.presents) {
-            self.order(|run| run.change_pace(1));
+            self.order(Order::Pace(1));
         }
         self.frame = frame;
         self.show();
@@ -155,8 +147,7 @@ impl Explorer {
             return;
         };
         if let Some(cycle) = timeline::cycle_at(&frame, line, at) {
-            let visit = move |past: &mut Past| past.visit(cycle);
-            return self.order(move |run| run.travel(visit, "no state is stored"));
+            return self.order(Order::Travel(Way::Near(cycle)));
         }
         let [area, _] = self.stage.with_list(area);
         let mut places = self.stage.places(area).into_iter();
@@ -254,7 +245,7 @@ impl Explorer {
     /// Copies something to the clipboard; asks the worker for what concerns the run.
     pub(super) fn copy(&mut self, what: Copied) {
         if what != Copied::Readings {
-            return self.order(move |run| run.copy(what));
+            return self.order(files::copy(what));
         }
         let mut text = numbers::text(&self.frame);
         if let Some(place) = self.cursor_in(self.stage.focus) {
@@ -297,27 +288,26 @@ impl Explorer {
     /// Loads a scenario, or the state in a directory.
     pub(super) fn load(&mut self, path: &Path) {
         let loaded = if path.is_dir() {
-            snapshot::open(path)
-                .map(|run| self.order_with_new_scales(|worker| worker.replace_run(run)))
+            snapshot::open(path).map(|run| Order::Continue(Box::new(run)))
         } else {
             let scenario = Scenario::load(path, &[]);
             let scenario = scenario.map_err(|error| one_line(&error.to_string()));
-            scenario.map(|scenario| self.order_with_new_scales(|run| _ = run.load(scenario)))
+            scenario.map(|scenario| Order::Load(Box::new(scenario)))
         };
-        self.notice = loaded.err();
+        match loaded {
+            Ok(order) => self.order_with_new_scales(order),
+            Err(error) => self.notice = Some(error),
+        }
     }
 
     /// Begins or ends a comparison; shows the panels, since the large contact has no curves.
-    pub(super) fn compare(&mut self, order: fn(&mut Worker)) {
+    pub(super) fn compare(&mut self, compare: fn(&mut Ghosts, &Recorded) -> Option<String>) {
         self.stage.leave_contact();
-        self.order(order);
+        self.order(Order::Ghosts(Box::new(compare)));
     }
 
     /// Orders something for which the scales start afresh.
-    pub(super) fn order_with_new_scales(
-        &mut self,
-        order: impl FnOnce(&mut Worker) + Send + 'static,
-    ) {
+    pub(super) fn order_with_new_scales(&mut self, order: Order) {
         self.charts.forget_scales();
         self.stress.forget_range();
         self.order(order);
@@ -337,12 +327,12 @@ impl Explorer {
         }
         if needed != self.computed {
             self.computed = needed;
-            self.order(move |run| run.curves = needed);
+            self.order(Order::Show(needed));
         }
     }
 
     /// Sends an order to the worker.
-    pub(super) fn order(&self, order: impl FnOnce(&mut Worker) + Send + 'static) {
+    pub(super) fn order(&self, order: Order) {
         self.orders.send(order);
     }
 }

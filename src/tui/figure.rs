@@ -5,7 +5,7 @@ use std::path::Path;
 use super::trend::Recorded;
 use crate::charts;
 use crate::export::target::Target;
-use crate::figure::look::{Look, Style};
+use crate::figure::look::{FigureStyle, Style};
 use crate::figure::{Format, Sheet};
 
 /// The font size, mm: 8 points.
@@ -36,7 +36,7 @@ pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
         facts: run.facts(),
         charts: charts.collect(),
     };
-    let look = Look {
+    let look = FigureStyle {
         font: FONT,
         style: Style::Color,
     };

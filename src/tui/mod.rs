@@ -49,7 +49,6 @@ pub mod modes;
 pub mod mouse;
 mod output;
 pub mod overlays;
-mod pace;
 pub mod panels;
 mod present;
 pub mod reader;
@@ -98,7 +97,7 @@ pub struct Options {
     /// The look of the terminal, from [`theme_of`].
     pub theme: Theme,
     /// The map of a study to begin with.
-    pub map: Option<map::live::Live>,
+    pub map: Option<map::live::LiveStudy>,
     /// Whether to present on a projector.
     pub present: bool,
     /// The panels to show first.
@@ -139,8 +138,8 @@ pub fn run(options: Options) -> Result<Farewell> {
         .filter(|_| !options.present && options.map.is_none());
     let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
     let running = options.running && is_live;
-    let mut worker = Worker::new(options.run, events.clone(), interval, running);
-    worker.ghosts = options.ghosts;
+    let worker = Worker::new(options.run, events.clone(), interval, running);
+    let mut worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
     app.explorer.stage.put_first(options.panels);
     if let Some(map) = options.map {

@@ -7,6 +7,7 @@
 //! so a run continued from it is bit for bit the same, without later changes.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::autosave::mark;
 use super::trend::Recorded;
@@ -58,6 +59,19 @@ impl Kept {
     }
 }
 
+/// Which state to show.
+#[derive(Debug, Clone, Copy)]
+pub enum Way {
+    /// The one this many places forward, or the last one there.
+    Places(isize),
+    /// The latest one at or before a cycle, on the way that led to the present.
+    Before(f64),
+    /// The one of the shown run nearest to a cycle, the latest if there are several.
+    Near(f64),
+    /// The last one.
+    Present,
+}
+
 /// What a branch leaves.
 pub(super) struct Left {
     /// The state at the end of the stretch.
@@ -72,6 +86,8 @@ pub(super) struct Past {
     kept: Vec<Arc<Kept>>,
     /// The index of the state on the screen; `None` at the present.
     at: Option<usize>,
+    /// When the present was last stored.
+    pub stored: Option<Instant>,
     stretch: u32,
     scenario: u32,
 }
@@ -79,6 +95,7 @@ pub(super) struct Past {
 impl Past {
     /// Stores the present state, but no state twice.
     pub fn store(&mut self, run: &Recorded) {
+        self.stored = Some(Instant::now());
         if self.at.is_some() || self.is_kept(run) {
             return;
         }
@@ -137,56 +154,47 @@ impl Past {
         least.map(|(_, i)| i)
     }
 
-    /// Goes back one state; `None` at the start. The present must have been stored.
-    pub fn back(&mut self) -> Option<Arc<Kept>> {
-        let now = self.at.or(self.kept.len().checked_sub(1))?;
-        self.go_to(now.checked_sub(1)?)
+    /// Shows another state, or says at which end of the past there is none. The present must have been stored.
+    pub fn visit(&mut self, way: Way) -> Result<Arc<Kept>, &'static str> {
+        self.find(way)
+            .and_then(|at| self.show(at))
+            .ok_or(match way {
+                Way::Places(1..) | Way::Present => "this is the present",
+                _ => "this is the start of the run",
+            })
     }
 
-    /// Goes forward one state; `None` at the present.
-    pub fn forward(&mut self) -> Option<Arc<Kept>> {
-        self.go_to(self.at? + 1)
-    }
-
-    /// Goes to the state of the shown run nearest to `cycle`, the latest if there are several. The present must have
-    /// been stored.
-    pub fn visit(&mut self, cycle: f64) -> Option<Arc<Kept>> {
-        let shown = self.at.or(self.kept.len().checked_sub(1))?;
-        let scenario = self.kept[shown].scenario;
-        let near = |at: &usize| (self.kept[*at].cycle() - cycle).abs();
-        let latest_first = (0..self.kept.len()).rev();
-        let of_run = latest_first.filter(|&at| self.kept[at].scenario == scenario);
-        self.go_to(of_run.min_by(|a, b| near(a).total_cmp(&near(b)))?)
-    }
-
-    /// Goes this many states forward (or back if negative), but not beyond the ends; `None` if it is already there.
-    pub fn go(&mut self, places: isize) -> Option<Arc<Kept>> {
+    /// Returns the index of the state to which `way` leads.
+    fn find(&self, way: Way) -> Option<usize> {
         let last = self.kept.len().checked_sub(1)?;
-        let now = self.at.unwrap_or(last);
-        let next = now.saturating_add_signed(places).min(last);
-        (next != now).then(|| self.go_to(next)).flatten()
-    }
-
-    /// Goes to the present, which must have been stored.
-    pub fn visit_present(&mut self) -> Option<Arc<Kept>> {
-        self.go_to(self.kept.len().checked_sub(1)?)
-    }
-
-    /// Goes to the latest state at or before `cycle` on the way that led to the present, which must have been stored.
-    pub fn visit_before(&mut self, cycle: f64) -> Option<Arc<Kept>> {
-        let scenario = self.kept.last()?.scenario;
-        // A stretch that was left continues beyond the branch.
-        let mut limit = f64::INFINITY;
-        let mut latest_first = (0..self.kept.len()).rev().filter(|&at| {
-            let kept = &self.kept[at];
-            let is_on_the_way = kept.scenario == scenario && kept.cycle() <= limit;
-            if is_on_the_way {
-                limit = kept.cycle();
+        let shown = self.at.unwrap_or(last);
+        let mut latest_first = (0..=last).rev();
+        match way {
+            Way::Places(places) => {
+                let next = shown.saturating_add_signed(places).min(last);
+                (next != shown).then_some(next)
             }
-            is_on_the_way
-        });
-        let at = latest_first.find(|&at| self.kept[at].cycle() <= cycle)?;
-        self.go_to(at)
+            Way::Before(cycle) => {
+                let scenario = self.kept[last].scenario;
+                // A stretch that was left continues beyond the branch.
+                let mut limit = f64::INFINITY;
+                latest_first.find(|&at| {
+                    let kept = &self.kept[at];
+                    let is_on_the_way = kept.scenario == scenario && kept.cycle() <= limit;
+                    if is_on_the_way {
+                        limit = kept.cycle();
+                    }
+                    is_on_the_way && kept.cycle() <= cycle
+                })
+            }
+            Way::Near(cycle) => {
+                let scenario = self.kept[shown].scenario;
+                let near = |at: &usize| (self.kept[*at].cycle() - cycle).abs();
+                let of_run = latest_first.filter(|&at| self.kept[at].scenario == scenario);
+                of_run.min_by(|a, b| near(a).total_cmp(&near(b)))
+            }
+            Way::Present => Some(last),
+        }
     }
 
     /// Stores a state between the one on the screen and the next, and goes there.
@@ -205,8 +213,8 @@ impl Past {
         self.make_room(MOST, MOST_NUMBERS);
     }
 
-    /// Goes to a state; the last one is the present.
-    fn go_to(&mut self, at: usize) -> Option<Arc<Kept>> {
+    /// Shows a state; the last one is the present.
+    fn show(&mut self, at: usize) -> Option<Arc<Kept>> {
         self.at = (at + 1 < self.kept.len()).then_some(at);
         self.kept.get(at).cloned()
     }
@@ -256,6 +264,11 @@ mod tests {
             session: session.clone(),
             trend: Trend::default(),
         });
+    }
+
+    /// Returns the cycle of the state that is then shown.
+    fn visit(past: &mut Past, way: Way) -> Option<f64> {
+        past.visit(way).ok().map(|kept| kept.cycle())
     }
 
     fn session() -> Session {
@@ -325,29 +338,28 @@ mod tests {
             past.leave();
         }
         keep(&mut past, &start);
-        assert_eq!(past.back().map(|kept| kept.cycle()), Some(5.0));
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(5.0));
     }
 
     #[test]
     fn back_and_forth_end_at_the_ends() {
         let (_, mut past) = run_to(3);
-        let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
-        assert!(past.forward().is_none());
-        assert_eq!(at(past.back()), Some(2.0));
+        assert!(past.visit(Way::Places(1)).is_err());
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(2.0));
         assert_eq!(past.present(), Some(3.0));
-        assert_eq!(at(past.back()), Some(1.0));
-        assert_eq!(at(past.forward()), Some(2.0));
-        assert_eq!(at(past.forward()), Some(3.0));
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(1.0));
+        assert_eq!(visit(&mut past, Way::Places(1)), Some(2.0));
+        assert_eq!(visit(&mut past, Way::Places(1)), Some(3.0));
         assert_eq!(past.present(), None);
         assert!(past.branch().is_none());
-        assert_eq!(at(past.back()), Some(2.0));
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(2.0));
         for _ in 0..2 {
-            past.back();
+            visit(&mut past, Way::Places(-1));
         }
-        assert!(past.back().is_none());
+        assert!(past.visit(Way::Places(-1)).is_err());
         assert_eq!(past.present(), Some(3.0));
         for (cycle, nearest) in [(1.4, 1.0), (-7.0, 0.0), (2.6, 3.0), (1e9, 3.0)] {
-            assert_eq!(at(past.visit(cycle)), Some(nearest));
+            assert_eq!(visit(&mut past, Way::Near(cycle)), Some(nearest));
             assert_eq!(past.present().is_none(), nearest == 3.0);
         }
     }
@@ -355,30 +367,28 @@ mod tests {
     #[test]
     fn a_cycle_is_found_on_the_way_that_led_to_the_present() {
         let (mut session, mut past) = run_to(3);
-        let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
-        past.visit(1.0);
+        visit(&mut past, Way::Near(1.0));
         past.branch();
         keep(&mut past, &session);
         session.advance_to(5.0).expect("a step");
         keep(&mut past, &session);
         assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0, 3.0, 5.0]);
         // The second and third state belong to the stretch that was left.
-        assert_eq!(at(past.visit_before(2.9)), Some(1.0));
+        assert_eq!(visit(&mut past, Way::Before(2.9)), Some(1.0));
         assert_eq!(past.at, Some(4));
         past.insert(past.kept[2].run.clone());
         assert_eq!((past.at, past.present()), (Some(5), Some(5.0)));
-        assert_eq!(at(past.visit_before(2.9)), Some(2.0));
-        assert_eq!(at(past.visit_before(0.5)), Some(0.0));
-        assert_eq!(at(past.visit_present()), Some(5.0));
+        assert_eq!(visit(&mut past, Way::Before(2.9)), Some(2.0));
+        assert_eq!(visit(&mut past, Way::Before(0.5)), Some(0.0));
+        assert_eq!(visit(&mut past, Way::Present), Some(5.0));
         assert_eq!(past.present(), None);
     }
 
     #[test]
     fn the_way_back_leads_through_what_a_branch_and_a_restart_left() {
         let (mut session, mut past) = run_to(3);
-        let at = |kept: Option<Arc<Kept>>| kept.map(|kept| kept.cycle());
-        assert_eq!(at(past.back()), Some(2.0));
-        assert_eq!(at(past.back()), Some(1.0));
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(2.0));
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(1.0));
         let left = past.branch().expect("a branch");
         assert_eq!((left.end.cycle(), left.is_other_run), (3.0, false));
         assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0]);
@@ -387,7 +397,7 @@ mod tests {
         past.leave();
         keep(&mut past, &run_to(0).0);
         assert_eq!(cycles(&past), [0.0, 1.0, 2.0, 3.0, 1.0, 4.0, 0.0]);
-        assert_eq!(at(past.back()), Some(4.0));
+        assert_eq!(visit(&mut past, Way::Places(-1)), Some(4.0));
         let left = past.branch().expect("a branch");
         assert_eq!((left.end.cycle(), left.is_other_run), (0.0, true));
     }

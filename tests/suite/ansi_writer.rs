@@ -10,7 +10,7 @@ use mdr_tui::tui::frame::{Activity, Frame};
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::panels::Panel;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::worker::Worker;
+use mdr_tui::tui::worker::Order;
 use proptest::prelude::*;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
@@ -52,7 +52,8 @@ impl Counted {
     /// Takes this many steps as if the run had made them by itself: the worker steps, and no key is pressed.
     pub fn running_frame(&mut self, steps: usize) -> usize {
         for _ in 0..steps {
-            self.explorer.worker.orders.send(Worker::step_once);
+            let step = Order::Step(|_, _| true);
+            self.explorer.worker.orders.send(step);
         }
         let mut frame = Frame::clone(&self.explorer.frame());
         frame.activity = Activity::Running;

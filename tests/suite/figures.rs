@@ -6,7 +6,7 @@ use crate::common::{apart, fig3_motion, holds, largest, near};
 use crate::test_dir::{Table, TestDir, cases, has, lacks};
 use mdr_tui::figure::Sheet;
 use mdr_tui::figure::canvas::Shape;
-use mdr_tui::figure::look::{Look, Style};
+use mdr_tui::figure::look::{FigureStyle, Style};
 use mdr_tui::figure::svg;
 use mdr_tui::plot::colormap::ColorMap;
 use mdr_tui::plot::theme::Role;
@@ -42,7 +42,7 @@ fn an_svg_is_lines_and_words_in_millimetres() {
         charts: vec![chart, errors],
     };
     let [drawn, text] = [Style::Color, Style::Grey].map(|style| {
-        let look = Look { font: 2.8, style };
+        let look = FigureStyle { font: 2.8, style };
         svg::write(&sheet.draw([120.0, 50.0], &look))
     });
     insta::assert_snapshot!("figure", drawn);
@@ -391,7 +391,7 @@ fn a_map_has_no_seams() {
         facts: Vec::new(),
         charts: vec![chart],
     };
-    let look = Look {
+    let look = FigureStyle {
         font: 2.8,
         style: Style::Color,
     };

@@ -23,7 +23,8 @@ use mdr_tui::tui::keys::{Key, Named, parse_script};
 use mdr_tui::tui::manual;
 use mdr_tui::tui::mouse::Gesture;
 use mdr_tui::tui::panels::Panel;
-use mdr_tui::tui::worker::Worker;
+use mdr_tui::tui::worker::Order;
+use mdr_tui::tui::worker::pace::Pace;
 use mdr_tui::tui::{screen, tour};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect, Size};
@@ -368,7 +369,7 @@ fn fast_runs_are_shown_at_one_phase() {
     };
     assert_eq!(frames(1)[0].pace, 0.5);
     // To 20 cycles per second.
-    orders.send(|worker| worker.change_pace(5));
+    orders.send(Order::Pace(5));
     // What was on the way, and the answer to the order.
     frames(3);
     for frame in frames(8) {
@@ -376,7 +377,7 @@ fn fast_runs_are_shown_at_one_phase() {
         assert!(frame.shows_ends);
         assert!(part < 0.011, "{part}");
     }
-    orders.send(Worker::hold_or_release_phase);
+    orders.send(Order::Run(Pace::hold_or_release_phase));
     frames(3);
     let is_off = |frame: &Frame| frame.live.observation.moment.cycle.fract() > 0.05;
     assert!(frames(8).iter().any(|frame| is_off(frame)));
@@ -388,7 +389,7 @@ fn fast_runs_are_shown_at_one_phase() {
 fn slow_runs_show_the_end_of_each_cycle() {
     let never = Duration::from_secs(3600);
     let worker = LiveWorker::on(load("li2019-fig3", &[]), never, true);
-    worker.orders.send(|worker| worker.change_pace(2));
+    worker.orders.send(Order::Pace(2));
     let mut ends = Vec::new();
     while ends.len() < 2 {
         let event = worker.events.recv_timeout(Duration::from_secs(30));
@@ -416,7 +417,7 @@ fn space_at_the_end_asks_first() {
         }
     };
     until(Activity::Done);
-    orders.send(Worker::run_or_pause);
+    orders.send(Order::Run(Pace::run_or_pause));
     let notice = loop {
         match next().expect("a notice") {
             Event::Notice(text) => break text,
@@ -425,7 +426,7 @@ fn space_at_the_end_asks_first() {
         }
     };
     has(&notice, "planned end");
-    orders.send(Worker::run_or_pause);
+    orders.send(Order::Run(Pace::run_or_pause));
     until(Activity::Running);
 }
 

@@ -10,7 +10,7 @@ use mdr_tui::oracle::limiting_profile::LimitingProfile;
 use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::preset;
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
-use mdr_tui::studies::stability::{Ending, Study, VISIBLE, Variant, sawtooth};
+use mdr_tui::studies::stability::{Ending, StabilityStudy, VISIBLE, Variant, sawtooth};
 use std::f64::consts::FRAC_PI_4;
 
 /// Fig. 3 with the default numerics.
@@ -216,8 +216,8 @@ fn seen_where_predicted(cases: &[(AbelMethod, usize, u32, f64)]) {
 }
 
 /// A study of Fig. 3 over this many cycles.
-fn study(cycles: f64) -> Study {
-    let study = Study::new(load("li2019-fig3", &[]), cycles).expect("a contact");
+fn study(cycles: f64) -> StabilityStudy {
+    let study = StabilityStudy::new(load("li2019-fig3", &[]), cycles).expect("a contact");
     study.expect("it wears")
 }
 
@@ -252,6 +252,6 @@ fn a_map_has_its_sawtooth_where_predicted_and_with_the_guard_none() {
 fn a_scenario_without_numerics_has_limits_on_the_default_level() {
     let scenario = without_numerics(1.0);
     assert!(scenario.accuracy().is_some());
-    let study = Study::new(scenario, 1.0).expect("a contact");
+    let study = StabilityStudy::new(scenario, 1.0).expect("a contact");
     assert!(study.is_some(), "something wears");
 }

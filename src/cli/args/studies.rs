@@ -204,7 +204,7 @@ pub struct Fit {
     pub quiet: bool,
 }
 
-/// Whether something is fitted beside the keys.
+/// Whether to fit, in addition to the keys, a quantity that no key describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Beside {
     /// Where the data can show it.

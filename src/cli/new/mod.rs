@@ -110,7 +110,7 @@ fn check_room() -> Result<(), Refusal> {
     ))
 }
 
-/// A question that is being asked waits for a key within this time.
+/// Maximum time that a question takes to switch the terminal to raw mode.
 const SETTLES: Duration = Duration::from_millis(20);
 
 /// Takes each answer from its option, from the user, or from its default.

@@ -18,7 +18,7 @@ use crate::studies::sweep::engine;
 use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self};
 use crate::studies::sweep::{Shard, Study, Success};
-use crate::tui::map::live::Live;
+use crate::tui::map::live::LiveStudy;
 
 mod merge;
 mod output;
@@ -63,7 +63,7 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
 
 /// Shows a table as a map until the user quits.
 fn view(file: &Path, options: &Sweep) -> Result<()> {
-    let map = Live::of_file(file)?;
+    let map = LiveStudy::of_file(file)?;
     let mut explorer = Arguments::try_parse_from(["mdr-tui"])?.explore;
     explorer.screen = options.screen.clone();
     explore::explore(&explorer, Some(map))

@@ -229,9 +229,10 @@ mod tests {
             let mut kinks = Vec::new();
             polyline([1.0, 2.0], [0.7, 0.0], &[(end, 0.0)], &mut kinks);
             let hat = hat([1.0, 2.0], 0.7, end);
-            match kinks.is_empty() {
-                true => assert!(hat.iter().all(|kink| kink.jump == 0.0)),
-                false => assert_eq!(kinks, hat),
+            if kinks.is_empty() {
+                assert!(hat.iter().all(|kink| kink.jump == 0.0));
+            } else {
+                assert_eq!(kinks, hat);
             }
         }
     }

@@ -52,6 +52,7 @@
 //! # }
 //! ```
 
+use std::cell::Cell;
 use std::fmt::Debug;
 
 use nalgebra::DMatrix;
@@ -270,21 +271,19 @@ impl AbelPlan {
 
     /// Eq. (1): computes the 1D profile `g` of the 3D profile `f`, both nodal, in the same unit.
     pub fn profile(&self, f: &[f64], g: &mut [f64]) {
-        self.profile.apply_from(0, f, g);
+        apply(&*self.profile, 0, f, g);
     }
 
     /// Eq. (1): computes the 1D image `g` of the worn depth, both nodal, m.
     pub fn image(&self, depth: &[f64], g: &mut [f64]) {
-        self.worn
-            .as_ref()
-            .unwrap_or(&self.profile)
-            .apply_from(0, depth, g);
+        let transform = self.worn.as_ref().unwrap_or(&self.profile);
+        apply(&**transform, 0, depth, g);
     }
 
     /// Eq. (2): computes the surface displacement `w` of the spring displacement `u`, both nodal. `w` may cover the
     /// first nodes only.
     pub fn displacement(&self, u: &[f64], w: &mut [f64]) {
-        self.displacement.apply_from(0, u, w);
+        apply(&*self.displacement, 0, u, w);
     }
 
     /// Eq. (3): computes the stress `p` (N/m²) of the line load `q` (N/m), both nodal. `q` ends at the grid's edge.
@@ -294,8 +293,26 @@ impl AbelPlan {
 
     /// As [`stress`](Self::stress), but from the node `first` on, or from slightly before it; returns where it began.
     pub fn stress_from(&self, first: usize, q: &[f64], p: &mut [f64]) -> usize {
-        self.stress.apply_from(first, q, p)
+        apply(&*self.stress, first, q, p)
     }
+}
+
+thread_local! {
+    /// The number of transforms computed by this thread.
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Applies a transform, and counts it.
+fn apply(transform: &dyn Transform, first: usize, values: &[f64], image: &mut [f64]) -> usize {
+    COUNT.set(COUNT.get() + 1);
+    transform.apply_from(first, values, image)
+}
+
+/// Returns the number of transforms in `compute`, with its result. They do not count in a count around it.
+pub(crate) fn counted<T>(compute: impl FnOnce() -> T) -> (T, u64) {
+    let before = COUNT.replace(0);
+    let result = compute();
+    (result, COUNT.replace(before))
 }
 
 #[cfg(test)]

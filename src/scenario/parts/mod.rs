@@ -50,7 +50,7 @@ pub(super) fn setup(
     origin: &Origin,
     faults: Faults,
 ) -> Result<(Spec, Setup), Refusal> {
-    // Wrong values are left out, and count as given.
+    // Values that are wrong have been reported; here they count as given, not as missing.
     for path in faults.paths() {
         values::remove(written, path);
     }
@@ -104,7 +104,7 @@ impl Section<'_> {
         value.ok_or_else(|| self.missing(key, self.described(key)))
     }
 
-    /// Passes a list that is read from the file that a key names.
+    /// Returns `list`, whose values come from the file that a key names.
     ///
     /// # Errors
     ///

@@ -24,7 +24,7 @@ pub(super) fn attempt(
         solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         wear(model, state, next, scratch, cycle);
     }
-    Ok(scratch.increment.stiffness(model))
+    Ok(scratch.find_stiffness(model))
 }
 
 /// Solves the contact at `cycle` on the profile in `scratch`, from the one `before`.
@@ -37,7 +37,7 @@ pub(super) fn solve(
 ) -> Result<(), Cause> {
     let problem = Problem::new(model, &scratch.profile, before);
     let targets = model.setup.drive.targets(cycle);
-    problem.solve(targets, next, &mut scratch.increment.slip)
+    problem.solve(targets, next, &mut scratch.slip)
 }
 
 /// Tries the step with the friction at its end, and with the means of friction and k over it.
@@ -57,8 +57,8 @@ fn run_in(
     if running_in.friction_follows_work(start) && model.setup.scheme == Scheme::Trapezoid {
         solve(model, &state.contact, &mut next.contact, scratch, cycle)?;
         let contacts = [&state.contact, &next.contact];
-        scratch.increment.rub(model, contacts);
-        stretch.energy[1] = start + scratch.increment.friction_work;
+        let friction = scratch.friction.find(model, contacts, &mut scratch.slip);
+        stretch.energy[1] = start + friction.work;
     }
     running_in.set_friction(stretch.end(), &mut model.setup.material);
     solve(model, &state.contact, &mut next.contact, scratch, cycle)?;

@@ -12,7 +12,6 @@ use super::super::model::Model;
 use super::super::state::State;
 use super::super::traction;
 use super::{Bounds, Scratch};
-use crate::math::scan::leading;
 
 /// At its limit of 2 an explicit step oscillates; up to half of that no error changes sign.
 pub(super) const BOUNDS: Bounds = Bounds {
@@ -22,22 +21,17 @@ pub(super) const BOUNDS: Bounds = Bounds {
 
 /// Computes the wear of a step whose contact has been solved, into `scratch.increment`.
 pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scratch, cycle: f64) {
-    let increment = &mut scratch.increment;
     if model.springs() == 0 {
         return;
     }
-    let contact = &next.contact;
+    let (contact, slip) = (&next.contact, &mut scratch.slip);
     if model.setup.wear.is_some() {
-        // Method B's stress looks one node across.
-        let end = (contact.normal.nodes + 1).min(model.nodes());
-        let surface_slip = &mut increment.surface_slip[..end];
-        model.plan.displacement(&increment.slip, surface_slip);
-        let first = leading(surface_slip, |&slip| slip == 0.0);
-        increment.nodes = first..end;
-        let out = (&mut increment.shear[..], &mut increment.rest);
-        traction::shear(model, contact, 0, out);
-        scratch.transforms += 2;
-        increment.wear(model, model.seconds(cycle - state.cycle));
+        let sliding = scratch.sliding.find_under(model, slip, contact);
+        let shear = &mut scratch.shear.nodal;
+        traction::shear(model, contact, 0, (&mut shear[..], &mut scratch.rest));
+        let seconds = model.seconds(cycle - state.cycle);
+        scratch.increment.wear(model, shear, sliding, seconds);
     }
-    increment.rub_explicitly(model, contact);
+    let friction = scratch.friction.find_explicitly(model, contact, slip);
+    scratch.increment.friction_work = friction.work;
 }

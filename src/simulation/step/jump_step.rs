@@ -59,7 +59,6 @@ impl Means<'_> {
             }
         };
         model.plan.image(wear, image);
-        self.memory.stats.transforms += 1;
         let (spare, scratch) = (&mut *self.spare, &mut *self.scratch);
         let steady = steady_cycle::cycle(model, self.memory, spare, scratch, [wear, image])?;
         let sums = rates(model, &steady);
@@ -120,7 +119,7 @@ impl Means<'_> {
     /// in proportion to it changes slowly. Friction and k must have run in.
     pub fn implicit(mut self, covered: f64) -> Result<Jump, Cause> {
         let (model, first) = (self.model, self.first);
-        let mut response = Response::new(model, first, rosenbrock::GAMMA * covered);
+        let response = Response::new(model, first, rosenbrock::GAMMA * covered);
         let start = self.memory.wear.clone();
         let mut image = vec![0.0; model.nodes()];
         let solve = |b: &[f64]| response.solve(b);
@@ -132,7 +131,6 @@ impl Means<'_> {
         let (steady, _) = self.look_at_end(&wear, Sums::default(), &mut image)?;
         let defect = rosenbrock::defect(covered, [&start, &wear], [&first.wear, &steady.wear]);
         let error = response.solve(&defect);
-        self.memory.stats.transforms += response.transforms;
         let sizes: Vec<f64> = error.iter().map(|error| error.abs()).collect();
         let rates = [first, &steady].map(|cycle| model.volume(&cycle.wear));
         let works = [first, &steady].map(|cycle| cycle.friction_work);

@@ -3,13 +3,16 @@
 //! ```text
 //! profile  = Profile::find(state)                 Eq. (1)
 //! contact  = Problem(profile, state.contact).solve()     the springs of both directions
+//! friction = Friction::find(contact, slip)        which springs slip, and their work
+//! sliding  = Sliding::find(slip)                  Eq. (2)
 //! stress   = traction::{Pressure, shear}(contact)  Eq. (3)
-//! wear     = increment.wear(stress, slip)          Eqs. (2) and (15)
+//! wear     = Increment::wear(stress, sliding)      Eq. (15)
 //! next     = accept(state, contact, wear)
 //! ```
 //!
 //! A step reads `state` and writes into `next`, which reuses the buffers of the state before the
-//! last: nothing is allocated, and a failed step changes nothing.
+//! last: nothing is allocated, and a failed step changes nothing. Each phase of a step fills a value of the [`Scratch`]
+//! and returns a reference to it, which the next phases take.
 //!
 //! [`euler`] and [`trapezoid`] choose the profile for the contact and the stress for the wear.
 //! [`attempt`] tries a step, [`substep`] takes it, in parts where it is too stiff; [`cycle_jump`] takes many cycles at once, by the
@@ -17,14 +20,17 @@
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
+use super::contact::Contact;
 use super::drive::Control;
+use super::friction::Friction;
+use super::mean_shear::MeanShear;
 use super::model::Model;
 use super::moments::Period;
 use super::profile::{Profile, even_end, scar_volume};
 use super::setup::Setup;
 use super::state::State;
 use super::traction::Pressure;
-use super::wear::Increment;
+use super::wear::{Increment, Sliding};
 use crate::math::geometry::Geometry;
 use crate::math::scan::largest;
 use crate::math::vector::{vectorized, write_each};
@@ -41,29 +47,68 @@ mod trapezoid;
 pub(super) use cycle_jump::{Jumped, is_possible, jump};
 pub(super) use substep::step;
 
-/// Buffers of a step's phases, not read afterwards.
+/// The values that the phases of a step return, kept for their memory.
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
     /// The profile under the contact.
     pub(super) profile: Profile,
-    pub(super) increment: Increment,
+    /// Slip of the springs, m.
+    slip: Vec<f64>,
+    friction: Friction,
+    sliding: Sliding,
+    shear: MeanShear,
+    increment: Increment,
     /// Pressure of the contact at the start of a step, if the state has too little of it.
-    pub(super) pressure: Pressure,
+    pressure: Pressure,
+    /// Buffer for a load without its dome, N/m.
+    rest: Vec<f64>,
     /// The steps of steady-state cycles.
     period: Period,
-    /// Transforms computed since the last count.
-    pub(super) transforms: u64,
 }
 
 impl Scratch {
     pub(super) fn new(model: &Model) -> Self {
+        let springs = model.springs();
+        // Without wear no stress is needed.
+        let wearing = if model.setup.wear.is_some() {
+            springs
+        } else {
+            0
+        };
         Self {
             profile: Profile::new(model),
-            increment: Increment::new(model),
-            pressure: Pressure::unknown(model.springs()),
+            slip: vec![0.0; springs],
+            friction: Friction::new(springs),
+            sliding: Sliding::new(wearing),
+            shear: MeanShear::new(wearing),
+            increment: Increment::new(model.nodes(), wearing),
+            pressure: Pressure::unknown(springs),
+            rest: Vec::new(),
             period: Period::default(),
-            transforms: 0,
         }
+    }
+}
+
+impl Scratch {
+    /// Finds the stiffness of every node that wears in the step; returns the largest.
+    fn find_stiffness(&mut self, model: &Model) -> f64 {
+        let (shear, sliding) = (&self.shear.nodal, &self.sliding);
+        self.increment.find_stiffness(model, shear, sliding)
+    }
+
+    /// Computes the wear due to the slip so far and the pressure `p` (Pa) of a constant `contact`, and the friction
+    /// work: τ = μp and ΔE_d = 2∫ μq |Δs| dx. The first `stuck` nodes do not slip.
+    fn wear_by_load(&mut self, model: &Model, contact: &Contact, p: &[f64], stuck: usize) {
+        let coefficient = model.setup.material.friction();
+        let shear = &mut self.shear.nodal;
+        shear[..stuck].fill(0.0);
+        for (tau, p) in shear[stuck..].iter_mut().zip(&p[stuck..]) {
+            *tau = coefficient * p;
+        }
+        self.sliding.nodes = stuck..model.nodes();
+        self.increment.wear(model, shear, &self.sliding, 1.0);
+        let friction = (self.friction).find(model, [contact, contact], &mut self.slip);
+        self.increment.friction_work = friction.work;
     }
 }
 
@@ -96,7 +141,6 @@ pub(super) fn solve_contact(
     state.last.growth.fill(0.0);
     state.pressure.forget();
     state.stats.contacts += 1;
-    state.stats.transforms += 1;
     Ok(())
 }
 
@@ -142,7 +186,6 @@ fn accept(
             #[inline(always)]
             |image, growth| image + growth,
         );
-        scratch.transforms += 1;
         std::mem::swap(&mut next.last.wear, &mut increment.depth);
     } else {
         next.image.copy_from_slice(&state.image);
@@ -154,7 +197,6 @@ fn accept(
     next.last.duration = cycle - state.cycle;
     next.cycle = cycle;
     next.stats.contacts += 1;
-    next.stats.transforms += std::mem::take(&mut scratch.transforms);
     Ok(())
 }
 

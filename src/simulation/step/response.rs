@@ -35,8 +35,6 @@ pub(super) struct Response<'a> {
     /// h ∂W/∂p E* of each node, m.
     answers: Vec<f64>,
     near: Tridiagonal,
-    /// Transforms that have been used.
-    pub transforms: u64,
 }
 
 impl<'a> Response<'a> {
@@ -64,18 +62,16 @@ impl<'a> Response<'a> {
             touching,
             near: Tridiagonal::new(near),
             answers,
-            transforms: 0,
         }
     }
 
     /// (1 + hA)⁻¹ b.
-    pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
+    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         let Self {
             model,
             touching,
             answers,
             near,
-            transforms,
         } = self;
         let is_held = matches!(model.setup.drive.normal(), Control::Force(_));
         let mut load = vec![0.0; b.len()];
@@ -89,8 +85,7 @@ impl<'a> Response<'a> {
                 load[..*touching].iter_mut().for_each(|q| *q -= deeper);
             }
             model.plan.stress(&load, out);
-            *transforms += 2;
-            for (out, (worn, answer)) in out.iter_mut().zip(worn.iter().zip(&*answers)) {
+            for (out, (worn, answer)) in out.iter_mut().zip(worn.iter().zip(answers)) {
                 *out = worn + answer * *out;
             }
             near.solve(out);

@@ -84,7 +84,7 @@ fn solve(
     targets: Targets,
 ) -> Result<(), Cause> {
     let problem = contact::Problem::new(model, &scratch.profile, &memory.contact);
-    problem.solve(targets, &mut spare.contact, &mut scratch.increment.slip)
+    problem.solve(targets, &mut spare.contact, &mut scratch.slip)
 }
 
 /// Moves the contact from `spare` to `memory`, at `cycle`.
@@ -121,9 +121,9 @@ fn period(
     for &(moment, targets) in moments.iter() {
         solve(model, memory, spare, scratch, targets)?;
         wear(model, memory, spare, scratch, moment);
-        let increment = &mut scratch.increment;
+        scratch.find_stiffness(model);
+        let increment = &scratch.increment;
         steady.friction_work += increment.friction_work;
-        increment.stiffness(model);
         let nodes = increment.nodes.clone();
         let summands = &increment.stiffness[nodes.clone()];
         add_to(&mut steady.stiffness[nodes.clone()], summands);
@@ -136,7 +136,6 @@ fn period(
         steady.elastic_depth = steady.elastic_depth.max(compression);
         accept_contact(memory, spare, moment);
         std::mem::swap(&mut memory.pressure, &mut spare.pressure);
-        memory.stats.transforms += std::mem::take(&mut scratch.transforms);
     }
     memory.stats.evaluated_cycles += cycles as u64;
     for sum in steady.wear.iter_mut().chain(&mut steady.stiffness) {
@@ -175,7 +174,6 @@ fn plain_cycle(
     solve(model, memory, spare, scratch, start)?;
     accept_contact(memory, spare, 0.0);
 
-    let increment = &mut scratch.increment;
     let material = &model.setup.material;
     let reach = material.reach();
     let (contact, squares) = (&memory.contact, model.grid.squares());
@@ -197,15 +195,14 @@ fn plain_cycle(
         kink::polyline(ends, slips, &[(border, 0.0)], &mut slip.kinks);
         stick_radius = border.sqrt();
     }
-    slip.displacement(&model.plan, &model.grid, &mut increment.surface_slip);
-    increment.surface_slip[..stuck].fill(0.0);
-    memory
-        .pressure
-        .find(model, contact, stuck, &mut increment.rest);
-    memory.stats.transforms += 2;
-    increment.slip.copy_from_slice(&slip.nodal);
-    increment.wear_by_load(model, contact, &memory.pressure.nodal, stuck);
-    increment.stiffness(model);
+    let surface_slip = &mut scratch.sliding.slip;
+    slip.displacement(&model.plan, &model.grid, surface_slip);
+    surface_slip[..stuck].fill(0.0);
+    let pressure = (memory.pressure).find(model, contact, stuck, &mut scratch.rest);
+    scratch.slip.copy_from_slice(&slip.nodal);
+    scratch.wear_by_load(model, contact, &pressure.nodal, stuck);
+    scratch.find_stiffness(model);
+    let increment = &scratch.increment;
     let mut stiffness = vec![0.0; model.nodes()];
     let nodes = increment.nodes.clone();
     for (z, once) in stiffness[nodes.clone()]

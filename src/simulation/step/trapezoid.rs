@@ -17,7 +17,7 @@
 //! of μp, which alone reduces the error 16-fold at 100 steps per cycle.
 //! # Stability
 //!
-//! At the [stiffness](super::super::wear::Increment::stiffness) z, steps stay clean up to z = 0.7. Stiffer ones are
+//! At the [stiffness](super::super::wear::Increment::find_stiffness) z, steps stay clean up to z = 0.7. Stiffer ones are
 //! taken in [sub-steps](super::substep).
 //!
 //! - **Order**: second. Fig. 3 shows 1.9 to 2.0 from 25 to 400 steps per cycle at K = 0.3, and from 50 to 400
@@ -63,29 +63,36 @@ pub(super) fn wear(
     if model.springs() == 0 {
         return;
     }
+    let Scratch {
+        slip,
+        friction,
+        sliding,
+        shear,
+        increment,
+        pressure,
+        rest,
+        ..
+    } = scratch;
     let contacts = [&state.contact, &next.contact];
-    let increment = &mut scratch.increment;
-    increment.rub(model, contacts);
-    if let Some(law) = model.setup.wear {
-        let states = increment.states(model, &next.contact);
-        let stuck = leading(states, |&spring| spring == SpringState::Stick);
-        let zone = outer_slip_zone(states);
-        increment.find_sliding(model, contacts, stuck);
-        let rest = &mut increment.rest;
-        next.pressure.find(model, &next.contact, zone.0, rest);
-        let mut before = &state.pressure;
-        if before.from > zone.0 {
-            scratch.pressure.find(model, &state.contact, zone.0, rest);
-            scratch.transforms += 1;
-            before = &scratch.pressure;
-        }
-        scratch.transforms += increment.mean_of_load(model, [before, &next.pressure], zone);
-        scratch.transforms += 2 + increment.mean_of_shear(model, contacts, zone.0);
-        increment.wear(model, model.seconds(cycle - state.cycle));
-        let exponent = law.slip_rate_exponent();
-        if exponent != 1.0 {
-            let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);
-            increment.slip_in_less_time(model, contacts, exponent, uneven);
-        }
+    let friction = friction.find(model, contacts, slip);
+    increment.friction_work = friction.work;
+    let Some(law) = model.setup.wear else { return };
+    let states = friction.states(model, &next.contact);
+    let stuck = leading(states, |&spring| spring == SpringState::Stick);
+    let zone = outer_slip_zone(states);
+    let sliding = sliding.find(model, slip, contacts, stuck);
+    let after = next.pressure.find(model, &next.contact, zone.0, rest);
+    let before = if state.pressure.from > zone.0 {
+        pressure.find(model, &state.contact, zone.0, rest)
+    } else {
+        &state.pressure
+    };
+    let causes = (friction, sliding);
+    let shear = shear.find(model, contacts, causes, [before, after], zone, rest);
+    increment.wear(model, shear, sliding, model.seconds(cycle - state.cycle));
+    let exponent = law.slip_rate_exponent();
+    if exponent != 1.0 {
+        let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);
+        increment.slip_in_less_time(model, slip, contacts, exponent, uneven);
     }
 }

@@ -102,7 +102,7 @@ pub enum SearchError {
 #[derive(Debug, Clone, Copy)]
 pub struct Budget {
     seconds: f64,
-    /// Whether the last rung is run again afterwards, within the same time.
+    /// Whether the seconds must also suffice for a run on the level found.
     runs_again: bool,
 }
 

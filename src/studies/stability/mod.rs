@@ -62,7 +62,7 @@ impl Ending {
 
 /// The scenario and the length of its runs.
 #[derive(Debug, Clone)]
-pub struct Study {
+pub struct StabilityStudy {
     scenario: Scenario,
     cycles: f64,
     /// k for K = 1, 1/Pa.
@@ -82,7 +82,7 @@ pub struct Limit {
     pub seen: Option<f64>,
 }
 
-impl Study {
+impl StabilityStudy {
     /// Makes a study of a scenario that wears, over `cycles`. `None` if nothing wears, or if nothing touches at the
     /// beginning: K = k E* d/a, with the depth and the contact radius there.
     pub fn new(scenario: Scenario, cycles: f64) -> Result<Option<Self>, SessionError> {

@@ -29,7 +29,7 @@
 //! **Methods that are unstable at any step size.** For b and benad, a measured constant of the method, not derived.
 
 use super::growth::growing_from;
-use super::{Study, VISIBLE, Variant};
+use super::{StabilityStudy, VISIBLE, Variant};
 use crate::math::abel::AbelMethod;
 use crate::math::scan::largest;
 use crate::reading::{Curves, Zone};
@@ -66,7 +66,10 @@ impl Cycle {
 
 /// Predicts the wear number from which `setting` shows a sawtooth
 /// within the cycles of the study; `None` if nothing slips.
-pub(super) fn predict(study: &Study, setting: Variant) -> Result<Option<f64>, SessionError> {
+pub(super) fn predict(
+    study: &StabilityStudy,
+    setting: Variant,
+) -> Result<Option<f64>, SessionError> {
     let mut guarded = setting;
     guarded.guard = true;
     let mut mild = study.start(guarded, MILD)?;

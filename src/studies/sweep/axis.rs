@@ -10,7 +10,7 @@ use crate::scenario::{Refusal, hints, printable, values};
 
 /// A key that a study varies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
+pub struct StudyAxis {
     /// The dotted path of the key.
     pub key: String,
     /// Its values: numbers, words or flags, in order.
@@ -30,7 +30,7 @@ pub enum Values {
     Between([f64; 2], usize, Spacing),
 }
 
-impl Axis {
+impl StudyAxis {
     /// Makes an axis of `count` values at equal distances on its scale.
     ///
     /// # Errors
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn values_between_points_lie_between_places() {
         let values = [1e-8, 1e-7, 1e-6].map(Value::Float).to_vec();
-        let axis = |spread| Axis {
+        let axis = |spread| StudyAxis {
             key: "wear.coefficient".into(),
             values: Values::Listed(values.clone()),
             spread,
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn tied_keys_follow_by_their_factor_and_whole_keys_are_rounded() {
-        let axis = Axis {
+        let axis = StudyAxis {
             key: "motion.normal.mean".into(),
             values: Values::Listed(vec![Value::Float(2e-6)]),
             spread: Scale::Linear,

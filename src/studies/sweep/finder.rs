@@ -1,6 +1,6 @@
 //! Finds the points that a row belongs to from the values at its beginning.
 
-use super::{Axis, Design, Study};
+use super::{Design, Study, StudyAxis};
 use crate::scenario::escape::cell;
 use crate::scenario::scalars::number;
 
@@ -58,7 +58,7 @@ impl Finder {
 }
 
 /// Returns the value at a place of an axis as in a row, with numbers normalised.
-fn value(axis: &Axis, place: usize) -> Vec<u8> {
+fn value(axis: &StudyAxis, place: usize) -> Vec<u8> {
     normal(&cell(&axis.text(place)))
 }
 

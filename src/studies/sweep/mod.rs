@@ -23,7 +23,7 @@ mod shuffle;
 pub mod slice;
 mod study;
 
-pub use axis::Axis;
+pub use axis::StudyAxis;
 pub use design::Design;
 pub use point::Success;
 pub use shard::Shard;

@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::axis::{self, Axis, Values, known_key};
+use super::axis::{self, StudyAxis, Values, known_key};
 use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
 use crate::math::scale::Scale;
@@ -236,7 +236,7 @@ fn read_axis(
     place: &str,
     study: &Study,
     samples: Option<(usize, u32)>,
-) -> Result<Axis> {
+) -> Result<StudyAxis> {
     let key = axis.key;
     known_key(&key, place)?;
     let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
@@ -270,7 +270,7 @@ fn read_axis(
             between(&named, &list, spread, sampled)?
         }
     };
-    Ok(Axis {
+    Ok(StudyAxis {
         tied: read_tied_keys(&axis.tied, &format!("{place}.tied"), &values)?,
         key,
         values,

@@ -3,7 +3,7 @@
 use super::border::{Distance, crossing, to_gross_slip, to_lift_off};
 use super::finder::Finder;
 use super::record::Record;
-use super::{Axis, Design, Study, Success};
+use super::{Design, Study, StudyAxis, Success};
 use crate::reading::{Column, Regime};
 use crate::scenario::Refusal;
 
@@ -155,12 +155,12 @@ impl Slice {
     }
 
     /// Returns the axis to the right.
-    pub fn x(&self) -> &Axis {
+    pub fn x(&self) -> &StudyAxis {
         &self.study.axes[self.x]
     }
 
     /// Returns the axis upwards.
-    pub fn y(&self) -> Option<&Axis> {
+    pub fn y(&self) -> Option<&StudyAxis> {
         self.y.map(|y| &self.study.axes[y])
     }
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::Design;
-use super::axis::{self, Axis, known_key};
+use super::axis::{self, StudyAxis, known_key};
 use crate::reading::Column;
 use crate::scenario::escape::cell;
 use crate::scenario::values::{self, literal};
@@ -35,7 +35,7 @@ pub struct Study {
     /// Settings for all points, as for `--set`.
     pub set: BTreeMap<String, Value>,
     /// The varied keys.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<StudyAxis>,
     /// How the axes are combined into points.
     pub design: Design,
     /// The columns after the axes' columns.
@@ -148,7 +148,7 @@ impl Study {
     }
 
     /// Returns the unit of an axis.
-    pub fn unit(&self, axis: &Axis) -> &'static str {
+    pub fn unit(&self, axis: &StudyAxis) -> &'static str {
         let is_force = self.is_force(&axis.key);
         schema::find(&axis.key).map_or("", |known| units::unit_of(known, is_force))
     }
@@ -171,7 +171,8 @@ impl Study {
         let place = format!("--set {}", printable(set));
         let (key, value) = assign::split(set, &place)?;
         known_key(key, &place)?;
-        let varied = |axis: &Axis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
+        let varied =
+            |axis: &StudyAxis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
         if self.axes.iter().any(varied) {
             let rule = format!("{key} is varied by an axis of the study");
             return Err(Refusal::new(place, rule));

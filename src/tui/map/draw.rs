@@ -14,7 +14,7 @@
 
 use ratatui::prelude::*;
 
-use super::view::{View, shown};
+use super::view::{MapView, shown};
 use crate::figure::study;
 use crate::plot::colormap::ColorMap;
 use crate::plot::map::{self, SWATCHES};
@@ -61,7 +61,7 @@ const HERE: char = '◆';
 const DIGITS: usize = 4;
 
 /// Draws the whole screen; a `notice` replaces the keys.
-pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
+pub fn draw(view: &MapView, notice: Option<&str>, mut canvas: Canvas) {
     let (area, theme) = (canvas.area, &canvas.theme.clone());
     if area.width < 20 || area.height < 10 {
         return canvas.show(Line::raw("too small: needs 20x10 or more"));
@@ -121,7 +121,7 @@ pub fn draw(view: &View, notice: Option<&str>, mut canvas: Canvas) {
 
 /// Adds the marks of the screen to the chart: the base scenario and, on a map, points without a value, the words of
 /// regions, and the cursor.
-fn signs(view: &View, theme: &Theme, chart: &mut Chart) {
+fn signs(view: &MapView, theme: &Theme, chart: &mut Chart) {
     let (mut signs, here) = (Vec::new(), view.position());
     let mut add = |at, sign, role| signs.push(Point { at, sign, role });
     let Some(map) = &chart.map else {
@@ -177,7 +177,7 @@ fn side_by_side(parts: &[String], width: usize) -> Vec<String> {
 }
 
 /// Describes a point by its number and its position on the axes.
-fn place(view: &View, point: usize) -> String {
+fn place(view: &MapView, point: usize) -> String {
     let study = &view.slice.study;
     let axes = study.axes.iter().zip(study.places(point));
     let values = axes.map(|(axis, place)| match axis.number(place) {
@@ -189,7 +189,7 @@ fn place(view: &View, point: usize) -> String {
 }
 
 /// Returns the values of a point: the shown column, the others and the status.
-fn reading(view: &View, point: usize) -> Vec<String> {
+fn reading(view: &MapView, point: usize) -> Vec<String> {
     let study = &view.slice.study;
     let Some(fields) = view.slice.row(point) else {
         return vec!["not there yet".to_owned()];
@@ -212,7 +212,7 @@ fn in_words(of: &Axis, number: f64) -> String {
 }
 
 /// Returns the column with its range, or its words, in their colours.
-fn legend(view: &View, theme: &Theme, chart: &Chart) -> Line<'static> {
+fn legend(view: &MapView, theme: &Theme, chart: &Chart) -> Line<'static> {
     let ((quantity, range), quiet) = (shown(chart), theme.style(Role::Quiet));
     let name = if view.is_regime() {
         view.column().name()

@@ -10,7 +10,7 @@ use std::{fs, thread};
 use rayon::ThreadPoolBuilder;
 
 use super::range::Range;
-use super::view::View;
+use super::view::MapView;
 use crate::panics::locked;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::sweep::Shard;
@@ -22,8 +22,8 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(300);
 
 /// A study under way, shared by the screen and the worker threads.
 #[derive(Debug, Clone)]
-pub struct Live {
-    view: Arc<Mutex<View>>,
+pub struct LiveStudy {
+    view: Arc<Mutex<MapView>>,
     halt: Arc<AtomicBool>,
     done: Arc<AtomicBool>,
     /// The table that is read, for which the explorer was opened; `None` if the study runs here.
@@ -36,7 +36,7 @@ fn changed(file: &Path) -> Option<(SystemTime, u64)> {
     Some((about.modified().ok()?, about.len()))
 }
 
-impl Live {
+impl LiveStudy {
     /// Opens the study in a table, as far as it has been computed.
     ///
     /// # Errors
@@ -44,12 +44,12 @@ impl Live {
     /// In one line: the file cannot be read, or is not the table of a study.
     pub fn of_file(file: &Path) -> Result<Self, Refusal> {
         let (record, name) = (Record::of_file(file)?, file.display().to_string());
-        let mut view = View::new(record.study()?, &name)?;
+        let mut view = MapView::new(record.study()?, &name)?;
         view.slice.renew(record, &name)?;
         Ok(Self::new(view, Some(file.into())))
     }
 
-    fn new(view: View, file: Option<Arc<Path>>) -> Self {
+    fn new(view: MapView, file: Option<Arc<Path>>) -> Self {
         Self {
             view: Arc::new(Mutex::new(view)),
             halt: Arc::default(),
@@ -100,7 +100,7 @@ impl Live {
             .build()
             .map_err(|error| Refusal::from(error.to_string()))?;
         engine::check(&study, Shard::WHOLE, &pool, |_| true)?;
-        let live = Self::new(View::new(study.clone(), &title)?, None);
+        let live = Self::new(MapView::new(study.clone(), &title)?, None);
         let shared = live.clone();
         thread::spawn(move || {
             let todo = 0..study.points();
@@ -118,7 +118,7 @@ impl Live {
     }
 
     /// Reads or changes the view.
-    pub fn with_view<T>(&self, act: impl FnOnce(&mut View) -> T) -> T {
+    pub fn with_view<T>(&self, act: impl FnOnce(&mut MapView) -> T) -> T {
         act(&mut locked(&self.view))
     }
 
@@ -127,7 +127,7 @@ impl Live {
         self.halt.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it reads a table, for which the explorer was opened.
+    /// Whether it shows a table from the command line, not a study that runs here.
     pub fn is_of_file(&self) -> bool {
         self.file.is_some()
     }

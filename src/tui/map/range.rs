@@ -3,7 +3,7 @@
 use crate::math::scale::Scale;
 use crate::reading::Column;
 use crate::scenario::{Refusal, Scenario, schema, units};
-use crate::studies::sweep::{Axis, Study};
+use crate::studies::sweep::{Study, StudyAxis};
 
 /// Number of points.
 pub const POINTS: usize = 25;
@@ -73,7 +73,7 @@ impl Range {
         let is_wide = ends[0].min(ends[1]) > 0.0 && !(1.0 / DECADES..DECADES).contains(&ratio);
         let spread = if is_wide { Scale::Log } else { Scale::Linear };
         let mut study = Study::new(base, COLUMNS.to_vec());
-        study.axes = vec![Axis::between(&self.key, ends, POINTS, spread)?];
+        study.axes = vec![StudyAxis::between(&self.key, ends, POINTS, spread)?];
         Ok(study)
     }
 }

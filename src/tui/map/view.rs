@@ -9,12 +9,12 @@ use crate::plot::{self, Chart, Scale};
 use crate::reading::Column;
 use crate::scenario::Refusal;
 use crate::studies::sweep::slice::{Contour, Slice};
-use crate::studies::sweep::{Axis, Design, Study};
+use crate::studies::sweep::{Design, Study, StudyAxis};
 use crate::tui::keys::{Key, Named};
 
 /// A study, and the state of its view.
 #[derive(Debug)]
-pub struct View {
+pub struct MapView {
     /// The study, and the shown axes.
     pub slice: Slice,
     /// The title.
@@ -28,7 +28,7 @@ pub struct View {
     borders: RefCell<HashMap<Vec<usize>, Vec<Contour>>>,
 }
 
-impl View {
+impl MapView {
     /// Makes a view of a study without rows.
     ///
     /// # Errors
@@ -162,7 +162,7 @@ impl View {
 
     /// Returns the values of the base scenario on the shown axes, if they are on the map.
     pub fn position(&self) -> Option<[f64; 2]> {
-        let value = |axis: &Axis| {
+        let value = |axis: &StudyAxis| {
             let value = self.slice.study.base.number(&axis.key)?;
             axis.place_of(value).map(|_| value)
         };

@@ -17,6 +17,7 @@ use crate::tui::overlays::answer::{Answer, select, typing};
 use crate::tui::overlays::palette::Palette;
 use crate::tui::settings::Setting;
 use crate::tui::stage::LIST;
+use crate::tui::worker::{Order, changes};
 
 /// The list, and the selected parameter's value while it is being typed.
 #[derive(Debug, Default)]
@@ -263,5 +264,5 @@ fn describe(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'s
 
 fn change(setting: &Setting, value: String, explorer: &mut Explorer) {
     let key = setting.parameter.path;
-    explorer.order(move |run| run.change_beside(key, &value));
+    explorer.order(Order::ChangeBeside(changes::set(key, value)));
 }

@@ -5,7 +5,7 @@ use super::command::Command;
 use super::explorer::Explorer;
 use super::keys::{Key, Named};
 use super::line::LineEdit;
-use super::map::live::Live;
+use super::map::live::LiveStudy;
 use answer::watch;
 
 mod accuracy;
@@ -43,7 +43,7 @@ pub enum Overlay {
     /// The list of parameters.
     Form(Form),
     /// A study, on the whole screen.
-    Sweep(Live),
+    Sweep(LiveStudy),
     /// The keys of a study.
     MapKeys,
 }

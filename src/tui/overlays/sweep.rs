@@ -7,14 +7,15 @@ use crate::tui::command;
 use crate::tui::explorer::{Explorer, Next};
 use crate::tui::keys::{Key, Named};
 use crate::tui::map::draw;
-use crate::tui::map::live::Live;
+use crate::tui::map::live::LiveStudy;
 use crate::tui::overlays::answer::Answer;
+use crate::tui::worker::Order;
 
 /// The message until a point is open.
 pub const OPENING: &str = "opening the point ...";
 
 /// Handles a key. Leaving ends the study, or the explorer if it was opened for the study.
-pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
+pub(super) fn press(live: &LiveStudy, key: Key, explorer: &mut Explorer) -> Answer {
     match (key, command::of_key(key)) {
         (Key::Char('?'), _) => return Answer::Open(Overlay::MapKeys),
         (Key::Char('q'), _) if live.is_of_file() => explorer.next = Next::Leave,
@@ -29,7 +30,7 @@ pub(super) fn press(live: &Live, key: Key, explorer: &mut Explorer) -> Answer {
                 Ok(scenario) => {
                     live.halt();
                     explorer.notice = Some(OPENING.to_owned());
-                    explorer.order_with_new_scales(|run| run.open_point(scenario));
+                    explorer.order_with_new_scales(Order::OpenPoint(Box::new(scenario)));
                 }
                 Err(error) => explorer.notice = Some(error.to_string()),
             }
@@ -47,6 +48,6 @@ pub(super) fn draw_keys(mut canvas: Canvas) {
 }
 
 /// Draws the study, with a message for the user if there is one.
-pub(super) fn draw(live: &Live, told: Option<&str>, canvas: Canvas) {
+pub(super) fn draw(live: &LiveStudy, told: Option<&str>, canvas: Canvas) {
     live.with_view(|view| draw::draw(view, told, canvas));
 }

@@ -261,6 +261,6 @@ impl Drawn {
     }
 }
 
-/// The share of the range that a stress has in a column, this many samples below the surface; the last row continues
-/// downwards.
+/// Returns the stress at a column and a row of samples below the surface, as a share of its range; the last row also
+/// stands for all below it.
 pub type Shares = Box<dyn Fn(usize, usize) -> f64>;

@@ -1,69 +1,82 @@
-//! What the user asks for beside the run: files and studies.
+//! What the user asks for beside the run: files, texts and studies.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use super::Worker;
+use super::Order;
 use crate::scenario::Scenario;
 use crate::tui::event::Event;
-use crate::tui::explorer::Copied;
-use crate::tui::map::live::Live;
+use crate::tui::map::live::LiveStudy;
 use crate::tui::map::range::Range;
-use crate::tui::{figure, snapshot};
+use crate::tui::trend::Recorded;
+use crate::tui::{figure as drawing, snapshot as state};
 
-impl Worker {
-    /// Starts a study of the present scenario, up to the present cycle.
-    pub fn sweep(&self, range: &Range) {
-        let cycles = match self.run.cycle() {
-            0.0 => self.run.session.loaded().run().cycles.unwrap_or(1.0),
+/// What can be copied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Copied {
+    /// The numbers of the moment.
+    Readings,
+    /// The scenario that repeats the run.
+    Scenario,
+    /// The command that repeats the run.
+    Command,
+}
+
+/// Starts a study of the present scenario, up to the present cycle.
+pub fn sweep(range: Range) -> Order {
+    Order::Make(Box::new(move |run, screen| {
+        let cycles = match run.cycle() {
+            0.0 => run.session.loaded().run().cycles.unwrap_or(1.0),
             cycle => cycle,
         };
-        let events = self.screen.events.clone();
+        let events = screen.events.clone();
         let tell = move || {
             let _ = events.send(Event::News);
         };
-        let live = Live::start(range, self.run.session.scenario(), cycles, tell);
-        if let Some(live) = self.screen.or_notice(live) {
-            self.screen.send(Event::Sweep(live));
+        let live = LiveStudy::start(&range, run.session.scenario(), cycles, tell);
+        if let Some(live) = screen.or_notice(live) {
+            screen.send(Event::Sweep(live));
         }
-    }
+    }))
+}
 
-    /// Writes the state to a new directory, with a note if there is one.
-    pub fn write_snapshot(&mut self, note: Option<&str>) {
-        let written = snapshot::write(&self.run, note);
-        let cycle = written.is_ok().then(|| self.run.cycle());
-        self.snapshots.extend(cycle);
-        self.screen.written("snapshot", written);
-    }
+/// Writes the state to a new directory, with a note if there is one.
+pub fn snapshot(note: Option<String>) -> Order {
+    Order::Make(Box::new(move |run, screen| {
+        let written = state::write(run, note.as_deref());
+        let cycle = written.is_ok().then(|| run.cycle());
+        screen.snapshots.extend(cycle);
+        screen.written("snapshot", written);
+    }))
+}
 
-    /// Sends the screen a text that repeats the run, for the clipboard.
-    pub(in crate::tui) fn copy(&self, what: Copied) {
-        let session = &self.run.session;
-        let scenario = session.as_run(Vec::new()).to_toml();
+/// Draws a figure of the state into a file, and writes its data to a second one.
+pub fn figure(path: PathBuf) -> Order {
+    Order::Make(Box::new(move |run, screen| {
+        let written = drawing::write(run, &path);
+        screen.written("figure", written.map(|()| &path));
+    }))
+}
+
+/// Sends the screen a text that repeats the run, for the clipboard.
+pub fn copy(what: Copied) -> Order {
+    Order::Make(Box::new(move |run, screen| {
+        let scenario = run.session.as_run(Vec::new()).to_toml();
         let (text, told) = match what {
-            Copied::Command => (self.run_command(scenario), "the command is"),
+            Copied::Command => (command(run, scenario), "the command is"),
             _ => (scenario, "the scenario is"),
         };
-        self.screen.send(Event::Copied(text, told));
-    }
+        screen.send(Event::Copied(text, told));
+    }))
+}
 
-    /// Returns the command that repeats the run. If options cannot describe the run, it includes the whole scenario.
-    fn run_command(&self, scenario: String) -> String {
-        let (session, cycle) = (&self.run.session, self.run.cycle());
-        let loaded = session.loaded();
-        let is_as_named = Scenario::load(loaded.origin(), &[]).is_ok_and(|named| named == *loaded);
-        if is_as_named && session.changes().is_empty() && !loaded.origin().contains('\'') {
-            format!(
-                "mdr-tui run '{}' --cycles {cycle} --out again\n",
-                loaded.origin()
-            )
-        } else {
-            format!("mdr-tui run - --out again <<'END'\n{scenario}END\n")
-        }
-    }
-
-    /// Draws a figure of the state into a file, and writes its data to a second one.
-    pub fn write_figure(&self, path: &Path) {
-        let written = figure::write(&self.run, path);
-        self.screen.written("figure", written.map(|()| path));
+/// Returns the command that repeats the run. If options cannot describe the run, it includes the whole scenario.
+fn command(run: &Recorded, scenario: String) -> String {
+    let (loaded, cycle) = (run.session.loaded(), run.cycle());
+    let origin = loaded.origin();
+    let is_as_named = Scenario::load(origin, &[]).is_ok_and(|named| named == *loaded);
+    if is_as_named && run.session.changes().is_empty() && !origin.contains('\'') {
+        format!("mdr-tui run '{origin}' --cycles {cycle} --out again\n")
+    } else {
+        format!("mdr-tui run - --out again <<'END'\n{scenario}END\n")
     }
 }

@@ -3,32 +3,36 @@
 //! It steps no further ahead than the pace allows, and publishes a frame only after the previous one has been taken, so
 //! that a slow terminal does not slow the simulation down.
 //!
-//! The orders are grouped by subject, one file each.
+//! An [`Order`] reaches only the part of the worker that it concerns: the pace, the past, the running scenario, the
+//! ghosts, or the files. There is one file for each.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::autosave::ScreenAutosave;
 use super::beside::Twin;
 use super::event::Event;
-use super::frame::{Activity, Frame};
+use super::frame::Frame;
 use super::ghosts::Source;
 use super::loops::CycleLoads;
-use super::pace::Clock;
 use super::trend::Recorded;
-use super::undo::Past;
+use super::undo::{Past, Way};
 use crate::panics::locked;
 use crate::reading::Curves;
-use companions::Rival;
+use crate::scenario::Scenario;
+use crate::scenario::session::{Session, SessionError};
+use ghosts::Ghosts;
 use outlet::{Facts, Outlet};
+use pace::Pace;
 
-mod changes;
-mod companions;
-mod files;
+pub mod changes;
+pub(super) mod files;
+pub mod ghosts;
 mod outlet;
+pub mod pace;
 mod stepping;
 mod thread;
 mod travel;
@@ -39,8 +43,56 @@ pub(super) use travel::ends_cycle;
 /// The notice when the user asks a failed run to continue.
 const BROKEN_DOWN: &str = "the run has failed; r restarts it, m changes the method";
 
-/// An order to the worker.
-pub type Order = Box<dyn FnOnce(&mut Worker) + Send>;
+/// An order to the worker. Closures return what to tell the user.
+pub enum Order {
+    /// Runs or pauses, or changes what a fast run shows.
+    Run(fn(&mut Pace) -> Option<&'static str>),
+    /// Changes the pace by this many rungs.
+    Pace(i32),
+    /// Pauses and steps until this, called with the cycles before and now, returns true.
+    Step(fn(f64, f64) -> bool),
+    /// Shows another stored state, and pauses.
+    Travel(Way),
+    /// Shows the run at a cycle, past or to come.
+    GoTo(f64),
+    /// Goes to the next (true) or the previous cycle at which the scenario writes a state.
+    GoToPlanned(bool),
+    /// Changes the scenario from here on.
+    Change(Change),
+    /// The same. The run from before the first such change continues as a ghost, until it is dropped.
+    ChangeBeside(Change),
+    /// Steps by this many places through the transform methods, of a comparison if there is one.
+    Method(isize),
+    /// Changes what is drawn over the plots.
+    Ghosts(GhostChange),
+    /// Estimates the errors of the present moment.
+    EstimateErrors,
+    /// Restarts the scenario as it was loaded; the user can go back to the run so far.
+    Restart,
+    /// Starts another scenario.
+    Load(Box<Scenario>),
+    /// Starts a point of a study, and closes the study's map.
+    OpenPoint(Box<Scenario>),
+    /// Continues another run.
+    Continue(Box<Recorded>),
+    /// Makes something of the run, for a file or for the screen.
+    Make(Task),
+    /// Selects the curves in frames.
+    Show(Curves),
+    /// Returns the frame after all companions have caught up.
+    Answer(Sender<Arc<Frame>>),
+    /// Ends the worker.
+    Quit,
+}
+
+/// A change of a run from here on; returns what it has done.
+pub type Change = Box<dyn FnOnce(&mut Session) -> Result<String, SessionError> + Send>;
+
+/// A change of what is drawn over the plots of a run; returns the notice about it.
+pub type GhostChange = Box<dyn FnOnce(&mut Ghosts, &Recorded) -> Option<String> + Send>;
+
+/// Makes something of the run, and sends it to the screen.
+pub type Task = Box<dyn FnOnce(&Recorded, &mut Outlet) + Send>;
 
 /// The channel to the worker. A worker that has ended has already reported it.
 #[derive(Clone)]
@@ -54,44 +106,31 @@ impl Orders {
     }
 
     /// Sends an order.
-    pub fn send(&self, order: impl FnOnce(&mut Worker) + Send + 'static) {
-        let _ = self.0.send(Box::new(order));
+    pub fn send(&self, order: Order) {
+        let _ = self.0.send(order);
     }
 
     /// Waits until all earlier orders are done; returns the frame then, or `None` if the worker has ended.
     pub fn frame(&self) -> Option<Arc<Frame>> {
         let (reply, answer) = channel();
-        self.send(move |worker| {
-            let _ = reply.send(worker.settled_frame());
-        });
+        self.send(Order::Answer(reply));
         answer.recv().ok()
     }
 }
 
 /// The state of the worker.
 pub struct Worker {
+    /// The run on the screen, present or past.
     run: Recorded,
     facts: Facts,
     past: Past,
-    kept_at: Instant,
-    /// The cycles of this run's snapshots.
-    snapshots: Vec<f64>,
-    cycle_loads: CycleLoads,
-    /// The ghosts over the plots, and the run by another method.
-    pub(super) ghosts: Vec<Source>,
-    rival: Option<Rival>,
+    ghosts: Ghosts,
     /// The coarser run that estimates the errors of this one.
     twin: Option<Twin>,
-    activity: Activity,
-    /// The cycle to which the run goes at full speed, to pause there.
-    stop_at: Option<f64>,
-    /// A copy of the run from before the first change in the list of parameters, while the list is open.
-    before: Option<Source>,
-    /// Whether the user knows that the planned end is reached.
-    told_of_end: bool,
-    clock: Clock,
-    /// The curves in frames.
-    pub(super) curves: Curves,
+    pace: Pace,
+    /// The curves in frames, and the loads of the last cycle if they are among them.
+    curves: Curves,
+    cycle_loads: CycleLoads,
     screen: Outlet,
     /// Shared with the thread that ends the program during a long step.
     autosave: Arc<Mutex<ScreenAutosave>>,
@@ -108,34 +147,27 @@ impl Worker {
         running: bool,
     ) -> Self {
         let run = run.into();
+        let autosave = ScreenAutosave::new(None, Duration::ZERO, &run.session);
         Self {
             facts: Facts::new(&run.session),
-            ghosts: Vec::new(),
-            rival: None,
+            ghosts: Ghosts::default(),
             twin: Twin::new(&run.session),
-            autosave: Arc::new(Mutex::new(ScreenAutosave::new(
-                None,
-                Duration::ZERO,
-                &run.session,
-            ))),
+            autosave: Arc::new(Mutex::new(autosave)),
             run,
             past: Past::default(),
-            kept_at: Instant::now(),
-            snapshots: Vec::new(),
-            cycle_loads: CycleLoads::default(),
-            activity: if running {
-                Activity::Running
-            } else {
-                Activity::Paused
-            },
-            stop_at: None,
-            before: None,
-            told_of_end: false,
-            clock: Clock::default(),
+            pace: Pace::new(running),
             curves: Curves::all(),
+            cycle_loads: CycleLoads::default(),
             screen: Outlet::new(events, interval),
             halt: Arc::default(),
         }
+    }
+
+    /// Begins with these ghosts over the plots.
+    #[must_use]
+    pub(super) fn with_ghosts(mut self, ghosts: Vec<Source>) -> Self {
+        self.ghosts.fixed = ghosts;
+        self
     }
 
     /// Runs [`serve`](Self::serve), saving the session regularly and at the end, even after a panic; returns the
@@ -163,7 +195,7 @@ impl Worker {
                 Ok(order) => {
                     // If many orders are waiting, not every one gets a frame.
                     for order in std::iter::once(order).chain(orders.try_iter()) {
-                        order(self);
+                        self.carry_out(order);
                         if self.is_over() {
                             return;
                         }
@@ -172,37 +204,52 @@ impl Worker {
                         }
                         self.checkpoint_if_due();
                     }
-                    self.clock.restart(self.run.simulation());
+                    self.pace.restart(self.run.simulation());
                     self.publish();
                 }
                 Err(RecvTimeoutError::Timeout) if self.is_awaited() => self.catch_up(),
-                Err(RecvTimeoutError::Timeout) if self.activity != Activity::Running => {}
-                Err(RecvTimeoutError::Timeout) => self.step_for_a_while(),
+                Err(RecvTimeoutError::Timeout) if self.pace.is_running() => {
+                    self.step_for_a_while();
+                }
+                Err(RecvTimeoutError::Timeout) => {}
             }
+        }
+    }
+
+    fn carry_out(&mut self, order: Order) {
+        match order {
+            Order::Run(act) => self.screen.tell(act(&mut self.pace)),
+            Order::Pace(rungs) => self.pace.change(rungs),
+            Order::Step(is_done) => self.step_manually(is_done),
+            Order::Travel(way) => self.travel(way),
+            Order::GoTo(cycle) => self.go_to(cycle),
+            Order::GoToPlanned(forward) => self.go_to_planned(forward),
+            Order::Change(change) => self.change(change, false),
+            Order::ChangeBeside(change) => self.change(change, true),
+            Order::Method(places) => self.change_method(places),
+            Order::Ghosts(act) => self.screen.tell(act(&mut self.ghosts, &self.run)),
+            Order::EstimateErrors => self.compare_twin(true),
+            Order::Restart => self.restart(),
+            Order::Load(scenario) => _ = self.load(*scenario),
+            Order::OpenPoint(scenario) => {
+                if self.load(*scenario) {
+                    self.publish();
+                    self.screen.send(Event::Opened);
+                }
+            }
+            Order::Continue(run) => self.replace_run(*run),
+            Order::Make(make) => make(&self.run, &mut self.screen),
+            Order::Show(curves) => self.curves = curves,
+            Order::Answer(reply) => _ = reply.send(self.settled_frame()),
+            Order::Quit => self.halt.store(true, Ordering::Relaxed),
         }
     }
 
     /// Saves the session if due.
     fn checkpoint_if_due(&mut self) {
         let session = &self.past.line(&self.run).session;
-        if let Some(word) = locked(&self.autosave).save_if_due(session) {
-            self.screen.notice(&word);
-        }
-    }
-
-    /// Takes one step and pauses.
-    pub fn step_once(&mut self) {
-        self.step_manually(|_, _| true);
-    }
-
-    /// Changes the pace by this many rungs.
-    pub fn change_pace(&mut self, rungs: i32) {
-        self.clock.change(rungs);
-    }
-
-    /// Ends the worker.
-    pub fn quit(&mut self) {
-        self.halt.store(true, Ordering::Relaxed);
+        let word = locked(&self.autosave).save_if_due(session);
+        self.screen.tell(word);
     }
 
     fn is_over(&self) -> bool {

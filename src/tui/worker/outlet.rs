@@ -15,15 +15,17 @@ use crate::scenario::Scenario;
 use crate::scenario::session::Session;
 use crate::studies::theory::Theory;
 use crate::tui::event::Event;
-use crate::tui::frame::{Activity, Frame, Slot};
+use crate::tui::frame::{Frame, Slot};
 use crate::tui::line::one_line;
 
 /// Sends frames through a slot, at most one per interval, and everything else as events.
-pub(super) struct Outlet {
+pub struct Outlet {
     slot: Arc<Slot>,
     pub events: Sender<Event>,
     interval: Duration,
     shown: Instant,
+    /// The cycles of this run's snapshots, for the timeline.
+    pub snapshots: Vec<f64>,
 }
 
 impl Outlet {
@@ -33,6 +35,7 @@ impl Outlet {
             events,
             interval,
             shown: Instant::now(),
+            snapshots: Vec::new(),
         }
     }
 
@@ -56,6 +59,13 @@ impl Outlet {
     /// Shows the user a notice.
     pub fn notice(&self, text: &str) {
         self.send(Event::Notice(one_line(text)));
+    }
+
+    /// Shows the user a notice, if there is one.
+    pub fn tell(&self, notice: Option<impl AsRef<str>>) {
+        if let Some(notice) = notice {
+            self.notice(notice.as_ref());
+        }
     }
 
     /// Returns the value, or shows the error as a notice.
@@ -87,8 +97,8 @@ impl Worker {
 
     /// Returns the present frame after all companions have caught up.
     pub(super) fn settled_frame(&mut self) -> Arc<Frame> {
-        while (self.is_awaited() || self.stop_at.is_some()) && !self.is_over() {
-            match self.stop_at {
+        while (self.is_awaited() || self.pace.stop_at.is_some()) && !self.is_over() {
+            match self.pace.stop_at {
                 Some(_) => self.step(),
                 None => self.catch_up(),
             }
@@ -109,9 +119,8 @@ impl Worker {
             let poisson = simulation.setup().material.poisson();
             Arc::new(observation.spring_load(poisson))
         });
-        let is_running = self.activity == Activity::Running;
-        let rival = self.rival.as_ref().map(|rival| &rival.run);
-        let ghosts = self.ghosts.iter().chain(&self.before).chain(rival);
+        let ghosts = self.ghosts.all();
+        let present = self.past.present();
         Frame {
             run: Run {
                 ghosts: ghosts.map(|ghost| ghost.curves(curves)).collect(),
@@ -124,17 +133,22 @@ impl Worker {
             cycle_loads: self.cycle_loads.all(),
             found_peaks: OnceLock::new(),
             live: self.live(observation),
-            shows_ends: self.clock.shows_ends(simulation),
-            activity: self.activity.clone(),
-            pace: self.clock.pace(),
-            speed: self.clock.speed.filter(|_| is_running),
-            step_cost: self.clock.step_cost,
-            present: self.past.present(),
+            shows_ends: self.pace.shows_ends(simulation),
+            activity: self.pace.activity.clone(),
+            pace: self.pace.requested(),
+            speed: self.pace.speed.filter(|_| self.pace.is_running()),
+            step_cost: self.pace.step_cost,
+            present,
             changes: self.past.line(&self.run).session.changes().to_vec(),
-            snapshots: self.snapshots.clone(),
-            errors: self.errors(),
+            snapshots: self.screen.snapshots.clone(),
+            errors: match &self.twin {
+                // The twin has compared with the present, not with the past.
+                _ if present.is_some() => Err("of the present: ] leads there".into()),
+                Some(twin) => twin.errors(self.run.cycle()),
+                None => Err("this run is too coarse to be halved".into()),
+            },
             checks: self.run.session.checks(),
-            compares: rival.is_some(),
+            compares: self.ghosts.rival.is_some(),
         }
     }
 

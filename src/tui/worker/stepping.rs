@@ -24,38 +24,10 @@ const AT_LEAST: Duration = Duration::from_secs(1);
 const SHORTEST_PLAN: f64 = 1000.0;
 
 impl Worker {
-    /// Runs or pauses.
-    pub fn run_or_pause(&mut self) {
-        self.stop_at = None;
-        match self.activity {
-            Activity::Running => self.activity = Activity::Paused,
-            Activity::Done if !self.told_of_end => {
-                self.told_of_end = true;
-                self.screen
-                    .notice("planned end reached; Space again continues without limit, r restarts");
-            }
-            Activity::Paused | Activity::Done => self.activity = Activity::Running,
-            Activity::Stopped(_) => self.screen.notice(BROKEN_DOWN),
-        }
-    }
-
-    /// Toggles between frames at a fixed phase of the motion and frames at any phase.
-    pub fn hold_or_release_phase(&mut self) {
-        self.clock.holds_phase ^= true;
-        self.screen.notice(if self.clock.holds_phase {
-            "above 2 cycles/s, all frames show the same phase of the motion"
-        } else {
-            "frames at any phase: in a fast run the motion seems to jump"
-        });
-    }
-
     /// Returns how long to wait for orders before the next step or checkpoint is due; the maximum if none is.
     pub(super) fn until_next_step(&self) -> Duration {
-        if self.activity == Activity::Running {
-            let ahead = match self.stop_at {
-                Some(_) => 0.0,
-                None => self.clock.ahead(self.run.simulation()),
-            };
+        if self.pace.is_running() {
+            let ahead = self.pace.ahead(self.run.simulation());
             return Duration::from_secs_f64(ahead.clamp(0.0, 0.1));
         }
         let wait = locked(&self.autosave).time_until_due(&self.past.line(&self.run).session);
@@ -65,9 +37,9 @@ impl Worker {
     /// Steps while the pace allows, but no longer than orders may wait.
     pub(super) fn step_for_a_while(&mut self) {
         let start = Instant::now();
-        while self.activity == Activity::Running && start.elapsed() < STINT {
+        while self.pace.is_running() && start.elapsed() < STINT {
             let simulation = self.run.simulation();
-            if self.stop_at.is_none() && self.clock.ahead(simulation) > 0.0 {
+            if self.pace.ahead(simulation) > 0.0 {
                 break;
             }
             let before = simulation.cycle();
@@ -78,21 +50,21 @@ impl Worker {
             self.step();
             let simulation = self.run.simulation();
             let is_end = ends_cycle(before, simulation.cycle());
-            let is_shown = if self.clock.shows_ends(simulation) {
+            let is_shown = if self.pace.shows_ends(simulation) {
                 self.screen.is_due()
             } else {
-                self.clock.shows_motion(simulation)
+                self.pace.shows_motion(simulation)
             };
             if is_end && is_shown {
                 self.publish();
             }
         }
         let simulation = self.run.simulation();
-        self.clock.measure(simulation, start.elapsed());
-        let waits = self.clock.shows_ends(simulation) && !self.screen.is_due_after(AT_LEAST);
-        self.run.trend.step_cost = self.clock.step_cost;
+        self.pace.measure(simulation, start.elapsed());
+        let waits = self.pace.shows_ends(simulation) && !self.screen.is_due_after(AT_LEAST);
+        self.run.trend.step_cost = self.pace.step_cost;
         self.follow_with_twin(TWIN_STINT);
-        if self.screen.is_due() && !waits || self.activity != Activity::Running {
+        if self.screen.is_due() && !waits || !self.pace.is_running() {
             self.publish();
         }
     }
@@ -103,38 +75,38 @@ impl Worker {
             self.screen.notice(&word);
         }
         if self.run.simulation().steps() == 0 {
-            self.store();
+            self.past.store(&self.run);
         }
-        self.clock.stepped = Instant::now();
+        self.pace.stepped = Instant::now();
         let before = self.run.cycle();
         if let Err(error) = self.run.step_until(self.goal()) {
-            self.activity = Activity::Stopped(error.to_string());
+            self.pace.activity = Activity::Stopped(error.to_string());
             return;
         }
         let cycle = self.run.cycle();
         if self.curves.contains(Curves::SPRINGS) {
             self.cycle_loads.note(self.run.simulation());
         }
-        let is_running = self.activity == Activity::Running;
+        let is_running = self.pace.is_running();
         let (ends_cycle, is_end) = (ends_cycle(before, cycle), self.has_reached_end(before));
-        let twin = self.twin.as_mut();
-        if let Some(twin) = twin.filter(|_| ends_cycle || is_end) {
+        if ends_cycle || is_end {
             // Manual steps are few, so the twin compares after each of them.
-            twin.look_at(&self.run.session, is_end || !is_running);
+            self.compare_twin(is_end || !is_running);
         }
-        self.follow();
-        if ends_cycle && self.kept_at.elapsed() > APART {
-            self.store();
+        self.ghosts.follow(cycle);
+        if ends_cycle && self.past.stored.is_none_or(|at| at.elapsed() > APART) {
+            self.past.store(&self.run);
         }
-        let goes_on = self.stop_at.is_some_and(|stop| stop > cycle);
+        let pace = &mut self.pace;
+        let goes_on = pace.stop_at.is_some_and(|stop| stop > cycle);
         if is_end && is_running && !goes_on {
-            (self.activity, self.told_of_end) = (Activity::Done, false);
+            (pace.activity, pace.is_end_known) = (Activity::Done, false);
         }
-        if self.stop_at.take_if(|stop| *stop <= cycle).is_some() {
-            if self.activity == Activity::Running {
-                self.activity = Activity::Paused;
+        if pace.stop_at.take_if(|stop| *stop <= cycle).is_some() {
+            if pace.is_running() {
+                pace.activity = Activity::Paused;
             }
-            self.store();
+            self.past.store(&self.run);
         }
     }
 
@@ -149,7 +121,7 @@ impl Worker {
             Some(end) if simulation.may_jump() => now + end.max(SHORTEST_PLAN).ceil(),
             _ => f64::INFINITY,
         };
-        self.stop_at.map_or(goal, |stop| goal.min(stop))
+        self.pace.stop_at.map_or(goal, |stop| goal.min(stop))
     }
 
     /// Whether the planned end lies between the cycle `before` and now.
@@ -160,20 +132,20 @@ impl Worker {
         end.is_some_and(|end| before < end && simulation.cycle() >= end)
     }
 
-    /// Pauses and steps until `done`, called with the cycles before and now, returns true.
-    pub(in crate::tui) fn step_manually(&mut self, done: impl Fn(f64, f64) -> bool) {
-        if matches!(self.activity, Activity::Stopped(_)) {
+    /// Pauses and steps until `is_done`, called with the cycles before and now, returns true.
+    pub(super) fn step_manually(&mut self, is_done: fn(f64, f64) -> bool) {
+        if matches!(self.pace.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);
         }
-        (self.activity, self.stop_at) = (Activity::Paused, None);
+        (self.pace.activity, self.pace.stop_at) = (Activity::Paused, None);
         let before = self.run.cycle();
         loop {
             self.step();
-            let is_done = done(before, self.run.cycle());
-            if self.activity != Activity::Paused || is_done || self.is_over() {
+            let has_stopped = self.pace.activity != Activity::Paused || self.is_over();
+            if has_stopped || is_done(before, self.run.cycle()) {
                 break;
             }
         }
-        self.store();
+        self.past.store(&self.run);
     }
 }

@@ -66,7 +66,7 @@ impl WorkerThread {
     /// Interrupts the worker and tells it to quit.
     pub fn end(&self) {
         self.halt.store(true, Ordering::SeqCst);
-        self.orders.send(Worker::quit);
+        self.orders.send(Order::Quit);
     }
 
     /// Returns where the session is saved. Does not wait for a worker in the middle of a long step, but saves its most

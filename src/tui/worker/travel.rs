@@ -1,22 +1,14 @@
 //! Time travel: back to earlier states, and on from there.
 
-use std::sync::Arc;
-use std::time::Instant;
-
 use super::outlet::Facts;
 use super::{BROKEN_DOWN, Worker};
 use crate::panics::locked;
 use crate::scenario::Change;
 use crate::tui::frame::Activity;
-use crate::tui::undo::{Kept, Past};
+use crate::tui::trend::Recorded;
+use crate::tui::undo::Way;
 
 impl Worker {
-    /// Stores the present state.
-    pub(super) fn store(&mut self) {
-        self.past.store(&self.run);
-        self.kept_at = Instant::now();
-    }
-
     /// Continues from the state on the screen, if it is in the past. The user can go back to the run that it leaves;
     /// returns the notice about that.
     pub(super) fn branch(&mut self) -> Option<String> {
@@ -31,39 +23,37 @@ impl Worker {
     }
 
     /// Shows another stored state and pauses, or says why there is none.
-    pub(in crate::tui) fn travel(
-        &mut self,
-        way: impl FnOnce(&mut Past) -> Option<Arc<Kept>>,
-        end: &str,
-    ) {
-        self.store();
-        let Some(kept) = way(&mut self.past) else {
-            return self.screen.notice(end);
-        };
-        self.run = kept.run.clone();
-        self.stop_at = None;
-        self.rival = None;
-        self.activity = Activity::Paused;
-        self.facts = Facts::new(&self.run.session);
+    pub(super) fn travel(&mut self, way: Way) {
+        self.past.store(&self.run);
+        match self.past.visit(way) {
+            Ok(kept) => self.show(kept.run.clone()),
+            Err(end) => return self.screen.notice(end),
+        }
+        (self.pace.activity, self.pace.stop_at) = (Activity::Paused, None);
+        self.ghosts.rival = None;
     }
-}
 
-impl Worker {
+    /// Shows a state of the past.
+    fn show(&mut self, run: Recorded) {
+        self.facts = Facts::new(&run.session);
+        self.run = run;
+    }
+
     /// Shows the run at `cycle`. It steps to a past cycle from the stored state before it, and runs to a future one at
     /// full speed.
-    pub(in crate::tui) fn go_to(&mut self, cycle: f64) {
+    pub(super) fn go_to(&mut self, cycle: f64) {
         let end = self.past.line(&self.run).cycle();
         if cycle <= end {
-            self.travel(|past| past.visit_before(cycle), "no state is stored");
+            self.travel(Way::Before(cycle));
             return self.step_within_past(cycle);
         }
         if self.past.present().is_some() {
-            self.travel(Past::visit_present, "no state is stored");
+            self.travel(Way::Present);
         }
-        if matches!(self.activity, Activity::Stopped(_)) {
+        if matches!(self.pace.activity, Activity::Stopped(_)) {
             return self.screen.notice(BROKEN_DOWN);
         }
-        (self.activity, self.stop_at) = (Activity::Running, Some(cycle));
+        (self.pace.activity, self.pace.stop_at) = (Activity::Running, Some(cycle));
         let told = format!("on the way to cycle {cycle}; Space stops");
         self.screen.notice(&told);
     }
@@ -72,14 +62,9 @@ impl Worker {
     fn step_within_past(&mut self, cycle: f64) {
         let (mut run, before) = (self.run.clone(), self.run.cycle());
         let made = run.session.changes().len();
-        let changes = self
-            .past
-            .line(&self.run)
-            .session
-            .changes()
-            .iter()
-            .skip(made);
-        let due = changes.take_while(|change| change.at_cycle <= cycle);
+        let changes = self.past.line(&self.run).session.changes();
+        let later = changes.iter().skip(made);
+        let due = later.take_while(|change| change.at_cycle <= cycle);
         let due: Vec<Change> = due.cloned().collect();
         let ends = due.iter().map(|change| (change.at_cycle, Some(change)));
         for (end, change) in ends.chain([(cycle, None)]) {
@@ -96,13 +81,12 @@ impl Worker {
         }
         if run.cycle() > before || !due.is_empty() {
             self.past.insert(run.clone());
-            self.run = run;
-            self.facts = Facts::new(&self.run.session);
+            self.show(run);
         }
     }
 
     /// Goes to the next or the previous cycle at which the scenario writes a state.
-    pub(in crate::tui) fn go_to_planned(&mut self, forward: bool) {
+    pub(super) fn go_to_planned(&mut self, forward: bool) {
         let (now, plan) = (self.run.cycle(), self.run.session.loaded().run());
         let planned = plan.snapshot_at.iter().chain(&plan.cycles).copied();
         let next = if forward {

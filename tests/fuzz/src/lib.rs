@@ -13,7 +13,7 @@ use mdr_tui::scenario::{Scenario, preset};
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
-use mdr_tui::tui::worker::{Orders, Worker};
+use mdr_tui::tui::worker::{Order, Orders, Worker};
 use mdr_tui::tui::{Stroke, press, text};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
@@ -151,7 +151,7 @@ pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) 
         let mut app = App::new(theme, orders.clone(), first);
         press(&mut app, strokes, size, &inbox).map(|size| text(&app, size))
     });
-    orders.send(Worker::quit);
+    orders.send(Order::Quit);
     if let Err(panic) = thread.join() {
         std::panic::resume_unwind(panic);
     }

@@ -30,7 +30,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::Frame;
 use mdr_tui::tui::keys::parse_script;
-use mdr_tui::tui::worker::{Orders, Worker};
+use mdr_tui::tui::worker::{Order, Orders, Worker};
 use mdr_tui::wear::WearLaw;
 use ratatui::layout::Size;
 
@@ -403,7 +403,7 @@ impl LiveWorker {
 
 impl Drop for LiveWorker {
     fn drop(&mut self) {
-        self.orders.send(Worker::quit);
+        self.orders.send(Order::Quit);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }

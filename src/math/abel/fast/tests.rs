@@ -247,7 +247,7 @@ fn large_grids_are_no_trouble() {
     assert!(is(&out, &|t| 2.0 * FRAC_1_PI * (1.0 - t).sqrt()));
 }
 
-/// Compares rows of noise with their sums of closed forms.
+/// Transforms noise, and compares some nodes with sums of closed forms.
 #[test]
 fn large_grids_keep_the_tolerance_node_by_node() {
     let cells = 40_000;

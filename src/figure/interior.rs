@@ -1,7 +1,7 @@
 //! The inside of a chart on paper: the positions of its values, and the visible parts of its curves.
 
 use super::canvas::Canvas;
-use super::look::Look;
+use super::look::FigureStyle;
 use crate::plot::Curve;
 use crate::plot::segment::clip;
 use crate::plot::theme::Role;
@@ -12,7 +12,7 @@ pub(super) const BAR: f64 = 0.2;
 const SYMBOL: f64 = 0.45;
 
 /// The inside of a chart, with its two axes.
-pub(super) struct Frame {
+pub(super) struct Interior {
     pub left: f64,
     pub top: f64,
     pub size: [f64; 2],
@@ -20,7 +20,7 @@ pub(super) struct Frame {
     pub downwards: bool,
 }
 
-impl Frame {
+impl Interior {
     pub fn right(&self) -> f64 {
         self.left + self.size[0]
     }
@@ -49,7 +49,7 @@ impl Frame {
     }
 
     /// Draws the points of a curve that lie inside, with their error bars, and returns their positions.
-    pub fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &Look) -> Vec<[f64; 2]> {
+    pub fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &FigureStyle) -> Vec<[f64; 2]> {
         let (ink, lowest) = (look.color(curve.role), self.rulers[1].window.bounds[0]);
         // Cuts bars at the lower end: on a logarithmic axis, values that are not positive have no position.
         let cut = |y: f64| if y < lowest { lowest } else { y };

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
-use super::rung::{Rung, Top, run};
+use super::rung::{Rung, Top, run_in_part};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
@@ -34,6 +34,10 @@ const LEAST_GAIN: f64 = 1.5;
 /// Cells and steps of the run that places the first nodes, relative to the first rung: it needs enough cells to resolve
 /// the scar.
 const PILOT: Ratio = [1.0, 0.5, 1.0];
+
+/// The most jumps of that run. On few cells and steps, jumps may swing about the depth at which a node loses contact for
+/// ever, a few cycles each (Fig. 3 at 10⁶ cycles: 73,763 jumps); by then the scar has the shape that cells need.
+const PILOT_JUMPS: u64 = 500;
 
 /// Time budgeted for a rung that is run again, in units of its time: above 2, since no two runs take the same.
 const TWICE: f64 = 2.2;
@@ -179,7 +183,7 @@ pub fn climb(
         cycles,
         accuracy,
         budget,
-        run: &run,
+        run: &run_in_part,
         go_on,
         spent: &|| clock() - begin,
         failures: 0,
@@ -198,8 +202,8 @@ enum Failure {
     Over(SessionError),
 }
 
-/// Runs a scenario to a cycle while its callback returns true.
-type Run<'a> = dyn Fn(&Scenario, f64, &dyn Fn() -> bool) -> Result<Session, SessionError> + 'a;
+/// Runs a scenario to a cycle, or to a number of jumps before it, while its callback returns true.
+type Run<'a> = dyn Fn(&Scenario, f64, u64, &dyn Fn() -> bool) -> Result<Session, SessionError> + 'a;
 
 /// Chooses levels, runs and judges them.
 struct Ladder<'a> {
@@ -305,7 +309,7 @@ impl Ladder<'_> {
         base.nodes = None;
         let placing = self.placing().is_some();
         if placing {
-            let pilot = self.run(&base.refined(PILOT))?;
+            let pilot = self.run_in_part(&base.refined(PILOT), PILOT_JUMPS)?;
             base.choose_tolerance(aim, &pilot.outcome);
             base.nodes = self.placed(&pilot.outcome, base.points);
         }
@@ -330,6 +334,10 @@ impl Ladder<'_> {
 
     /// Runs a level, and abandons it when it exceeds the remaining budget.
     fn run(&mut self, level: &Level) -> Result<Rung, Failure> {
+        self.run_in_part(level, u64::MAX)
+    }
+
+    fn run_in_part(&mut self, level: &Level, most_jumps: u64) -> Result<Rung, Failure> {
         let (go_on, spent) = (self.go_on, self.spent);
         let start = spent();
         let deadline = start + self.budget.left(start);
@@ -337,7 +345,9 @@ impl Ladder<'_> {
         let is_late = || spent() > deadline || keeps && !go_on();
         let scenario = level.of_scenario(self.scenario);
         let scenario = scenario.map_err(|refused| Failure::Over(refused.into()))?;
-        let ended = (self.run)(&scenario, self.cycles, &|| go_on() && !is_late());
+        let ended = (self.run)(&scenario, self.cycles, most_jumps, &|| {
+            go_on() && !is_late()
+        });
         let seconds = spent() - start;
         match ended {
             Ok(session) => {
@@ -405,11 +415,16 @@ impl Ladder<'_> {
             }
         }
         let outcome = &top.rung.outcome;
+        let known = top.error().promised().max(MARGIN * self.accuracy);
         if top.is_unworn() {
             finer = [STRIDE.1, STRIDE.0, 1.0];
-        } else if finer == [1.0; 3] && outcome.imbalance > MARGIN * self.accuracy {
-            // V and k E_d differ if an edge lies between two nodes, or if a step or a jump is too long.
-            finer = [STRIDE.0; 3];
+        } else if outcome.imbalance > known {
+            // V and k E_d differ if an edge lies between two nodes, or if a step or a jump is too long: of what the
+            // levels do not tell apart, shorter jumps cost the least.
+            if finer == [1.0; 3] {
+                finer = [STRIDE.0; 3];
+            }
+            finer[2] = finer[2].max(STRIDE.0);
         }
         self.finer(top, finer)
     }
@@ -471,7 +486,7 @@ mod tests {
     #[test]
     fn failures_climb_too_and_end() {
         let tried = RefCell::new(Vec::new());
-        let run = |scenario: &Scenario, _: f64, _: &dyn Fn() -> bool| {
+        let run = |scenario: &Scenario, _: f64, _: u64, _: &dyn Fn() -> bool| {
             tried.borrow_mut().push(Level::from_scenario(scenario));
             Err(SessionError::Scenario(Refusal::from("broke".to_owned())))
         };

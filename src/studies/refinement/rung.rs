@@ -86,7 +86,21 @@ pub fn run(
     cycles: f64,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Session, SessionError> {
+    run_in_part(scenario, cycles, u64::MAX, go_on)
+}
+
+/// As [`run`], but ends before `cycles` after `most_jumps`.
+pub(super) fn run_in_part(
+    scenario: &Scenario,
+    cycles: f64,
+    most_jumps: u64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Session, SessionError> {
     let mut session = Session::start(scenario.clone())?;
-    session.advance_while(cycles, |_| go_on())?;
-    Ok(session)
+    let has_room = |session: &Session| session.simulation().stats().jumps < most_jumps;
+    let ended = session.advance_while(cycles, |session| go_on() && has_room(session));
+    match ended {
+        Err(SessionError::Interrupted) if go_on() && !has_room(&session) => Ok(session),
+        ended => ended.map(|()| session),
+    }
 }

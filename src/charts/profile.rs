@@ -68,11 +68,12 @@ fn make(run: &Run, view: &View) -> Result<Chart, &'static str> {
     let times = times(run, view, unworn, wear);
     let worn = match view.medium {
         Medium::Screen(_) => {
-            let worn = unworn.iter().zip(wear);
-            let worn: Vec<f64> = worn.map(|(f0, wear)| f0 + times * wear).collect();
-            let worn = Curve::new("worn", radii, worn, Role::Profile);
+            let nodes = unworn.iter().zip(wear);
+            let shown: Vec<f64> = nodes.map(|(f0, wear)| f0 + times * wear).collect();
+            let curve = Curve::new("worn", radii, shown, Role::Profile);
             vec![
-                worn.magnified(times, column(Column::Profile))
+                curve
+                    .magnified(times, column(Column::Profile))
                     .filled(unworn),
             ]
         }

@@ -19,16 +19,19 @@ pub struct Naming {
 impl Naming {
     /// Returns what the user would write to name `fields` and their `units`; either may be empty.
     pub(super) fn example(&self, fields: &str, units: &str) -> String {
-        let given = [("fields", fields), ("units", units)];
-        let given = given.iter().filter(|(_, value)| !value.is_empty());
+        let both = [("fields", fields), ("units", units)];
+        let given = both.iter().filter(|(_, value)| !value.is_empty());
         match self.key {
             Some(key) => {
-                let given = given.map(|(name, value)| format!(", {name} = \"{value}\""));
-                format!("{key} = {{ file = \"...\"{} }}", given.collect::<String>())
+                let entries = given.map(|(name, value)| format!(", {name} = \"{value}\""));
+                format!(
+                    "{key} = {{ file = \"...\"{} }}",
+                    entries.collect::<String>()
+                )
             }
             None => {
-                let given = given.map(|(name, value)| format!("--{name} {value}"));
-                given.collect::<Vec<_>>().join(" ")
+                let options = given.map(|(name, value)| format!("--{name} {value}"));
+                options.collect::<Vec<_>>().join(" ")
             }
         }
     }

@@ -45,14 +45,14 @@ pub struct Solved {
 /// Returns the tasks of some problems, by problem, method and
 /// rising N; `long` ones, which take minutes, only on request.
 pub fn tasks(problems: &[Problem], points: &[usize], long: bool) -> Vec<Task> {
-    let points: BTreeSet<usize> = points.iter().copied().collect();
+    let rising: BTreeSet<usize> = points.iter().copied().collect();
     let wanted = |problem: &&Problem| problems.contains(problem);
     let mut tasks = Vec::new();
     for &problem in Problem::ALL.iter().filter(wanted) {
         for &method in problem.methods() {
-            let points = points.iter().copied();
-            let points = points.filter(|&points| long || !problem.is_long(points));
-            tasks.extend(points.map(|points| Task {
+            let short = |points: &usize| long || !problem.is_long(*points);
+            let chosen = rising.iter().copied().filter(short);
+            tasks.extend(chosen.map(|points| Task {
                 problem,
                 method,
                 points,

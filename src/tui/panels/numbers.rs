@@ -48,19 +48,18 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
         let (column, row) = (i / area.height, i % area.height);
         let (x, y) = (area.x + column * width, area.y + row);
         let cell = Rect::new(x, y, width.saturating_sub(1), 1);
-        let name = shown.frame.live.observation.geometry.term(name);
-        let [name, value] = [&name, &value].map(|text| canvas.printable(text));
+        let term = shown.frame.live.observation.geometry.term(name);
+        let [term, value] = [&term, &value].map(|text| canvas.printable(text));
         // The name is cut rather than the value: its last words and the symbol say the most.
         let room = usize::from(cell.width).saturating_sub(value.chars().count() + 2);
-        let mut name = name.as_str();
+        let mut name = term.as_str();
         while name.chars().count() > room
             && let Some((_, rest)) = name.split_once(' ')
         {
             name = rest;
         }
-        let name = format!(" {name:room$.room$} ");
-        let name = Span::styled(name, canvas.style(Role::Quiet));
-        canvas.at(cell).show(Line::from(vec![name, value.into()]));
+        let label = Span::styled(format!(" {name:room$.room$} "), canvas.style(Role::Quiet));
+        canvas.at(cell).show(Line::from(vec![label, value.into()]));
     }
     // Writes into the rule, since every row is needed.
     let rule = Rect::new(area.x, area.y.saturating_sub(1), area.width, 1);

@@ -523,6 +523,8 @@ fn terminals_of_any_kind_are_drawn_on() {
 #[test]
 fn sizes_of_all_kinds_with_keys_break_nothing() {
     let mut terminal = by_bash(Line::default(), "stty cols 0 rows 0; exec BIN", 80);
+    // Keys that come earlier are echoed, and found at the end.
+    terminal.wait_until("raw mode", |_| !terminal.has_its_modes_back());
     terminal.wait_for_silence_of(Duration::from_millis(300));
     let odd = [(1, 1), (500, 200), (65535, 1), (1, 65535), (2, 3)];
     let mut random = Random::new(3);

@@ -2,6 +2,7 @@
 
 use super::{F_X, NO_CYCLE, NO_MOTION, Recipe, U_X, View};
 use crate::charts::run::Run;
+use crate::math::scan::thinned;
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
 use crate::plot::{Axis, Chart, Curve};
@@ -35,12 +36,7 @@ fn make(_: &Run, view: &View) -> Result<Chart, &'static str> {
 
 /// Draws a log of loops, and over it the loops of another one of the same cycles; `None` without a loop.
 pub fn of_logs(logs: [&[&Loop]; 2]) -> Option<Chart> {
-    let logs = logs.map(|log| {
-        let every = log.len().div_ceil(MOST).max(1);
-        let mut loops: Vec<&Loop> = log.iter().rev().step_by(every).copied().collect();
-        loops.reverse();
-        loops
-    });
+    let logs = logs.map(|log| thinned(log, MOST));
     let (first, last) = logs[0].first().zip(logs[0].last())?;
     let forces = logs.iter().flatten().flat_map(|one| &one.forces);
     let most = forces.map(|force| force.abs()).fold(0.0, f64::max);

@@ -4,6 +4,7 @@ use anyhow::{Context, Result, ensure};
 use serde::{Serialize, Serializer};
 
 use crate::charts::fretting_log;
+use crate::math::scan::thinned;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::reading::Column;
@@ -93,12 +94,9 @@ fn printed() -> impl Iterator<Item = Column> {
     COLUMNS.into_iter().filter(|column| !is_zero(*column))
 }
 
-/// Returns the cycles to show: the last one, and others at even distances.
+/// Returns the cycles to show.
 fn shown<T>(cycles: &[T]) -> Vec<&T> {
-    let every = cycles.len().div_ceil(MOST_ROWS).max(1);
-    let mut shown: Vec<&T> = cycles.iter().rev().step_by(every).collect();
-    shown.reverse();
-    shown
+    thinned(cycles, MOST_ROWS)
 }
 
 impl Cycles {

@@ -134,6 +134,14 @@ pub fn rms(values: &[f64]) -> f64 {
     (squares / values.len().max(1) as f64).sqrt()
 }
 
+/// Returns the last of `values` and others at even distances before it, in their order: at most `most` of them.
+pub fn thinned<T>(values: &[T], most: usize) -> Vec<&T> {
+    let every = values.len().div_ceil(most).max(1);
+    let mut kept: Vec<&T> = values.iter().rev().step_by(every).collect();
+    kept.reverse();
+    kept
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,6 +167,13 @@ mod tests {
     fn elements_go_around() {
         assert_eq!(shifted(&[1, 2, 3], 3, 1), 1);
         assert_eq!(shifted(&[1, 2, 3], 1, -1), 3);
+    }
+
+    #[test]
+    fn the_last_is_kept_and_no_more_than_asked_for() {
+        assert_eq!(thinned(&[1, 2, 3, 4, 5], 2), [&2, &5]);
+        assert_eq!(thinned(&[1, 2, 3], 3), [&1, &2, &3]);
+        assert!(thinned::<u8>(&[], 3).is_empty());
     }
 
     #[test]

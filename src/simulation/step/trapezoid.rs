@@ -15,6 +15,7 @@
 //! Steps end at every turning point of d ± κu_x, where stick and slip change. A spring that begins to slip inside the
 //! step carries τ = μp while it slips, not the mean of its loads before and after. Hence the outer zone takes the mean
 //! of μp, which alone reduces the error 16-fold at 100 steps per cycle.
+//!
 //! # Stability
 //!
 //! At the [stiffness](super::super::wear::Increment::find_stiffness) z, steps stay clean up to z = 0.7. Stiffer ones are

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use thiserror::Error;
 
+use super::budget::Budget;
 use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
 use super::rung::{Rung, Top, run_in_part};
@@ -38,9 +39,6 @@ const PILOT: Ratio = [1.0, 0.5, 1.0];
 /// The most jumps of that run. On few cells and steps, jumps may swing about the depth at which a node loses contact for
 /// ever, a few cycles each (Fig. 3 at 10⁶ cycles: 73,763 jumps); by then the scar has the shape that cells need.
 const PILOT_JUMPS: u64 = 500;
-
-/// Time budgeted for a rung that is run again, in units of its time: above 2, since no two runs take the same.
-const TWICE: f64 = 2.2;
 
 /// Runs of at least this many periods of the motion jump over cycles.
 const WORTH_JUMPING: f64 = 100.0;
@@ -100,50 +98,6 @@ pub enum SearchError {
     /// A level was refused, no level finished, or an interrupt.
     #[error(transparent)]
     Session(#[from] SessionError),
-}
-
-/// How long a search may take.
-#[derive(Debug, Clone, Copy)]
-pub struct Budget {
-    seconds: f64,
-    /// Whether the seconds must also suffice for a run on the level found.
-    runs_again: bool,
-}
-
-impl Budget {
-    /// No limit.
-    pub const UNLIMITED: Self = Self::of_search(f64::INFINITY);
-
-    /// Limits the search alone to this many seconds.
-    pub const fn of_search(seconds: f64) -> Self {
-        Self {
-            seconds,
-            runs_again: false,
-        }
-    }
-
-    /// Limits the search plus the run that follows on the level found to this many seconds. An interrupt ends such a
-    /// search with the best level so far.
-    pub const fn for_run(seconds: f64) -> Self {
-        Self {
-            seconds,
-            runs_again: true,
-        }
-    }
-
-    /// Returns the seconds, which may be infinite.
-    pub fn seconds(self) -> f64 {
-        self.seconds
-    }
-
-    fn is_limited(self) -> bool {
-        self.seconds.is_finite()
-    }
-
-    /// Returns the time that a level may take after `spent` seconds.
-    fn left(self, spent: f64) -> f64 {
-        (self.seconds - spent) / if self.runs_again { TWICE } else { 1.0 }
-    }
 }
 
 /// Runs `scenario` over `cycles` on finer and finer levels until the worn depth and the volume have an estimated error

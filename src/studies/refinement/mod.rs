@@ -3,6 +3,7 @@
 //! This assumes nothing about a scenario: it [climbs](climb) a ladder of levels from coarse to fine until the measured
 //! error is as small as `numerics.accuracy` requires.
 
+mod budget;
 mod estimate;
 mod ladder;
 mod level;
@@ -10,8 +11,9 @@ mod outcome;
 mod resolve;
 mod rung;
 
+pub use budget::Budget;
 pub use estimate::{by_twin, estimate, twin};
-pub use ladder::{Budget, Reached, SearchError, Verdict, climb, run_to_accuracy};
+pub use ladder::{Reached, SearchError, Verdict, climb, run_to_accuracy};
 pub use level::Level;
 pub use outcome::{Difference, Outcome};
 pub use resolve::{Resolved, resolve, resolve_soon, statements_of};

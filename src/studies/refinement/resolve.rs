@@ -1,6 +1,7 @@
 //! Finds points and steps for an accuracy, and words the result for files and messages.
 
-use super::ladder::{Budget, Reached, SearchError, Verdict, run_to_accuracy};
+use super::budget::Budget;
+use super::ladder::{Reached, SearchError, Verdict, run_to_accuracy};
 use super::level::Level;
 use super::outcome::Difference;
 use crate::reading::Quantity;

@@ -5,7 +5,7 @@
 //! depth and load give this in closed form; for a sphere, u_t ∝ N^(2/3). The second border belongs to the present, worn
 //! profile and passes through the present load and u_t.
 
-use super::{NO_CYCLE, NO_MOTION, Recipe, View};
+use super::{NO_CYCLE, NO_MOTION, Recipe, Subject, View};
 use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
@@ -15,6 +15,7 @@ use crate::reading::{Column, Curves};
 pub static RECIPE: Recipe = Recipe {
     title: "running-condition map",
     needs: Curves::SPRINGS,
+    subject: Subject::Motion,
     text: "Load and displacement amplitude of the cycles so far. Right of the border the whole contact slips \
            in each cycle; left of it the middle sticks. The border is dashed for the unworn shape, solid for \
            the present one.",

@@ -1,6 +1,6 @@
 //! The worn depth f − f₀ over the radius.
 
-use super::{A, BAND, C, NO_STATE, Recipe, View, ghosts, limit, of_states, over_r};
+use super::{A, BAND, C, NO_STATE, Recipe, Subject, View, ghosts, limit, of_states, over_r};
 use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::{Chart, Curve};
@@ -13,6 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "worn depth",
     can_be_log: true,
     needs: Curves::PROFILE,
+    subject: Subject::Wear,
     overlays: &[Axes::WEAR, Axes::PROFILE],
     text: "How much has worn off, against the radius. Inside the permanent stick zone it is zero; the ring \
            outside it grows towards the limiting shape (t) if the depth is held.",

@@ -1,6 +1,6 @@
 //! The fretting log: loops of F_x over u_x from earlier cycles and the last one, each drawn at the height of its cycle.
 
-use super::{F_X, NO_CYCLE, NO_MOTION, Recipe, U_X, View};
+use super::{F_X, NO_CYCLE, NO_MOTION, Recipe, Subject, U_X, View};
 use crate::charts::run::Run;
 use crate::math::scan::thinned;
 use crate::plot::theme::Role;
@@ -12,6 +12,7 @@ use crate::traces::Loop;
 pub static RECIPE: Recipe = Recipe {
     title: "fretting log",
     is_calm: true,
+    subject: Subject::Motion,
     text: "The fretting loops of earlier cycles and of the last one: each stands at the cycle that it ends, and \
            its height is the tangential force, as large as the note says. Loops that grow fatter or tilt show \
            that the contact changes.",

@@ -2,7 +2,7 @@
 //! dissipates. An arrow marks the present moment and its direction. On a compliant rig the loop that its sensor sees is
 //! drawn too; it has the same forces and the same area as the contact's loop.
 
-use super::{F_X, NO_MOTION, Recipe, U_X, View, ghosts, state_name};
+use super::{F_X, NO_MOTION, Recipe, Subject, U_X, View, ghosts, state_name};
 use crate::charts::{Live, Run};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Point};
@@ -13,6 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     name: "loop",
     title: "fretting loop",
     keeps_abscissa: true,
+    subject: Subject::Motion,
     overlays: &[Axes::LOOP],
     text: "Tangential force against tangential displacement in the last cycle. The area inside is the energy \
            lost to friction. A line means full stick, a thin loop partial slip, a parallelogram with flat ends \

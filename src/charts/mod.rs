@@ -57,6 +57,18 @@ const NO_HISTORY: &str = "there is no history.csv";
 /// Makes a chart of a run, or returns why there is nothing to show.
 pub type Make = fn(&Run, &View) -> Result<Chart, &'static str>;
 
+/// What happens in a scenario; each needs the one before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum Subject {
+    /// Two bodies touch.
+    #[default]
+    Contact,
+    /// They move against each other.
+    Motion,
+    /// They wear.
+    Wear,
+}
+
 /// Everything about a chart or another panel, except its data.
 #[derive(Debug, Clone, Copy)]
 pub struct Recipe<M: ?Sized = Make> {
@@ -78,6 +90,8 @@ pub struct Recipe<M: ?Sized = Make> {
     /// still pictures, and for curves that grow from cycle to cycle. Charts over r are never calm, so that a and c are
     /// at the same place in all of them.
     pub is_calm: bool,
+    /// What must happen for it to show anything.
+    pub subject: Subject,
     /// The data of other sources that it shows; the cursor line compares the first.
     pub overlays: &'static [Axes],
     /// The explanation: a few sentences.
@@ -100,6 +114,7 @@ impl<M> Recipe<M> {
             keeps_abscissa: false,
             has_spikes: false,
             is_calm: false,
+            subject: Subject::Contact,
             overlays: &[],
             text: "",
             symbols: &[],

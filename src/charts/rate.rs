@@ -1,7 +1,7 @@
 //! Worn volume per cycle, over cycles. The incomplete cycle is left out: a cycle wears mostly in a part of it, so a
 //! rate over less than a cycle means little.
 
-use super::{Recipe, View, finished_series, over_cycles};
+use super::{Recipe, Subject, View, finished_series, over_cycles};
 use crate::charts::{Live, Run};
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart};
@@ -14,6 +14,7 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     has_spikes: true,
     is_calm: true,
+    subject: Subject::Wear,
     overlays: &[Axes::VOLUME],
     text: "The wear volume of each cycle. It falls as the ring wears free of load, and stays up if a force \
            keeps pressing the indenter in.",

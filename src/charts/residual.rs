@@ -1,7 +1,7 @@
 //! The relative difference between wear volume and friction work since the start, V/(k E_d) − 1, in thousandths. The
 //! wear law predicts zero.
 
-use super::{E_D, Recipe, V, View, cycles_shown, over_cycles, series};
+use super::{E_D, Recipe, Subject, V, View, cycles_shown, over_cycles, series};
 use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
@@ -12,6 +12,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "V against k E_d",
     has_spikes: true,
     is_calm: true,
+    subject: Subject::Wear,
     text: "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
            difference shows how consistent the numerics are.",
     symbols: &[V, ("k", "wear coefficient"), E_D],

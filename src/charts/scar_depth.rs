@@ -1,6 +1,6 @@
 //! The largest worn depth over cycles.
 
-use super::{NO_STATE, Recipe, View, ghosts, over_cycles, series};
+use super::{NO_STATE, Recipe, Subject, View, ghosts, over_cycles, series};
 use crate::charts::run::Run;
 use crate::math::scan::largest;
 use crate::plot::theme::Role;
@@ -14,6 +14,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "depth over cycles",
     can_be_log: true,
     is_calm: true,
+    subject: Subject::Wear,
     overlays: &[Axes::DEPTH],
     text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point \
            of the scar. Measured depths lie over it with --overlay.",

@@ -1,6 +1,8 @@
 //! The scar's radius and depth over the friction work: what a profilometer and the fretting loops of a test measure.
 
-use super::{E_D, NO_CYCLE, NO_HISTORY, Recipe, View, cycles_shown, ghosts, magnification};
+use super::{
+    E_D, NO_CYCLE, NO_HISTORY, Recipe, Subject, View, cycles_shown, ghosts, magnification,
+};
 use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
@@ -14,6 +16,7 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     keeps_abscissa: true,
     is_calm: true,
+    subject: Subject::Wear,
     overlays: &[DEPTH, RADIUS],
     text: "The outer radius of the wear scar and its depth over the energy that friction has dissipated. At \
            first the ring deepens where it is; then it grows outwards, and the depth per energy falls. The \

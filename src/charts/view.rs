@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Mark, NO_WEAR, Run};
+use super::{Mark, NO_WEAR, Run, Subject};
 use crate::plot::Scale;
 use crate::plot::theme::Role;
 use crate::reading::{Column, CycleFigures, Observation, Zone};
@@ -34,6 +34,15 @@ impl Live {
     /// Whether there is a tangential motion.
     pub fn moves(&self) -> bool {
         self.observation.moment.stick_radius.is_some()
+    }
+
+    /// What happens in the scenario.
+    pub fn subject(&self) -> Subject {
+        match (self.moves(), self.observation.law) {
+            (true, Some(_)) => Subject::Wear,
+            (true, None) => Subject::Motion,
+            (false, _) => Subject::Contact,
+        }
     }
 
     /// The coefficient of friction μ.

@@ -1,7 +1,7 @@
 //! Wear volume V over cycles. V = k E_d from the friction work would differ by less than the width of a line; the panel
 //! beside it shows the difference.
 
-use super::{E_D, Recipe, V, View, ghosts, over_cycles, series};
+use super::{E_D, Recipe, Subject, V, View, ghosts, over_cycles, series};
 use crate::charts::run::Run;
 use crate::plot::theme::Role;
 use crate::plot::units::format_value;
@@ -15,6 +15,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "wear volume",
     can_be_log: true,
     is_calm: true,
+    subject: Subject::Wear,
     overlays: &[Axes::VOLUME],
     text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
     symbols: &[V, E_D],

@@ -108,6 +108,7 @@ impl Explorer {
     pub fn show_frame(&mut self, frame: Arc<Frame>) {
         let origin = frame.live.scenario.origin();
         self.charts.begin(origin);
+        self.stage.happens = frame.live.subject();
         // Another scenario has another tour.
         self.stage.tour.take_if(|tour| tour.origin != origin);
         // The stress is drawn of the calm frame, so its range follows that one.

@@ -8,6 +8,7 @@ use super::layout;
 use super::panels::Panel;
 use super::present;
 use super::tour::{Caption, FIRST, Tour};
+use crate::charts::Subject;
 use crate::math::scan::shifted;
 
 /// Minimum columns for welcoming a new user with the contact, and minimum rows for showing it large in a tour.
@@ -41,6 +42,8 @@ pub struct Stage {
     click_has_zoomed: bool,
     /// Whether the list of parameters is open beside the panels.
     pub has_list: bool,
+    /// What happens in the scenario: panels of more than that are shown only when they have the focus.
+    pub happens: Subject,
     /// The panels to show first; if empty, the order is the declared one.
     first: Vec<Panel>,
 }
@@ -115,9 +118,10 @@ impl Stage {
 
     /// Returns all panels, in the user's order.
     fn order(&self) -> Vec<Panel> {
-        let others = Panel::ALL
-            .iter()
-            .filter(|panel| !self.first.contains(panel));
+        let has_content = |panel: Panel| panel.recipe().subject <= self.happens;
+        let others = Panel::ALL.iter().filter(|panel| {
+            !self.first.contains(panel) && (has_content(**panel) || **panel == self.focus)
+        });
         self.first.iter().chain(others).copied().collect()
     }
 

@@ -53,7 +53,7 @@ fn a_second_method_lies_over_the_plots() {
 
 #[test]
 fn a_cut_through_the_bodies() {
-    let text = shot("hertz", ",,vz", (81, 24));
+    let text = shot("hertz", ",,:focus cross-section<Enter>z", (81, 24));
     for line in panels(&text).iter().skip(4).take(12) {
         // Left and right are alike.
         let line: Vec<char> = format!("{line:81}").chars().collect();

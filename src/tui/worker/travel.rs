@@ -96,9 +96,12 @@ impl Worker {
         };
         match next {
             Some(cycle) => self.go_to(cycle),
-            None => self
-                .screen
-                .notice("no further cycle is planned to be written (run.snapshot_at)"),
+            None => {
+                let side = if forward { "later" } else { "earlier" };
+                self.screen.notice(&format!(
+                    "no {side} cycle is planned to be written (run.snapshot_at)"
+                ));
+            }
         }
     }
 }

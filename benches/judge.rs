@@ -1,10 +1,10 @@
 //! The judge: time to a verified accuracy over random scenarios, what was missed, and how far estimates are right.
 //!
 //! `cargo bench --bench judge -- [--scenarios 100] [--first 0] [--accuracy 1e-2,1e-3] [--limit SECONDS]
-//! [--budget SECONDS] [--all] [--estimate | --checks | --toml]`
+//! [--longest SECONDS] [--all] [--estimate | --checks | --toml]`
 //!
 //! Times are CPU times of this thread, so that other work on the machine hardly counts. `--limit` ends
-//! the study after that many seconds; `--all` prints a line per scenario. `--estimate` judges
+//! the study after that many seconds, `--longest` a search that takes longer; `--all` prints a line per scenario. `--estimate` judges
 //! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy; `--checks` the checks of
 //! runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are long runs, those from 2000000 on
 //! have thresholds, courses, blocks, scars and other kinds in them, and those from 3000000 on are line contacts.
@@ -47,7 +47,7 @@ fn main() {
         number("--scenarios", "100") as u64,
         number("--first", "0") as u64,
     );
-    let (limit, budget) = (number("--limit", "300"), number("--budget", "20"));
+    let (limit, longest) = (number("--limit", "300"), number("--longest", "20"));
     let asks = |name: &str| arguments.iter().any(|argument| argument == name);
     let (shows_all, seeds) = (asks("--all"), first..first + count);
     if asks("--toml") {
@@ -74,7 +74,7 @@ fn main() {
             if cpu_seconds() - begin > share {
                 break;
             }
-            let case = judge(seed, accuracy, budget, &cpu_seconds);
+            let case = judge(seed, accuracy, longest, &cpu_seconds);
             if shows_all {
                 show(&case, accuracy);
             }

@@ -13,11 +13,15 @@ use mdr_tui::studies::refinement::{self, Budget, Difference, Level, Outcome, Ver
 use crate::random::Random;
 use crate::random_scenarios;
 
-/// Ratio of the cells and steps of the fine run to those of the rung that it judges.
-const FINER: f64 = 3.0;
+/// Ratio of the cells and steps of the fine run to those of the rung that it judges: no whole number, so that they share
+/// no moments.
+const FINER: f64 = 3.3;
 
 /// Ratio of the tolerances of their jumps over cycles.
-const FINER_JUMPS: f64 = 30.0;
+const FINER_JUMPS: f64 = 10.0;
+
+/// How much longer a fine run may take than a search; if it does, the scenario is not judged.
+const FINE_RUN: f64 = 3.0;
 
 /// The numbers that a run states with their errors.
 pub const QUANTITIES: &[Quantity] = Quantity::ALL;
@@ -67,38 +71,47 @@ impl Found {
     }
 }
 
-/// Judges the scenario of a seed at one accuracy; `clock` tells seconds of computing.
-pub fn judge(seed: u64, accuracy: f64, budget: f64, clock: &dyn Fn() -> f64) -> Case {
+/// Judges the scenario of a seed at one accuracy, as `run` reaches it; `clock` tells seconds of computing. A ladder that
+/// takes longer than `longest` has no result.
+pub fn judge(seed: u64, accuracy: f64, longest: f64, clock: &dyn Fn() -> f64) -> Case {
     let scenario = random_scenarios::scenario(seed);
     let cycles = scenario.run().cycles.unwrap_or(0.0);
-    let go_on = || true;
+    let end = clock() + longest;
+    let go_on = || clock() < end;
     let climbed = refinement::climb(
         &scenario,
         cycles,
         accuracy,
-        Budget::of_search(budget),
+        Budget::UNLIMITED,
         &go_on,
         clock,
     );
     let reached = climbed.map_err(|error| error.to_string()).map(|reached| {
         let level = reached.rung.level.clone();
         let fine = finer(&level);
-        // Cells of the same spacing, and those of a run that nothing is known of: what either confirms is right.
-        let apart = Level {
-            nodes: None,
-            ..fine.clone()
+        let difference = |fine: &Level| {
+            let end = clock() + FINE_RUN * longest;
+            let session = run_on(&scenario, fine, cycles, &|| clock() < end)?;
+            let fine = Outcome::from_session(&session);
+            Ok(reached.rung.outcome.difference_from(&fine))
         };
-        let truths = [fine, apart].map(|fine| {
-            let session = run_on(&scenario, &fine, cycles)?;
-            Ok(reached
-                .rung
-                .outcome
-                .difference_from(&Outcome::from_session(&session)))
-        });
-        let truth = match truths {
-            [Ok(one), Ok(other)] if other.promised() < one.promised() => Ok(other),
-            [Err(_), other] => other,
-            [one, _] => one,
+        // Cells of the same spacing, and, where they do not confirm the run, those of one that nothing is known of.
+        let is_confirmed = |truth: &Difference| {
+            truth.promised() <= accuracy.min(UNDERSTATED * reached.error.promised())
+        };
+        let truth = match difference(&fine) {
+            Ok(truth) if is_confirmed(&truth) => Ok(truth),
+            truth => {
+                let apart = Level {
+                    nodes: None,
+                    ..fine
+                };
+                match (truth, difference(&apart)) {
+                    (Ok(one), Ok(other)) if other.promised() < one.promised() => Ok(other),
+                    (Err(_), other) => other,
+                    (one, _) => one,
+                }
+            }
         };
         Found {
             level,
@@ -128,7 +141,7 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
         steps: (draw.log_between(12.0, 120.0) * turns).round() as u32,
         ..Level::from_scenario(&scenario)
     };
-    let run = |level: &Level| run_on(&scenario, level, cycles);
+    let run = |level: &Level| run_on(&scenario, level, cycles, &|| true);
     let session = run(&level)?;
     let estimate = refinement::estimate(&session, &|| true);
     let estimate = estimate.map_err(|error| error.to_string())?;
@@ -147,8 +160,8 @@ fn judge_checks(seed: u64) -> Result<(Difference, bool), String> {
     let scenario = random_scenarios::scenario(seed);
     let cycles = scenario.run().cycles.unwrap_or(0.0);
     let level = Level::from_scenario(&scenario);
-    let session = run_on(&scenario, &level, cycles)?;
-    let fine = run_on(&scenario, &finer(&level), cycles)?;
+    let session = run_on(&scenario, &level, cycles, &|| true)?;
+    let fine = run_on(&scenario, &finer(&level), cycles, &|| true)?;
     let truth = Outcome::from_session(&session).difference_from(&Outcome::from_session(&fine));
     Ok((truth, passes(&session)))
 }
@@ -183,10 +196,15 @@ fn finer(level: &Level) -> Level {
 }
 
 /// A scenario on a level, at its end.
-fn run_on(scenario: &Scenario, level: &Level, cycles: f64) -> Result<Session, String> {
+fn run_on(
+    scenario: &Scenario,
+    level: &Level,
+    cycles: f64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Session, String> {
     let scenario = level.of_scenario(scenario);
     let scenario = scenario.map_err(|error| error.to_string())?;
-    let ended = refinement::run(&scenario, cycles, &|| true);
+    let ended = refinement::run(&scenario, cycles, go_on);
     ended.map_err(|error| error.to_string())
 }
 

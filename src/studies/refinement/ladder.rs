@@ -1,7 +1,8 @@
 //! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
-//! The first rung comes with twins, one with fewer cells and one with fewer steps, so that the errors of cells and time
-//! are known separately. Each further rung refines the dominant source. A search with limited time begins with the
+//! The first rung comes with twins, one with fewer cells, one with fewer steps and one with longer jumps, so that their
+//! errors are known separately. Each further rung refines the dominant source; the second comes with twins again in what
+//! it does not refine, since on few cells a jump has another error than on many. A search with limited time begins with the
 //! coarsest rung whatever the accuracy, so that more time never gives a worse result.
 
 use std::time::Instant;
@@ -43,11 +44,11 @@ const PILOT_JUMPS: u64 = 500;
 /// Runs of at least this many periods of the motion jump over cycles.
 const WORTH_JUMPING: f64 = 100.0;
 
-/// Minimum and maximum refinement of the next rung.
-const STRIDE: (f64, f64) = (1.6, 3.0);
+/// Minimum and maximum refinement of the next rung. With a whole number, both rungs would use the same moments and
+/// radii, and their difference would not show what both miss.
+const STRIDE: (f64, f64) = (1.6, 2.7);
 
-/// How much coarser the twins of a rung are. With a whole number, both would use the same moments and radii, and their
-/// difference would not show what both miss.
+/// How much coarser the twins of a rung are: no whole number either.
 pub(super) const TWIN: f64 = 1.7;
 
 /// The finest level tried.
@@ -177,6 +178,7 @@ impl Ladder<'_> {
     fn climb(mut self) -> Result<Reached, SearchError> {
         let mut top = self.first()?;
         let mut planned = self.plan(&top);
+        let mut is_first = true;
         let mut stalls = u32::from(top.is_unworn());
         let verdict = loop {
             if top.promised() <= MARGIN * self.accuracy && !top.is_unworn() {
@@ -196,7 +198,10 @@ impl Ladder<'_> {
             match self.run(&planned) {
                 Ok(rung) => {
                     let sources = top.errors_of(&rung);
-                    let next = Top { rung, sources };
+                    let mut next = Top { rung, sources };
+                    if std::mem::take(&mut is_first) {
+                        self.measure_again(&mut next, &top.rung.level);
+                    }
                     // If nothing wears, work and forces keep converging; stop once they are near enough.
                     let is_enough = next.promised() <= MARGIN * self.accuracy;
                     let is_nearer = next.promised() < 0.9 * top.promised()
@@ -276,14 +281,24 @@ impl Ladder<'_> {
             twins.push(twin);
         }
         let rung = self.run(base)?;
-        let sources = twins.iter().enumerate().map(|(source, twin)| {
-            let ratio = rung.level.ratio(&twin.level)[source];
-            twin.outcome
-                .difference_from(&rung.outcome)
-                .error_of_finer(ratio)
-        });
+        let twins = twins.iter().enumerate();
+        let sources = twins.map(|(source, twin)| rung.error_by(twin, source));
         let sources = sources.collect();
         Ok(Top { rung, sources })
+    }
+
+    /// Measures the errors of the sources that a rung does not refine by twins of it. A twin that does not end leaves the
+    /// error that the rung `before` had.
+    fn measure_again(&mut self, top: &mut Top, before: &Level) {
+        let refined = top.rung.level.ratio(before);
+        for (source, error) in top.sources.iter_mut().enumerate() {
+            if refined[source] > 1.0 {
+                continue;
+            }
+            if let Ok(twin) = self.run(&top.rung.level.refined(coarser(source))) {
+                *error = top.rung.error_by(&twin, source);
+            }
+        }
     }
 
     /// Runs a level, and abandons it when it exceeds the remaining budget.

@@ -27,6 +27,15 @@ pub struct Rung {
     pub seconds: f64,
 }
 
+impl Rung {
+    /// Returns the error in a source by a twin that is coarser in it.
+    pub(super) fn error_by(&self, twin: &Self, source: usize) -> Difference {
+        let ratio = self.level.ratio(&twin.level)[source];
+        let difference = twin.outcome.difference_from(&self.outcome);
+        difference.error_of_finer(ratio)
+    }
+}
+
 /// A rung and its errors by source.
 #[derive(Debug)]
 pub(super) struct Top {

@@ -1,8 +1,8 @@
 //! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
 //! The first rung comes with twins, one with fewer cells, one with fewer steps and one with longer jumps, so that their
-//! errors are known separately. Each further rung refines the dominant source; the second comes with twins again in what
-//! it does not refine, since on few cells a jump has another error than on many. A search with limited time begins with the
+//! errors are known separately. Each further rung refines the dominant source; the second, if more
+//! follow, comes with twins again in what it does not refine: on few cells a jump has another error than on many. A search with limited time begins with the
 //! coarsest rung whatever the accuracy, so that more time never gives a worse result.
 
 use std::time::Instant;
@@ -199,13 +199,13 @@ impl Ladder<'_> {
                 Ok(rung) => {
                     let sources = top.errors_of(&rung);
                     let mut next = Top { rung, sources };
-                    if std::mem::take(&mut is_first) {
+                    let enough = MARGIN * self.accuracy;
+                    if std::mem::take(&mut is_first) && next.promised() > enough {
                         self.measure_again(&mut next, &top.rung.level);
                     }
                     // If nothing wears, work and forces keep converging; stop once they are near enough.
-                    let is_enough = next.promised() <= MARGIN * self.accuracy;
                     let is_nearer = next.promised() < 0.9 * top.promised()
-                        && !(next.is_unworn() && is_enough)
+                        && !(next.is_unworn() && next.promised() <= enough)
                         && !self.is_out_of_reach([&top, &next]);
                     stalls = if is_nearer { 0 } else { stalls + 1 };
                     stalls += u32::from(next.is_unworn());

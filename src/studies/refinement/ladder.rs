@@ -1,9 +1,9 @@
 //! The ladder: levels from coarse to fine, until the measured error is small enough.
 //!
 //! The first rung comes with twins, one with fewer cells, one with fewer steps and one with longer jumps, so that their
-//! errors are known separately. Each further rung refines the dominant source; the second, if more
-//! follow, comes with twins again in what it does not refine: on few cells a jump has another error than on many. A search with limited time begins with the
-//! coarsest rung whatever the accuracy, so that more time never gives a worse result.
+//! errors are known separately. Each further rung refines the dominant source; the second, if more follow, comes with
+//! another twin for jumps that it does not refine, since on few cells a jump has another error than on many. A search
+//! with limited time begins with the coarsest rung whatever the accuracy, so that more time never gives a worse result.
 
 use std::time::Instant;
 
@@ -201,7 +201,7 @@ impl Ladder<'_> {
                     let mut next = Top { rung, sources };
                     let enough = MARGIN * self.accuracy;
                     if std::mem::take(&mut is_first) && next.promised() > enough {
-                        self.measure_again(&mut next, &top.rung.level);
+                        self.measure_jumps(&mut next, &top.rung.level);
                     }
                     // If nothing wears, work and forces keep converging; stop once they are near enough.
                     let is_nearer = next.promised() < 0.9 * top.promised()
@@ -287,17 +287,14 @@ impl Ladder<'_> {
         Ok(Top { rung, sources })
     }
 
-    /// Measures the errors of the sources that a rung does not refine by twins of it. A twin that does not end leaves the
-    /// error that the rung `before` had.
-    fn measure_again(&mut self, top: &mut Top, before: &Level) {
-        let refined = top.rung.level.ratio(before);
-        for (source, error) in top.sources.iter_mut().enumerate() {
-            if refined[source] > 1.0 {
-                continue;
-            }
-            if let Ok(twin) = self.run(&top.rung.level.refined(coarser(source))) {
-                *error = top.rung.error_by(&twin, source);
-            }
+    /// Measures the error of jumps by a twin, if the rung after `before` has the same. A twin that does not end leaves the
+    /// error that `before` had.
+    fn measure_jumps(&mut self, top: &mut Top, before: &Level) {
+        if let Some(error) = top.sources.get_mut(JUMPS)
+            && top.rung.level.tolerance == before.tolerance
+            && let Ok(twin) = self.run(&top.rung.level.refined(coarser(JUMPS)))
+        {
+            *error = top.rung.error_by(&twin, JUMPS);
         }
     }
 
@@ -420,6 +417,9 @@ impl Level {
         }
     }
 }
+
+/// The place of jumps in a [`Ratio`].
+const JUMPS: usize = 2;
 
 /// The refinement of a twin, which is coarser in one source.
 fn coarser(source: usize) -> Ratio {

@@ -4,10 +4,11 @@
 //! [--longest SECONDS] [--all] [--estimate | --checks | --toml]`
 //!
 //! Times are CPU times of this thread, so that other work on the machine hardly counts. `--limit` ends
-//! the study after that many seconds, `--longest` a search that takes longer; `--all` prints a line per scenario. `--estimate` judges
-//! the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy; `--checks` the checks of
-//! runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are long runs, those from 2000000 on
-//! have thresholds, courses, blocks, scars and other kinds in them, and those from 3000000 on are line contacts.
+//! the study after that many seconds, `--longest` a search that takes longer; `--all` prints a line per scenario.
+//! `--estimate` judges the estimates of `run --estimate-error` on cells and steps drawn at random, and no accuracy;
+//! `--checks` the checks of runs on the default cells and steps; `--toml` prints the scenarios. Seeds from 1000000 on are
+//! long runs, those from 2000000 on have thresholds, courses, blocks, scars and other kinds in them, and those from
+//! 3000000 on are line contacts.
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 

@@ -118,11 +118,11 @@ impl Stage {
 
     /// Returns all panels, in the user's order.
     fn order(&self) -> Vec<Panel> {
-        let has_content = |panel: Panel| panel.recipe().subject <= self.happens;
-        let others = Panel::ALL.iter().filter(|panel| {
-            !self.first.contains(panel) && (has_content(**panel) || **panel == self.focus)
-        });
-        self.first.iter().chain(others).copied().collect()
+        let is_shown =
+            |panel: &Panel| panel.recipe().subject <= self.happens || *panel == self.focus;
+        let others = Panel::ALL.into_iter();
+        let others = others.filter(|panel| !self.first.contains(panel) && is_shown(panel));
+        self.first.iter().copied().chain(others).collect()
     }
 
     /// Returns the index of the focused panel.

@@ -178,10 +178,11 @@ impl Ladder<'_> {
     fn climb(mut self) -> Result<Reached, SearchError> {
         let mut top = self.first()?;
         let mut planned = self.plan(&top);
-        let mut is_first = true;
+        let enough = MARGIN * self.accuracy;
+        let mut is_second = true;
         let mut stalls = u32::from(top.is_unworn());
         let verdict = loop {
-            if top.promised() <= MARGIN * self.accuracy && !top.is_unworn() {
+            if top.promised() <= enough && !top.is_unworn() {
                 break Verdict::Met;
             } else if planned.points > MOST_POINTS || planned.steps > MOST_STEPS {
                 break Verdict::Finest;
@@ -199,8 +200,7 @@ impl Ladder<'_> {
                 Ok(rung) => {
                     let sources = top.errors_of(&rung);
                     let mut next = Top { rung, sources };
-                    let enough = MARGIN * self.accuracy;
-                    if std::mem::take(&mut is_first) && next.promised() > enough {
+                    if std::mem::take(&mut is_second) && next.promised() > enough {
                         self.measure_jumps(&mut next, &top.rung.level);
                     }
                     // If nothing wears, work and forces keep converging; stop once they are near enough.

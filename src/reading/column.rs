@@ -23,8 +23,17 @@ pub fn unit_of(name: &str) -> &'static str {
     found.map_or("", |(_, unit)| unit)
 }
 
-/// Makes the enum, its table, and a list of the columns of each group.
+/// Makes the enum, its table, a list of the columns of each group, and the pattern of those that are no scalars.
 macro_rules! columns {
+    (scalars { $($scalars:tt)* } others { $($(#[$doc:meta])* $list:ident { $($column:ident $name:literal $symbol:literal $meaning:literal;)* })* }) => {
+        columns! { $($scalars)* $($(#[$doc])* $list { $($column $name $symbol $meaning;)* })* }
+
+        /// Matches the columns of no moment.
+        macro_rules! other_columns {
+            () => { $($(Column::$column)|*)|* };
+        }
+        pub(crate) use other_columns;
+    };
     ($($(#[$doc:meta])* $list:ident { $($column:ident $name:literal $symbol:literal $meaning:literal;)* })*) => {
         /// A column of a table.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,8 +50,9 @@ macro_rules! columns {
     };
 }
 
-columns! {
+columns! { scalars {
     /// The columns of `history.csv`, in order.
+    /// A checkpoint holds the rows of all of them: a new one needs a new `VERSION` of checkpoints.
     HISTORY {
         Cycle "cycle" "" "cycles since the start";
         Time "time_s" "t" "time";
@@ -108,6 +118,7 @@ columns! {
         StickRadiusError "estimated_error_stick_radius" ""
             "larger error of c, of the moment and permanent, relative to a";
     }
+} others {
     /// The columns of `state.csv`, with the tangential displacement of the surface.
     STATE {
         Radius "r_m" "r" "radius";
@@ -159,7 +170,7 @@ columns! {
         MeanShift "mean_displacement_m" "" "mean of a cycle's extreme displacements";
         MeanForce "mean_force_N" "" "mean of a cycle's extreme forces";
     }
-}
+} }
 
 impl Column {
     /// The name in files; ends with the unit, if there is one.

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 
 use super::{nearest, printable};
 use crate::math::scan::largest;
+use crate::reading::column::other_columns;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
 use crate::reading::{Column, CycleFigures, Moment};
@@ -127,7 +128,16 @@ impl<'a> Reading<'a> {
                     limits.and_then(|both| Some(self.crossland(|peak| peak.value)? / both.shear));
                 ratio.into()
             }
-            stated => self.stated(stated).into(),
+            Column::WornDepthError
+            | Column::DeepestError
+            | Column::VolumeError
+            | Column::EnergyError
+            | Column::ForceError
+            | Column::LoopError
+            | Column::PressureError
+            | Column::ContactRadiusError
+            | Column::StickRadiusError => self.stated(scalar).into(),
+            other_columns!() => Value::Null,
         }
     }
 

@@ -6,9 +6,8 @@ use std::sync::Arc;
 use super::loops::Loops;
 use crate::charts::Run;
 use crate::export::history;
-use crate::math::scan::largest;
-use crate::reading::{Column, Moment, Observation};
-use crate::scenario::scalars::{Reading, scar_radius};
+use crate::reading::{Column, Observation};
+use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
 use crate::traces::Table;
@@ -75,28 +74,47 @@ type Merge = fn(f64, f64) -> f64;
 
 const LAST: Merge = |_, later| later;
 
+/// Where the value of a column comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Taken {
+    /// Read after every step.
+    Step,
+    /// Read at the end of a cycle, and until then that of the last whole cycle.
+    Cycle,
+    /// The record itself.
+    Here,
+}
+
 /// The columns of a history, by their names in `history.csv` where they are there.
-const COLUMNS: [(Column, Merge); 12] = [
-    (Column::Cycle, LAST),
-    (Column::ContactRadius, f64::max),
-    (Column::PermanentStickRadius, f64::min),
-    (Column::WearVolume, LAST),
-    (Column::ScarDepth, LAST),
-    (Column::ScarRadius, LAST),
-    (Column::DissipatedEnergy, LAST),
-    (Column::EnergyResidual, LAST),
-    (Column::StepCost, f64::max),
-    // Of the last whole cycle.
-    (Column::ShiftAmplitude, LAST),
-    (Column::MeanNormalForce, LAST),
+const COLUMNS: [(Column, Merge, Taken); 12] = [
+    (Column::Cycle, LAST, Taken::Step),
+    (Column::ContactRadius, f64::max, Taken::Step),
+    (Column::PermanentStickRadius, f64::min, Taken::Step),
+    (Column::WearVolume, LAST, Taken::Step),
+    (Column::ScarDepth, LAST, Taken::Step),
+    (Column::ScarRadius, LAST, Taken::Step),
+    (Column::DissipatedEnergy, LAST, Taken::Step),
+    (Column::EnergyResidual, LAST, Taken::Step),
+    (Column::StepCost, f64::max, Taken::Here),
+    (Column::ShiftAmplitude, LAST, Taken::Cycle),
+    (Column::MeanNormalForce, LAST, Taken::Cycle),
     // The mean since the entry before.
-    (Column::WearRate, LAST),
+    (Column::WearRate, LAST, Taken::Here),
 ];
 
-const VOLUME: usize = 3;
-const AMPLITUDE: usize = 9;
-const LOAD: usize = 10;
-const RATE: usize = 11;
+/// The place of a column in the list; one that is not there does not compile.
+const fn place(column: Column) -> usize {
+    let mut k = 0;
+    while COLUMNS[k].0 as usize != column as usize {
+        k += 1;
+    }
+    k
+}
+
+const CYCLE: usize = place(Column::Cycle);
+const VOLUME: usize = place(Column::WearVolume);
+const RATE: usize = place(Column::WearRate);
+const COST: usize = place(Column::StepCost);
 
 /// One cycle, or several merged ones, in the order of the [`COLUMNS`]; NaN for unknown values.
 type Cycle = [f64; COLUMNS.len()];
@@ -137,9 +155,9 @@ impl Trend {
         };
         for (value, fields) in cycles.take(CAPACITY - 1) {
             // An incomplete last cycle stays open.
-            let whole = trend.last().map_or(0.0, |last| last[0]);
+            let whole = trend.last().map_or(0.0, |last| last[CYCLE]);
             trend.is_within_a_cycle = value(Column::Cycle) < whole + 1.0 - 1e-9;
-            trend.push(COLUMNS.map(|(column, _)| value(column)), fields);
+            trend.push(COLUMNS.map(|(column, ..)| value(column)), fields);
         }
         trend.loops.steps.extend(steps);
         trend
@@ -148,55 +166,46 @@ impl Trend {
     /// Records the moment after a step.
     pub fn record(&mut self, session: &Session) {
         let simulation = session.simulation();
-        let radius = scar_radius(simulation).unwrap_or(f64::NAN);
-        let scar = [largest(simulation.worn_depth()), radius];
-        let mut moment = simulation.moment();
+        let moment = simulation.moment();
+        let mut stick = moment.stick_radius;
         if simulation.has_jumped() {
             self.loops.record_jump(simulation);
             // A jump knows only the end of the last cycle.
-            moment.stick_radius = moment.permanent_stick_radius;
+            stick = moment.permanent_stick_radius;
         } else {
             self.loops.record(&moment);
         }
-        self.add(&moment, scar, |cycle| {
-            let reading = Reading::new(session);
-            for k in [AMPLITUDE, LOAD] {
-                cycle[k] = reading.number(COLUMNS[k].0);
-            }
-            Arc::new(history::fields(&reading))
-        });
+        let reading = Reading::new(session);
+        let value = |column| match column {
+            Column::PermanentStickRadius => stick.unwrap_or(f64::NAN),
+            column => reading.number(column),
+        };
+        self.add(value, || Arc::new(history::fields(&reading)));
     }
 
-    /// Adds a moment, with the largest worn depth and the outer radius of the scar, m. If it completes an entry,
-    /// `complete` corrects its values and returns its fields.
-    fn add(
-        &mut self,
-        moment: &Moment,
-        [depth, radius]: [f64; 2],
-        complete: impl FnOnce(&mut Cycle) -> Arc<[String]>,
-    ) {
-        let start = *self.start.get_or_insert([moment.cycle, moment.wear_volume]);
+    /// Adds a moment with these values. If it completes an entry, `complete` returns its fields.
+    fn add(&mut self, value: impl Fn(Column) -> f64, complete: impl FnOnce() -> Arc<[String]>) {
+        let first = [Column::Cycle, Column::WearVolume];
+        let start = *self.start.get_or_insert_with(|| first.map(&value));
         let open = self.is_within_a_cycle.then(|| self.pop()).flatten();
         let before = self.last();
-        let of_last = |k: usize| before.map_or(f64::NAN, |values| values[k]);
-        let now = [
-            moment.cycle,
-            moment.contact_radius,
-            moment.stick_radius.unwrap_or(f64::NAN),
-            moment.wear_volume,
-            depth,
-            radius,
-            moment.dissipated_energy,
-            moment.energy_residual.unwrap_or(f64::NAN),
-            self.step_cost.unwrap_or(f64::NAN),
-            of_last(AMPLITUDE),
-            of_last(LOAD),
-            f64::NAN,
-        ];
+        let mut now: Cycle = from_fn(|k| match COLUMNS[k] {
+            (column, _, Taken::Step) => value(column),
+            (_, _, Taken::Cycle) => before.map_or(f64::NAN, |values| values[k]),
+            (_, _, Taken::Here) => f64::NAN,
+        });
+        now[COST] = self.step_cost.unwrap_or(f64::NAN);
         let mut cycle = open.map_or(now, |open| merged(&open, &now));
-        let before = before.map_or(start[0], |values| values[0]);
-        self.is_within_a_cycle = cycle[0] < before + self.stride.max(1.0) - 1e-9;
-        let fields = (!self.is_within_a_cycle).then(|| complete(&mut cycle));
+        let before = before.map_or(start[0], |values| values[CYCLE]);
+        self.is_within_a_cycle = cycle[CYCLE] < before + self.stride.max(1.0) - 1e-9;
+        let fields = (!self.is_within_a_cycle).then(|| {
+            for (now, (column, _, taken)) in cycle.iter_mut().zip(COLUMNS) {
+                if taken == Taken::Cycle {
+                    *now = value(column);
+                }
+            }
+            complete()
+        });
         self.push(cycle, fields);
         if !self.is_within_a_cycle && self.fields.len() >= CAPACITY {
             self.merge_pairs();
@@ -205,10 +214,10 @@ impl Trend {
 
     /// Adds an entry, with the mean wear volume per cycle since the one before.
     fn push(&mut self, mut cycle: Cycle, fields: Fields) {
-        let before = self.last().map(|last| [last[0], last[VOLUME]]);
+        let before = self.last().map(|last| [last[CYCLE], last[VOLUME]]);
         let [then, volume] = before.or(self.start).unwrap_or_default();
-        cycle[RATE] = (cycle[VOLUME] - volume) / (cycle[0] - then);
-        let columns = COLUMNS.map(|(column, _)| column).into_iter();
+        cycle[RATE] = (cycle[VOLUME] - volume) / (cycle[CYCLE] - then);
+        let columns = COLUMNS.map(|(column, ..)| column).into_iter();
         Arc::make_mut(&mut self.history).push(columns.zip(cycle));
         self.fields.push(fields);
     }
@@ -239,7 +248,7 @@ impl Trend {
     }
 
     fn cycle(&self, row: usize) -> Cycle {
-        COLUMNS.map(|(column, _)| {
+        COLUMNS.map(|(column, ..)| {
             self.history
                 .column(column)
                 .map_or(f64::NAN, |values| values[row])
@@ -258,6 +267,7 @@ fn merged(one: &Cycle, later: &Cycle) -> Cycle {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::reading::Moment;
 
     pub(in crate::tui) fn moment(cycle: f64, stick: f64) -> Moment {
         Moment {
@@ -285,7 +295,12 @@ pub(super) mod tests {
         for step in 1..=200_000_u32 {
             let cycle = f64::from(step) / 4.0;
             let stick = if step == 777 { 0.1 } else { 1.0 };
-            trend.add(&moment(cycle, stick), [0.0; 2], |_| Arc::new([]));
+            let value = |column| match column {
+                Column::Cycle | Column::WearVolume => cycle,
+                Column::PermanentStickRadius => stick,
+                _ => 0.0,
+            };
+            trend.add(value, || Arc::new([]));
         }
         assert!(trend.fields.len() <= CAPACITY);
         assert_eq!(trend.history.rows(), trend.fields.len());

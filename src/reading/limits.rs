@@ -134,7 +134,9 @@ fn warnings(setup: &Setup) -> Vec<String> {
     lines.extend(slip_instability(setup, 1.5 * pressure));
     lines.extend(gross_slip_under_force(setup, unworn));
     lines.extend(long_stroke(setup, unworn, radius));
-    let exponent = setup.wear.map_or(1.0, |law| law.slip_rate_exponent());
+    let exponent = setup
+        .wear
+        .map_or(1.0, |law| law.traits().slip_rate_exponent);
     if exponent != 1.0 && setup.steps_per_cycle < STEPS_FOR_POWERS {
         lines.push(format!(
             "a power of the slip rate, here {exponent}, on {} steps per cycle may give wear wrong \
@@ -177,7 +179,7 @@ fn unusual_stroke(setup: &Setup, radius: f64) -> Option<String> {
 /// Wear that lets springs slip on by more than they slipped, at a `pressure` in units of E*. Beyond that, a quasi-static
 /// contact jumps, and where it lands depends on the cells.
 fn slip_instability(setup: &Setup, pressure: f64) -> Option<String> {
-    let law = setup.wear.filter(|law| law.follows_energy())?;
+    let law = setup.wear.filter(|law| law.traits().linear_in_work)?;
     setup.drive.tangential()?;
     let material = &setup.material;
     let per_slip = law.coefficient() * material.friction() * pressure * material.normal_modulus();

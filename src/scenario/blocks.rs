@@ -5,32 +5,30 @@
 
 use toml::{Table, Value};
 
-use super::check::show;
 use super::error::{Origin, Refusal};
 use super::escape::echo;
-use super::{Change, values};
+use super::values::{self, show};
 
 /// The tables whose keys a block may change.
 const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
 
-/// Replaces the `[[blocks]]` of `table` by the keys of the first and changes for the others, and sets `run.cycles` to
-/// their total length if it is not given.
-pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), Refusal> {
-    let Some(blocks) = table.remove("blocks") else {
-        return Ok(());
-    };
+/// Returns the table of the first block, `[[changes]]` for the others, and the total length in cycles.
+pub(super) fn expand(
+    blocks: &Value,
+    changes: Option<&Value>,
+    origin: &Origin,
+) -> Result<(Table, Value, f64), Refusal> {
     let rule = "must be an array of tables, [[blocks]] with cycles and the keys that change";
     let list = blocks.as_array().filter(|list| !list.is_empty());
     let list = list.map(|list| list.iter().map(Value::as_table).collect::<Option<Vec<_>>>());
     let Some(list) = list.flatten() else {
-        return Err(origin.refuse("blocks", &show(&blocks), rule));
+        return Err(origin.refuse("blocks", &show(blocks), rule));
     };
-    if let Some(changes) = table.get("changes") {
+    if let Some(changes) = changes {
         let rule = "conflicts with [[blocks]]; give one of them";
         return Err(origin.refuse("changes", &show(changes), rule));
     }
-    let mut changes = Vec::new();
-    let mut cycle = 0.0;
+    let (mut first, mut changes, mut cycle) = (Table::new(), Vec::new(), 0.0);
     for (i, block) in list.into_iter().enumerate() {
         let at = format!("blocks[{i}]");
         let given = block.get("cycles");
@@ -40,30 +38,29 @@ pub(super) fn expand(table: &mut Table, origin: &Origin) -> Result<(), Refusal> 
             let rule = "must be a number of cycles greater than 0";
             return Err(origin.refuse(&format!("{at}.cycles"), &value, rule));
         };
-        let mut keys = Vec::new();
         for (section, value) in block.iter().filter(|(key, _)| *key != "cycles") {
             if !CHANGEABLE.contains(&section.as_str()) {
                 let rule = format!("a block takes cycles and keys of {}", CHANGEABLE.join(", "));
                 let at = format!("{at}.{}", echo(section));
                 return Err(origin.refuse(&at, &show(value), rule));
             }
-            flatten(section, value, &mut keys);
-        }
-        for (path, value) in keys {
             if i == 0 {
-                values::insert(table, &path, value);
-            } else {
-                changes.push(Change::new(cycle, &path, &values::literal(&value)));
+                first.insert(section.clone(), value.clone());
+                continue;
             }
+            let mut keys = Vec::new();
+            flatten(section, value, &mut keys);
+            changes.extend(keys.into_iter().map(|(path, value)| {
+                let set = Value::String(format!("{path} = {}", values::literal(&value)));
+                Value::Table(Table::from_iter([
+                    ("at_cycle".into(), Value::Float(cycle)),
+                    ("set".into(), set),
+                ]))
+            }));
         }
         cycle += cycles;
     }
-    let changes = Value::try_from(changes).expect("changes are a list");
-    table.insert("changes".into(), changes);
-    if values::at(table, "run.cycles").is_none() {
-        values::insert(table, "run.cycles", Value::Float(cycle));
-    }
-    Ok(())
+    Ok((first, Value::Array(changes), cycle))
 }
 
 /// Collects the values of a table with their dotted paths.

@@ -1,20 +1,24 @@
 //! Changes made during a run: `[[changes]]`, and the resulting scenarios.
 
 use super::change::Change;
+use super::draft::{self, Draft};
 use super::error::Origin;
 use super::escape::echo;
 use super::spec::{Control, Spec};
-use super::{Refusal, Scenario, assign, schema, units, values};
-use toml::Table;
+use super::{Refusal, Scenario, schema, units, values};
+use std::path::Path;
 
 impl Change {
     /// Returns the change with another value of the key: what it sets, edited.
     #[must_use]
     pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Self {
         let mut edited = self.clone();
-        if let Ok(mut spec) = toml::from_str::<Spec>(&self.set) {
-            edit(&mut spec);
-            spec.write_changes(std::slice::from_mut(&mut edited));
+        let mut draft = Draft::new(Spec::default(), "");
+        if draft.assign(self.key(), self.value(), "").is_ok()
+            && let Ok(mut read) = draft.finish(Path::new(""))
+        {
+            edit(&mut read.spec);
+            read.spec.write_changes(std::slice::from_mut(&mut edited));
         }
         edited
     }
@@ -59,34 +63,40 @@ impl Scenario {
         changes: &[Change],
         place: impl Fn(usize) -> String,
     ) -> Result<Self, Refusal> {
-        let mut origin = Origin::new(&self.origin);
-        let mut table = self.spec.table();
-        table.remove("changes");
+        let mut spec = self.spec.clone();
+        spec.changes.clear();
+        let mut draft = Draft::new(spec, &self.origin);
         for (at, change) in changes.iter().enumerate() {
             let written = place(at);
-            let (key, value) = assign::split(&change.set, &written)?;
+            let (key, value) = draft::split(&change.set, &written)?;
             if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
                 let rule = format!("{key} cannot change during a run: {because}");
                 return Err(Refusal::new(written, rule));
             }
-            assign::assign(&mut table, &mut origin, key, value, &written)?;
+            draft.assign(key, value, &written)?;
         }
-        self.refuse_values_in_other_units(&table, changes, place)?;
-        Self::build(table, origin, &self.origin, &self.directory)
+        let changed = Self::build(draft, &self.origin, &self.directory);
+        let spec = changed.as_ref().map(|changed| &changed.spec);
+        self.refuse_values_in_other_units(spec.ok(), changes, place)?;
+        changed
     }
 
     /// Refuses a change of control without new values: the motion then has another unit, and metres given for the old
     /// control must not be read as newtons.
     fn refuse_values_in_other_units(
         &self,
-        table: &Table,
+        after: Option<&Spec>,
         changes: &[Change],
         place: impl Fn(usize) -> String,
     ) -> Result<(), Refusal> {
         let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
         for (section, before) in self.spec.motion.directions() {
             let key = values::join(section, "control");
-            let control: Option<Control> = schema::read(table, &key);
+            let given = changes.iter().rev().find(|change| change.key() == key);
+            let control = after
+                .and_then(|after| after.motion.directions().find(|of| of.0 == section))
+                .and_then(|of| of.1.control)
+                .or_else(|| given?.value().trim_matches('"').parse().ok());
             let (Some(at), Some(control)) = (changes_at(&key), control) else {
                 continue;
             };

@@ -6,6 +6,7 @@ use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
 use crate::simulation::drive::Control;
 use crate::simulation::{Scheme, Spacing, Unworn};
+use crate::wear::References;
 
 /// Under a prescribed force a wearing contact sinks in. If the final depth is unknown, the domain has room for this
 /// many times the depth of the unworn contact.
@@ -93,9 +94,9 @@ impl Unworn<'_> {
         Some(profile(radius) + yielding)
     }
 
-    /// Returns defaults for τ_ref, Pa, and v_ref, m/s, of the power law: μ times the mean pressure at the mean normal
-    /// position, and the greatest tangential velocity of the indenter. `None` if no contact can carry the force.
-    pub(super) fn references(&self) -> Option<(f64, f64)> {
+    /// Returns what the keys of wear laws may follow from: the mean pressure at the mean normal position, μ times that, and
+    /// the greatest tangential velocity of the indenter. `None` if no contact can carry the force.
+    pub(super) fn references(&self) -> Option<References> {
         // A motion that only touches at its deepest point takes the pressure there.
         let swing = self.drive.normal().oscillation();
         let at = if swing.mean() > 0.0 {
@@ -109,7 +110,7 @@ impl Unworn<'_> {
         };
         // Without friction there is no stress to compare with, so any reference will do.
         let or_one = |value: f64| if value > 0.0 { value } else { 1.0 };
-        let stress = or_one(self.material.friction()) * self.mean_pressure(depth);
+        let pressure = self.mean_pressure(depth);
         let velocity = match self.drive.tangential() {
             None => 0.0,
             Some(Control::Displacement(shift)) => shift.greatest_speed(),
@@ -122,7 +123,11 @@ impl Unworn<'_> {
                 force.greatest_speed() / stiffness
             }
         };
-        Some((stress, or_one(velocity)))
+        Some(References {
+            pressure,
+            stress: or_one(self.material.friction()) * pressure,
+            slip_rate: or_one(velocity),
+        })
     }
 }
 
@@ -186,10 +191,10 @@ mod tests {
             contact.references()
         };
         let moving = Drive::new(normal.clone(), tangential);
-        let (stress, rate) = references(&moving).expect("references");
-        assert!((stress / (0.1 * force / (PI * 1e-8)) - 1.0).abs() < 1e-9);
-        assert!((rate / 1e-5 - 1.0).abs() < 1e-12);
+        let found = references(&moving).expect("references");
+        assert!((found.stress / (0.1 * force / (PI * 1e-8)) - 1.0).abs() < 1e-9);
+        assert!((found.slip_rate / 1e-5 - 1.0).abs() < 1e-12);
         let still = Drive::new(normal, None);
-        assert_eq!(references(&still).map(|both| both.1), Some(1.0));
+        assert_eq!(references(&still).map(|found| found.slip_rate), Some(1.0));
     }
 }

@@ -133,11 +133,6 @@ impl Faults {
         tables.chain([path]).any(|path| self.blamed.contains(path))
     }
 
-    /// The keys that errors cover.
-    pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.blamed.iter().map(String::as_str)
-    }
-
     /// Combines all errors into one; `None` if there are none.
     pub fn into_error(mut self) -> Option<Refusal> {
         if self.more > 0 {
@@ -155,6 +150,8 @@ pub(super) struct Origin {
     name: String,
     /// Paths assigned after the text was read, and the assignments as written.
     assigned: Vec<(String, String)>,
+    /// Values as they were given.
+    shown: Vec<(&'static str, toml::Value)>,
 }
 
 impl Origin {
@@ -163,12 +160,24 @@ impl Origin {
         Self {
             name: printable(name),
             assigned: Vec::new(),
+            shown: Vec::new(),
         }
     }
 
     /// Remembers that `path` was assigned as `written`.
     pub fn assign(&mut self, path: &str, written: &str) {
         self.assigned.push((path.to_owned(), written.to_owned()));
+    }
+
+    /// Remembers a value as it was given.
+    pub fn show(&mut self, path: &'static str, raw: toml::Value) {
+        self.shown.push((path, raw));
+    }
+
+    /// The value of a key as it was given here.
+    pub fn shown(&self, path: &str) -> Option<String> {
+        let found = self.shown.iter().find(|(known, _)| *known == path);
+        found.map(|(_, raw)| super::values::show(raw))
     }
 
     /// Whether `path` was assigned after the text was read.

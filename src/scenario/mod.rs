@@ -9,19 +9,18 @@ use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use toml::{Table, Value};
+use draft::{Draft, Read as Drafted};
 
-use crate::simulation::{Domain, Integrator, Setup, Spacing};
+use crate::simulation::{Domain, Setup, Spacing};
 
-pub(crate) mod assign;
 pub(crate) mod blocks;
 pub(crate) mod bounded_read;
 mod change;
 mod changes;
-mod check;
 pub mod checkpoint;
 pub mod columns;
 mod derive;
+pub(crate) mod draft;
 mod embed;
 mod error;
 pub mod escape;
@@ -38,13 +37,14 @@ pub mod session;
 pub mod spec;
 pub mod typed;
 pub mod units;
+pub mod value;
 pub(crate) mod values;
 pub(crate) mod write;
 
 pub use change::{Change, MOST_CHANGES};
 pub use derive::choices;
+use error::Origin;
 pub use error::Refusal;
-use error::{Faults, Origin};
 use escape::echo;
 pub use escape::printable;
 pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
@@ -112,14 +112,15 @@ impl Scenario {
         sets: &[String],
     ) -> Result<Self, Refusal> {
         let directory = directory.unwrap_or(Path::new(""));
-        let mut from = Origin::new(origin);
-        let (mut table, commas) = read::table(text, &from)?;
+        let (table, commas) = read::table(text, &Origin::new(origin))?;
+        let mut draft = Draft::new(Spec::default(), origin);
+        draft.read(table);
         for set in sets {
             let written = format!("--set {}", echo(set));
-            let (key, value) = assign::split(set, &written)?;
-            assign::assign(&mut table, &mut from, key, value, &written)?;
+            let (key, value) = draft::split(set, &written)?;
+            draft.assign(key, value, &written)?;
         }
-        let built = Self::build(table, from, origin, directory);
+        let built = Self::build(draft, origin, directory);
         let errors = commas.into_iter().chain(built.as_ref().err().cloned());
         Refusal::all(errors).map_or(built, Err)
     }
@@ -139,12 +140,12 @@ impl Scenario {
         &self,
         numbers: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<Self, Refusal> {
-        let (mut table, mut origin) = (self.spec.table(), Origin::new(&self.origin));
+        let mut draft = Draft::new(self.spec.clone(), &self.origin);
         for (key, number) in numbers {
-            let written = assign::written(key, &scalars::number(number));
-            assign::put(&mut table, &mut origin, key, Value::Float(number), &written);
+            let written = draft::written(key, &scalars::number(number));
+            draft.put(schema::known(key), toml::Value::Float(number), &written);
         }
-        Self::build(table, origin, &self.origin, &self.directory)
+        Self::build(draft, &self.origin, &self.directory)
     }
 
     /// [`with`](Self::with) for several keys that are only right together, such as another shape
@@ -153,18 +154,13 @@ impl Scenario {
         &self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<Self, Refusal> {
-        let (mut origin, mut spec) = (Origin::new(&self.origin), self.spec.clone());
-        if self.accuracy().is_none() && self.setup.integrator == Integrator::Direct {
-            // An assigned accuracy chooses the integrator; otherwise the default is written out again.
-            spec.numerics.integrator = None;
-        }
-        let mut table = spec.table();
+        let mut draft = Draft::new(self.spec.clone(), &self.origin);
         for (key, value) in assignments {
             let (key, value) = (key.as_ref(), value.as_ref());
-            let written = assign::written(key, value);
-            assign::assign(&mut table, &mut origin, key.trim(), value.trim(), &written)?;
+            let written = draft::written(key, value);
+            draft.assign(key.trim(), value.trim(), &written)?;
         }
-        let mut changed = Self::build(table, origin, &self.origin, &self.directory)?;
+        let mut changed = Self::build(draft, &self.origin, &self.directory)?;
         changed.notes.splice(..0, self.notes.iter().cloned());
         Ok(changed)
     }
@@ -179,9 +175,13 @@ impl Scenario {
     /// # Errors
     /// Values that are refused.
     pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Result<Self, Refusal> {
-        let (mut spec, origin) = (self.spec.clone(), Origin::new(&self.origin));
+        let mut spec = self.spec.clone();
         edit(&mut spec);
-        Self::build(spec.table(), origin, &self.origin, &self.directory)
+        Self::build(
+            Draft::new(spec, &self.origin),
+            &self.origin,
+            &self.directory,
+        )
     }
 
     /// Where the domain radius comes from.
@@ -304,12 +304,18 @@ impl Scenario {
 
     /// Returns the value at a dotted path as TOML, if the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
-        values::at(&self.spec.table(), path).map(values::literal)
+        self.spec
+            .get(schema::find(path)?)
+            .map(|value| value.literal())
     }
 
     /// Returns the number at a dotted path, if the scenario gives one.
     pub fn number(&self, path: &str) -> Option<f64> {
-        values::number(values::at(&self.spec.table(), path)?)
+        match self.spec.get(schema::find(path)?)? {
+            value::Value::Number(number) => Some(number),
+            value::Value::Whole(whole) => Some(whole as f64),
+            _ => None,
+        }
     }
 
     /// Whether the key at a dotted path is one of a motion that prescribes a force.
@@ -326,25 +332,25 @@ impl Scenario {
         follows.numerics.scheme = Some(setup.scheme);
         follows.numerics.grid = Some(setup.spacing).filter(|of| *of != Spacing::Given);
         let source = format!("default of method \"{}\"", setup.method);
-        write::scenario(&self.spec.table(), &follows.table(), &source)
+        write::scenario(&self.spec, &follows, &source)
     }
 
-    /// Checks a table and makes its parts; errors show values as the user wrote them.
-    fn build(
-        mut table: Table,
-        mut from: Origin,
-        origin: &str,
-        directory: &Path,
-    ) -> Result<Self, Refusal> {
-        blocks::expand(&mut table, &from)?;
-        let notes = embed::files(&mut table, directory, &mut from)?;
+    /// Checks a draft and makes its parts; errors show values as the user wrote them.
+    fn build(draft: Draft, origin: &str, directory: &Path) -> Result<Self, Refusal> {
+        let Drafted {
+            mut spec,
+            origin: from,
+            faults,
+            changes,
+            notes,
+        } = draft.finish(directory)?;
         let from = &from;
-        let mut faults = Faults::default();
-        check::keys(&mut table, from, &mut faults);
-        // Changes are checked last, on top of the scenario.
-        let changes: Vec<Change> = schema::read(&table, "changes").unwrap_or_default();
-        table.remove("changes");
-        let (spec, setup) = parts::setup(&mut table, from, faults)?;
+        let before = std::mem::take(&mut spec.changes);
+        let setup = parts::setup(&mut spec, from, faults)?;
+        let changes = changes
+            .into_iter()
+            .map(|(at_cycle, set)| Change { at_cycle, set });
+        let changes: Vec<Change> = before.into_iter().chain(changes).collect();
         if changes.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
             return Err(from.refuse("changes", &changes.len().to_string(), rule));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::escape::printable;
-use super::{nearest, schema};
+use super::nearest;
 
 /// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,9 +78,12 @@ impl Preset {
 /// Title and summary by name, parsed once: a list of presets is drawn in every frame.
 static ABOUT: LazyLock<HashMap<&'static str, [String; 2]>> = LazyLock::new(|| {
     let about = |preset: &Preset| {
-        let table = preset.text.parse().unwrap_or_default();
+        let table: toml::Table = preset.text.parse().unwrap_or_default();
         let texts = ["title", "description"].map(|key| {
-            let text: String = schema::read(&table, key).unwrap_or_default();
+            let text = table
+                .get(key)
+                .and_then(toml::Value::as_str)
+                .unwrap_or_default();
             let words: Vec<&str> = text.split_whitespace().collect();
             printable(&words.join(" "))
         });

@@ -1,6 +1,6 @@
 //! The `[run]` table: length, snapshots, and the statements in the files of the run.
 
-use serde::{Deserialize, Serialize};
+use super::value::{Field, Section, fields, section};
 
 /// Maximum length of a run, in cycles.
 pub const MOST_CYCLES: f64 = 1e9;
@@ -8,21 +8,20 @@ pub const MOST_CYCLES: f64 = 1e9;
 /// Maximum number of snapshots of a run.
 pub const MOST_SNAPSHOTS: usize = 10_000;
 
-/// `[run]`: the length of a run and its output.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RunPlan {
-    /// Length of the run in cycles, 0 or more; `None` runs until the user stops it.
-    pub cycles: Option<f64>,
-    /// Cycles at which the state is written; those after the end of the run are ignored.
-    pub snapshot_at: Vec<f64>,
-    /// Cycles at which a step or jump was cut short although the run continued, such as a planned end that the explorer
-    /// went past. Without them, a replay would take other steps.
-    pub shortened_at: Vec<f64>,
-    /// A remark to store in the files.
-    pub note: Option<String>,
-    /// Statements of the recorded run's files on its errors, sealed by [`Scenario::stating`](super::Scenario::stating).
-    pub stated: Option<String>,
+section! {
+    /// `[run]`: the length of a run and its output.
+    RunPlan {
+        /// Length of the run in cycles, 0 or more; `None` runs until the user stops it.
+        cycles: Option<f64>,
+        /// Cycles at which the state is written; those after the end of the run are ignored.
+        snapshot_at: Vec<f64>,
+        /// Cycles at which a step or jump was cut short although the run continued, such as a planned end that the explorer
+        /// went past. Without them, a replay would take other steps.
+        shortened_at: Vec<f64>,
+        /// A remark to store in the files.
+        note: Option<String>,
+        /// Statements of the recorded run's files on its errors, sealed by [`Scenario::stating`](super::Scenario::stating).
+        stated: Option<String>,    }
 }
 
 /// Separates the parts of [`RunPlan::stated`], the last of which is the seal.

@@ -6,11 +6,9 @@
 use std::sync::LazyLock;
 
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
-use toml::{Table, Value};
 
 pub use super::kind::{Default, Kind, Range, Word};
-use super::values::{at, number, split};
+use super::values::split;
 use crate::math::abel::AbelMethod;
 
 /// One key of a scenario.
@@ -91,15 +89,6 @@ impl Parameter {
             (_, range) => format!(" {range}"),
         }
     }
-
-    /// Whether every number in `value`, which has the right kind, is allowed.
-    pub(super) fn allows(&self, value: &Value) -> bool {
-        let within = |value: &Value| number(value).is_none_or(|number| self.range.holds(number));
-        match value {
-            Value::Array(list) => list.iter().all(within),
-            value => within(value),
-        }
-    }
 }
 
 /// Keys that exclude each other: each of the first excludes each of the others.
@@ -173,10 +162,18 @@ pub(super) fn is_section(path: &str) -> bool {
     })
 }
 
-/// Returns the value of a key or a whole section in `table` as a `T`, if there is one of that type.
-pub(super) fn read<T: DeserializeOwned>(table: &Table, path: &str) -> Option<T> {
-    debug_assert!(find(path).is_some() || is_section(path), "{path} is known");
-    at(table, path)?.clone().try_into().ok()
+/// The keys that an assignment to `path` replaces or makes stale.
+pub(super) fn replaced_by(path: &str) -> impl Iterator<Item = &'static str> {
+    let twins = SCHEMA.exclusive.iter().filter(|of| of.are_twins);
+    let sides = twins.flat_map(|of| [(&of.keys, &of.others), (&of.others, &of.keys)]);
+    let replaced = sides.filter(move |(keys, _)| keys.contains(&path));
+    let stale = SCHEMA
+        .stale
+        .iter()
+        .filter(move |of| of.keys.contains(&path));
+    let replaced = replaced.flat_map(|(_, others)| others.iter().copied());
+    let all: Vec<&str> = replaced.chain(stale.map(|of| of.dropped)).collect();
+    all.into_iter()
 }
 
 #[cfg(test)]
@@ -211,8 +208,9 @@ mod tests {
     fn defaults_are_values_of_their_own_key() {
         for parameter in parameters() {
             if let Some(value) = parameter.default.value() {
-                assert!(parameter.kind.fits(value), "{}", parameter.path);
-                assert!(parameter.allows(value), "{}", parameter.path);
+                let value =
+                    crate::scenario::value::Value::read(&mut value.clone(), parameter, false);
+                assert!(value.is_ok(), "{}", parameter.path);
             }
         }
     }

@@ -8,7 +8,6 @@ use std::mem::replace;
 use thiserror::Error;
 
 use super::change::{Change, MOST_CHANGES};
-use super::spec::Edits;
 use super::{Refusal, RunPlan, Scenario, Spec};
 use crate::reading::{Check, CycleFigures, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
@@ -223,7 +222,10 @@ impl Session {
     /// # Errors
     ///
     /// As [`change_all`](Self::change_all).
-    pub fn edit(&mut self, edit: impl FnOnce(&mut Spec)) -> Result<Edits, SessionError> {
+    pub fn edit(
+        &mut self,
+        edit: impl FnOnce(&mut Spec),
+    ) -> Result<Vec<(&'static str, String)>, SessionError> {
         let before = self.now.scenario.spec();
         let mut after = before.clone();
         edit(&mut after);

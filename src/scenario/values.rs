@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use serde::de::DeserializeOwned;
-use toml::{Table, Value};
+use toml::Value;
 
-use super::escape::printable;
+use super::escape::{echo, printable};
 
 /// Returns a finite number, whole or not.
 pub(crate) fn number(value: &Value) -> Option<f64> {
@@ -45,35 +45,6 @@ pub(super) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, toml::de::Erro
         text.to_mut().insert_str(at + end, ".0");
     }
     toml::from_str(&text)
-}
-
-/// Returns the value at a dotted path.
-pub(crate) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
-    match path.split_once('.') {
-        None => table.get(path),
-        Some((first, rest)) => at(table.get(first)?.as_table()?, rest),
-    }
-}
-
-/// Writes the value, creating tables on the way. If a value that is not a table is in the way, it stays, and the check
-/// of all keys finds it.
-pub(super) fn insert(table: &mut Table, path: &str, value: Value) {
-    let Some((first, rest)) = path.split_once('.') else {
-        table.insert(path.to_owned(), value);
-        return;
-    };
-    let entry = table.entry(first).or_insert(Value::Table(Table::new()));
-    if let Value::Table(inner) = entry {
-        insert(inner, rest, value);
-    }
-}
-
-/// Removes and returns the value at a dotted path.
-pub(super) fn remove(table: &mut Table, path: &str) -> Option<Value> {
-    match path.split_once('.') {
-        None => table.remove(path),
-        Some((first, rest)) => remove(table.get_mut(first)?.as_table_mut()?, rest),
-    }
 }
 
 /// Returns the dotted path of a key in the table at `path`.
@@ -133,9 +104,25 @@ fn float(number: f64) -> String {
     }
 }
 
+/// Formats a length of a measured profile for an error, with three digits.
+pub(super) fn length(value: f64) -> String {
+    let rounded = format!("{value:.2e}").parse().unwrap_or(value);
+    show(&Value::Float(rounded))
+}
+
+/// Formats a value for an error.
+pub(super) fn show(value: &Value) -> String {
+    match value {
+        Value::Table(_) => "{...}".to_owned(),
+        Value::String(text) => format!("\"{}\"", echo(text)),
+        other => echo(&literal(other)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use toml::Table;
 
     #[test]
     fn rude_text_reads_back_and_harms_no_terminal() {

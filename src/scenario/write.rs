@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use toml::{Table, Value};
-
 use super::schema::{Kind, Parameter, parameters};
-use super::values::{at, literal};
+use super::spec::Spec;
+use super::value::Value;
 
 /// Writes keys in the order of the schema under their section headings; `line` gives each key's line, if any.
 pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
@@ -23,27 +22,23 @@ pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
 
 /// Writes `table`, which has passed [`check::keys`](super::check::keys). What `follows` from it becomes a comment if the
 /// table does not give it; the comment ends with its `source`.
-pub(super) fn scenario(table: &Table, follows: &Table, source: &str) -> String {
+pub(super) fn scenario(spec: &Spec, follows: &Spec, source: &str) -> String {
     let mut text = sections(|known| {
-        let Some(value) = at(table, known.path) else {
-            let value = literal(at(follows, known.path)?);
+        let Some(value) = spec.get(known) else {
+            let value = follows.get(known)?.literal();
             return Some(format!("# {} = {value}  # {source}", known.key()));
         };
         let comment = match (known.kind, known.unit) {
             (Kind::Number | Kind::Numbers, unit) if !unit.is_empty() => format!("  # {unit}"),
             _ => String::new(),
         };
-        let is_empty = value.as_array().is_some_and(Vec::is_empty);
-        (!is_empty).then(|| format!("{} = {}{comment}", known.key(), literal(value)))
+        let is_empty = matches!(&value, Value::Numbers(list) if list.is_empty());
+        (!is_empty).then(|| format!("{} = {}{comment}", known.key(), value.literal()))
     });
-    let changes = table.get("changes").and_then(Value::as_array);
-    for change in changes.into_iter().flatten() {
-        text.push_str("\n[[changes]]\n");
-        for key in ["at_cycle", "set"] {
-            if let Some(value) = change.get(key) {
-                let _ = writeln!(text, "{key} = {}", literal(value));
-            }
-        }
+    for change in &spec.changes {
+        let at_cycle = Value::Number(change.at_cycle).literal();
+        let set = Value::Text(change.set.clone()).literal();
+        let _ = write!(text, "\n[[changes]]\nat_cycle = {at_cycle}\nset = {set}\n");
     }
     text.trim_start().to_owned()
 }

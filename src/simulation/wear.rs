@@ -17,10 +17,12 @@ use std::ops::Range;
 use super::contact::Contact;
 use super::model::Model;
 use super::stability::response;
+use super::traction::Pressure;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
 use crate::math::scan::{largest, leading, trailing};
 use crate::math::vector::vectorized;
+use crate::wear::{Surface, WearLaw};
 
 /// Where the surface slips in a step.
 #[derive(Debug, Clone, Default)]
@@ -66,6 +68,15 @@ impl Sliding {
         self
     }
 
+    /// The first node whose pressure a step of the law takes that has a use for it from the node `zone` on.
+    pub fn pressed_from(&self, law: &WearLaw, zone: usize) -> usize {
+        if law.traits().needs_pressure {
+            zone.min(self.nodes.start)
+        } else {
+            zone
+        }
+    }
+
     fn end(&self, contacts: [&Contact; 2]) -> usize {
         let [before, after] = contacts.map(|contact| contact.normal.nodes);
         (before.max(after) + 1).min(self.slip.len())
@@ -79,6 +90,10 @@ pub(super) struct Increment {
     pub nodes: Range<usize>,
     /// Worn depth, m; 0 outside these nodes.
     pub depth: Vec<f64>,
+    /// p before and after the step at these nodes, Pa; empty if the law does not need it.
+    pressure: [Vec<f64>; 2],
+    /// Duration, s.
+    seconds: f64,
     /// Stiffness of each of these nodes.
     pub stiffness: Vec<f64>,
     /// Work of friction, J.
@@ -95,21 +110,58 @@ impl Increment {
         }
     }
 
-    /// Computes the wear of a stress `shear` (Pa) on a `sliding` surface over `seconds`.
-    pub fn wear(&mut self, model: &Model, shear: &[f64], sliding: &Sliding, seconds: f64) {
+    /// Computes the wear of a stress `shear` (Pa) on a `sliding` surface over `seconds`. A law that needs it takes the
+    /// `pressures` before and after, from the first node that wears.
+    pub fn wear(
+        &mut self,
+        model: &Model,
+        shear: &[f64],
+        sliding: &Sliding,
+        pressures: [&Pressure; 2],
+        seconds: f64,
+    ) {
         self.nodes = sliding.nodes.clone();
+        self.seconds = seconds;
         let nodes = self.nodes.clone();
         self.depth[..nodes.start].fill(0.0);
         self.depth[nodes.end..].fill(0.0);
         let Some(law) = &model.setup.wear else {
             return self.depth[nodes].fill(0.0);
         };
-        let (tau, slip) = (&shear[nodes.clone()], &sliding.slip[nodes.clone()]);
-        let depth = &mut self.depth[nodes];
+        if law.traits().needs_pressure {
+            for (kept, pressure) in self.pressure.iter_mut().zip(pressures) {
+                debug_assert!(pressure.from <= nodes.start, "p is known where it wears");
+                kept.clear();
+                kept.extend_from_slice(&pressure.nodal[nodes.clone()]);
+            }
+        }
+        let (_, depth, surface) = self.surface(law, shear, sliding);
         vectorized(
             #[inline(always)]
-            || law.wear(tau, slip, seconds, depth),
+            || law.wear(&surface, depth),
         );
+    }
+
+    /// The stiffness and the wear of the nodes that wear, and what their surface undergoes.
+    fn surface<'a>(
+        &'a mut self,
+        law: &WearLaw,
+        shear: &'a [f64],
+        sliding: &'a Sliding,
+    ) -> (&'a mut [f64], &'a mut [f64], Surface<'a>) {
+        let nodes = || self.nodes.clone();
+        let [before, after] = &self.pressure;
+        let surface = Surface {
+            tau: &shear[nodes()],
+            slip: &sliding.slip[nodes()],
+            pressure: (law.traits().needs_pressure).then_some([before, after]),
+            seconds: self.seconds,
+        };
+        (
+            &mut self.stiffness[nodes()],
+            &mut self.depth[nodes()],
+            surface,
+        )
     }
 
     /// Corrects wear by the n-th power of the slip rate, n = `exponent`, for `slip` of the springs that is uneven within
@@ -151,15 +203,12 @@ impl Increment {
         let Some(law) = &setup.wear else { return 0.0 };
         let material = &setup.material;
         let scale = response(setup.method) * material.friction() * material.normal_modulus();
-        let nodes = || self.nodes.clone();
-        let (tau, slip) = (&shear[nodes()], &sliding.slip[nodes()]);
-        let (worn, per_width) = (&self.depth[nodes()], &model.per_width[nodes()]);
-        let at = nodes();
-        let stiffness = &mut self.stiffness[at];
+        let per_width = &model.per_width[self.nodes.clone()];
+        let (stiffness, worn, surface) = self.surface(law, shear, sliding);
         vectorized(
             #[inline(always)]
             || {
-                law.sensitivity(tau, slip, worn, stiffness);
+                law.sensitivity(&surface, worn, stiffness);
                 for (z, per_width) in stiffness.iter_mut().zip(per_width) {
                     *z *= scale * per_width;
                 }

@@ -93,7 +93,7 @@ impl Theory {
         let Some(radius) = setup.indenter.ball_radius() else {
             return theory;
         };
-        let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
+        let wears = setup.wear.is_some_and(|law| law.traits().reaches_limit);
         let limit = |stick_radius| LimitingProfile {
             e_star,
             radius,
@@ -119,7 +119,7 @@ impl Theory {
         let is_worn = setup.scar.is_some();
         let melan = Unworn::new(setup).melan().filter(|_| !is_worn);
         let stick_radius = melan.map(|(_, radius)| radius);
-        let wears = setup.wear.is_some_and(|law| law.coefficient() > 0.0);
+        let wears = setup.wear.is_some_and(|law| law.traits().reaches_limit);
         let normal = setup.drive.normal().oscillation();
         let load = normal.highest() / length;
         let held = setup.material.friction() * load;

@@ -22,7 +22,7 @@ pub struct Setting {
 impl Setting {
     /// Returns every key that has a value or may be given one, in the order of a scenario file.
     pub fn all(scenario: &Scenario) -> Vec<Self> {
-        let (fixed, given) = (["", "run", "changes"], scenario.spec().table());
+        let (fixed, given) = (["", "run", "changes"], scenario.spec());
         parameters()
             .filter(|parameter| !fixed.contains(&parameter.section()))
             // Long lists come from files, not from the keyboard.
@@ -30,7 +30,9 @@ impl Setting {
             .map(|parameter| Self {
                 parameter,
                 unit: units::unit_of(parameter, scenario.prescribes_force(parameter.path)),
-                value: values::at(&given, parameter.path).cloned(),
+                value: given
+                    .get(parameter)
+                    .map(|value| value.literal().parse().expect("TOML")),
             })
             .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
             .collect()

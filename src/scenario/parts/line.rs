@@ -6,8 +6,8 @@ use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
-use crate::scenario::check::length;
 use crate::scenario::spec;
+use crate::scenario::values::length;
 use crate::simulation::Unworn;
 use crate::simulation::drive::{Control, Drive};
 

@@ -7,21 +7,20 @@
 use std::cell::RefCell;
 use std::fmt::Display;
 
-use toml::{Table, Value};
+use toml::Value;
 
-use super::check::{self, show};
 use super::derive;
 use super::error::{Faults, Origin, Refusal};
 use super::schema;
-use super::spec::{Geometry, Law, NORMAL, Passage, Spec, TANGENTIAL, Wear};
-use super::values::{self, join};
+use super::spec::{Geometry, NORMAL, Passage, Spec, TANGENTIAL, Wear};
+use super::values::{join, show};
 use crate::contact::indenter::Indenter;
 use crate::contact::scar::Scar;
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
 use crate::math::grid::RadialGrid;
 use crate::math::invalid::Invalid;
 use crate::simulation::{Integrator, Setup, Spacing, Unworn};
-use crate::wear::{Powers, WearLaw};
+use crate::wear::{Parameters, Unmade, WearLaw};
 
 mod bodies;
 mod line;
@@ -45,28 +44,33 @@ const NUMERICS: &str = "numerics";
 /// # Errors
 ///
 /// All `faults`, plus every missing key and what the parts refuse.
-pub(super) fn setup(
-    written: &mut Table,
-    origin: &Origin,
-    faults: Faults,
-) -> Result<(Spec, Setup), Refusal> {
-    // Values that are wrong have been reported; here they count as given, not as missing.
-    for path in faults.paths() {
-        values::remove(written, path);
-    }
-    let spec = Spec::read(written);
+pub(super) fn setup(spec: &mut Spec, origin: &Origin, faults: Faults) -> Result<Setup, Refusal> {
+    let conflict = conflicts(spec, origin);
+    spec.fill();
     let parts = Parts {
-        spec: &spec,
+        spec,
         usual: Spec::usual(),
-        written,
+        conflict,
         origin,
         faults: faults.into(),
     };
     let setup = parts.setup();
     match (parts.faults.into_inner().into_error(), setup) {
-        (None, Ok(setup)) => Ok((spec, setup)),
+        (None, Ok(setup)) => Ok(setup),
         (faults, _) => Err(faults.expect("a part that cannot be made has noted why")),
     }
+}
+
+/// The first of the keys that exclude each other.
+fn conflicts(spec: &Spec, origin: &Origin) -> Option<Refusal> {
+    let given = |keys: &[&'static str]| keys.iter().copied().find(|key| spec.has(key));
+    schema::SCHEMA.exclusive.iter().find_map(|of| {
+        let (key, other) = (given(&of.keys)?, given(&of.others)?);
+        let rule = format!("conflicts with {}", of.rule.replace("{}", other));
+        let value = || Some(spec.get(schema::find(key)?)?.literal());
+        let shown = origin.shown(key).or_else(value).unwrap_or_default();
+        Some(origin.refuse(key, &shown, rule))
+    })
 }
 
 /// An error was noted.
@@ -79,8 +83,8 @@ pub(super) struct Parts<'a> {
     spec: &'a Spec,
     /// Defaults.
     usual: &'a Spec,
-    /// Values as the user wrote them, for messages.
-    written: &'a Table,
+    /// Keys that exclude each other.
+    conflict: Option<Refusal>,
     origin: &'a Origin,
     /// Errors so far.
     faults: RefCell<Faults>,
@@ -145,7 +149,12 @@ impl Section<'_> {
     /// Refuses the value of a key; `value` is shown where none was written.
     fn refuse_value(self, key: &str, value: &str, rule: impl Display) -> Noted {
         let path = join(self.path, key);
-        let written = values::at(self.parts.written, &path).map(show);
+        let origin = self.parts.origin;
+        let given = || {
+            let value = self.parts.spec.get(schema::find(&path)?)?;
+            Some(super::escape::echo(&value.literal()))
+        };
+        let written = origin.shown(&path).or_else(given);
         let shown = written.as_deref().unwrap_or(value);
         let refusal = || self.parts.origin.refuse(&path, shown, rule);
         self.parts.faults.borrow_mut().note(&path, refusal);
@@ -170,8 +179,8 @@ impl<'a> Parts<'a> {
 
     /// Makes all parts.
     fn setup(&self) -> Result<Setup, Noted> {
-        if let Err(conflict) = check::conflicts(self.written, self.origin) {
-            self.faults.borrow_mut().note("", || conflict);
+        if let Some(conflict) = &self.conflict {
+            self.faults.borrow_mut().note("", || conflict.clone());
             return Err(Noted);
         }
         let (indenter, drive) = (self.indenter(), self.drive());
@@ -230,36 +239,27 @@ impl<'a> Parts<'a> {
         })
     }
 
-    /// Builds the wear law. Keys of the power law are checked under either law, so that the law can be switched during
-    /// a run.
+    /// Builds the wear law. Keys that are not given follow from the contact, if the law needs them.
     fn wear(&self, wear: &Wear, coefficient: f64, contact: &Unworn) -> Result<WearLaw, Noted> {
         let (at, usual) = (self.at(WEAR), self.usual.wear.as_ref());
-        let is_power = wear.law == Some(Law::Power);
-        let (stress, slip_rate) = (wear.reference_stress, wear.reference_slip_rate);
-        let (any_stress, any_slip_rate) =
-            match is_power && (stress.is_none() || slip_rate.is_none()) {
-                true => contact.references().ok_or_else(|| {
-                    let meaning = "Pa; none could be found from the contact";
-                    at.missing("reference_stress", meaning)
-                })?,
-                false => (1.0, 1.0),
-            };
-        let exponent = |of: fn(&Wear) -> Option<f64>| of(wear).or(usual.and_then(of));
-        let stress_exponent = exponent(|wear| wear.stress_exponent);
-        let slip_rate_exponent = exponent(|wear| wear.slip_rate_exponent);
-        let powers = Powers {
-            stress_exponent: at.need("stress_exponent", stress_exponent)?,
-            slip_rate_exponent: at.need("slip_rate_exponent", slip_rate_exponent)?,
-            reference_stress: stress.unwrap_or(any_stress),
-            reference_slip_rate: slip_rate.unwrap_or(any_slip_rate),
-        };
-        let power = WearLaw::power(coefficient, powers);
-        let law = if is_power {
-            power
-        } else {
-            power.and(WearLaw::archard(coefficient))
-        };
-        law.map_err(|invalid| at.refused(invalid))
+        let law = wear
+            .law
+            .ok_or_else(|| at.missing("law", at.described("law")))?;
+        let usual = usual.map_or_else(Parameters::default, |usual| usual.parameters);
+        let given = wear.parameters.or(usual);
+        let mut made = WearLaw::new(law, coefficient, &given);
+        if let Err(Unmade::Missing(_)) = made
+            && let Some(contact) = contact.references()
+        {
+            made = WearLaw::new(law, coefficient, &given.or(Parameters::usual_for(contact)));
+        }
+        made.map_err(|unmade| match unmade {
+            Unmade::Missing(key) => {
+                let unit = schema::known(&join(WEAR, key)).unit;
+                at.missing(key, format!("{unit}; none could be found from the contact"))
+            }
+            Unmade::Invalid(invalid) => at.refused(invalid),
+        })
     }
 
     /// Returns k per friction work, 1/Pa: as given, or the coefficient per load and distance divided by the initial

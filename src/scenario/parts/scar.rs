@@ -3,7 +3,7 @@
 use super::{HARDLY_SAME, Noted, Parts, WEAR};
 use crate::contact::indenter::Indenter;
 use crate::contact::scar::Scar;
-use crate::scenario::check::length;
+use crate::scenario::values::length;
 
 /// Keys of the scar.
 const RADII: &str = "initial_radii";

@@ -3,10 +3,9 @@
 use super::{HARDLY_SAME, INDENTER, Noted, Parts};
 use crate::contact::indenter::Indenter;
 use crate::contact::measured::MeasuredProfile;
-use crate::scenario::check::length;
 use crate::scenario::schema::{self, Parameter};
 use crate::scenario::spec::Shape;
-use crate::scenario::values;
+use crate::scenario::values::length;
 
 /// Allowed slopes a/R of a table at the contact's edge: beyond the steepest and the shallowest, one of its columns is
 /// in another unit.
@@ -58,8 +57,7 @@ impl Parts<'_> {
     }
 
     fn refuse_keys_of_other_shapes(&self, shape: &str) -> Result<(), Noted> {
-        let has = |path| values::at(self.written, path).is_some();
-        let is_foreign = |key: &&Parameter| has(key.path) && !key.belongs_to(shape);
+        let is_foreign = |key: &&Parameter| self.spec.get(key).is_some() && !key.belongs_to(shape);
         let Some(foreign) = schema::parameters().find(is_foreign) else {
             return Ok(());
         };

@@ -185,12 +185,15 @@ impl Search<'_> {
             FIRST * tolerance.sqrt() * depth / largest(&first.wear)
         };
         let stiffest = largest(&first.stiffness);
+        let can_be_implicit = has_run_in
+            && setup.wear.is_some_and(|law| law.traits().is_continuous)
+            && !steady_cycle::is_even(setup, first);
         let most_stages = most_stages(setup);
         loop {
             let covered = (length.min(most).min(LONGEST) / period).floor() * period;
             let stages = chebyshev::stages_for(covered * stiffest);
             let is_implicit = stages > most_stages;
-            if is_implicit && (!has_run_in || steady_cycle::is_even(setup, first)) {
+            if is_implicit && !can_be_implicit {
                 length = 0.5 * covered;
                 continue;
             }
@@ -320,7 +323,7 @@ fn after_jump(model: &Model, state: &State, memory: State, jump: Jump) -> State 
         ..memory
     };
     match &model.setup.wear {
-        Some(law) if !law.follows_energy() => end.ledger.unexplained_volume += worn,
+        Some(law) if !law.traits().explained_by_work => end.ledger.unexplained_volume += worn,
         _ => end.ledger.expected_volume += jump.expected_volume.max(0.0),
     }
     end.stats.jumps += 1;

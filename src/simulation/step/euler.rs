@@ -25,12 +25,15 @@ pub(super) fn wear(model: &Model, state: &State, next: &State, scratch: &mut Scr
         return;
     }
     let (contact, slip) = (&next.contact, &mut scratch.slip);
-    if model.setup.wear.is_some() {
+    if let Some(law) = &model.setup.wear {
         let sliding = scratch.sliding.find_under(model, slip, contact);
         let shear = &mut scratch.shear.nodal;
         traction::shear(model, contact, 0, (&mut shear[..], &mut scratch.rest));
-        let seconds = model.seconds(cycle - state.cycle);
-        scratch.increment.wear(model, shear, sliding, seconds);
+        if law.traits().needs_pressure {
+            (scratch.pressure).find(model, contact, sliding.nodes.start, &mut scratch.rest);
+        }
+        let (pressures, seconds) = ([&scratch.pressure; 2], model.seconds(cycle - state.cycle));
+        (scratch.increment).wear(model, shear, sliding, pressures, seconds);
     }
     let friction = scratch.friction.find_explicitly(model, contact, slip);
     scratch.increment.friction_work = friction.work;

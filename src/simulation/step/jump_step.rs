@@ -168,6 +168,9 @@ fn rates(model: &Model, steady: &SteadyCycle) -> Sums {
 
 /// k, m³/J, if the law wears by the work of friction; otherwise 0.
 fn explained(model: &Model) -> f64 {
-    let law = model.setup.wear.filter(|law| law.follows_energy());
+    let law = model
+        .setup
+        .wear
+        .filter(|law| law.traits().explained_by_work);
     law.map_or(0.0, |law| law.coefficient())
 }

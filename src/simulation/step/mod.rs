@@ -96,17 +96,24 @@ impl Scratch {
         self.increment.find_stiffness(model, shear, sliding)
     }
 
-    /// Computes the wear due to the slip so far and the pressure `p` (Pa) of a constant `contact`, and the friction
+    /// Computes the wear due to the slip so far and the `pressure` of a constant `contact`, and the friction
     /// work: τ = μp and ΔE_d = 2∫ μq |Δs| dx. The first `stuck` nodes do not slip.
-    fn wear_by_load(&mut self, model: &Model, contact: &Contact, p: &[f64], stuck: usize) {
+    fn wear_by_load(
+        &mut self,
+        model: &Model,
+        contact: &Contact,
+        pressure: &Pressure,
+        stuck: usize,
+    ) {
         let coefficient = model.setup.material.friction();
         let shear = &mut self.shear.nodal;
         shear[..stuck].fill(0.0);
-        for (tau, p) in shear[stuck..].iter_mut().zip(&p[stuck..]) {
+        for (tau, p) in shear[stuck..].iter_mut().zip(&pressure.nodal[stuck..]) {
             *tau = coefficient * p;
         }
         self.sliding.nodes = stuck..model.nodes();
-        self.increment.wear(model, shear, &self.sliding, 1.0);
+        let pressures = [pressure; 2];
+        (self.increment).wear(model, shear, &self.sliding, pressures, 1.0);
         let friction = (self.friction).find(model, [contact, contact], &mut self.slip);
         self.increment.friction_work = friction.work;
     }
@@ -170,7 +177,7 @@ fn accept(
         write_each(after, before, worn, |before, worn| before + worn);
         refuse(model, next.contact.depth, after, &model.grid.nodes()[nodes])?;
         // The two sides of V = k E_d: what work explains, and what other laws wore.
-        if law.follows_energy() {
+        if law.traits().explained_by_work {
             next.ledger.expected_volume += law.coefficient() * increment.friction_work;
         } else {
             let even = even_end(model, &state.contact.load);

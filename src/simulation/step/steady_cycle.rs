@@ -5,8 +5,8 @@
 //!
 //! # Formula
 //!
-//! If the depth is constant, the tangential motion is ±U, and wear is proportional to friction
-//! work, no steps are needed. Each spring that slips does so by S(x) = 2(U − μq_z/G*)₊ in each half
+//! If the depth is constant, the tangential motion is ±U, and wear is proportional to slip, no steps are needed. Each
+//! spring that slips does so by S(x) = 2(U − μq_z/G*)₊ in each half
 //! of a cycle, from the edge of the contact inwards, so that τ = μp where anything slips:
 //!
 //! ```text
@@ -150,7 +150,7 @@ fn period(
 fn plain_swing(setup: &Setup) -> Option<SpringMotion<'_>> {
     let swing = setup.drive.shift_of_springs()?;
     let is_plain = setup.drive.normal().oscillation().amplitude() == 0.0
-        && setup.wear.is_some_and(|law| law.follows_energy())
+        && setup.wear.is_some_and(|law| law.traits().linear_in_slip)
         && setup.scheme == Scheme::Trapezoid
         && !setup.drive.has_rig()
         && swing.waveform().has_two_strokes();
@@ -200,7 +200,7 @@ fn plain_cycle(
     surface_slip[..stuck].fill(0.0);
     let pressure = (memory.pressure).find(model, contact, stuck, &mut scratch.rest);
     scratch.slip.copy_from_slice(&slip.nodal);
-    scratch.wear_by_load(model, contact, &pressure.nodal, stuck);
+    scratch.wear_by_load(model, contact, pressure, stuck);
     scratch.find_stiffness(model);
     let increment = &scratch.increment;
     let mut stiffness = vec![0.0; model.nodes()];

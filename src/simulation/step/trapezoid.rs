@@ -82,16 +82,18 @@ pub(super) fn wear(
     let stuck = leading(states, |&spring| spring == SpringState::Stick);
     let zone = outer_slip_zone(states);
     let sliding = sliding.find(model, slip, contacts, stuck);
-    let after = next.pressure.find(model, &next.contact, zone.0, rest);
-    let before = if state.pressure.from > zone.0 {
-        pressure.find(model, &state.contact, zone.0, rest)
+    let first = sliding.pressed_from(&law, zone.0);
+    let after = next.pressure.find(model, &next.contact, first, rest);
+    let before = if state.pressure.from > first {
+        pressure.find(model, &state.contact, first, rest)
     } else {
         &state.pressure
     };
-    let causes = (friction, sliding);
-    let shear = shear.find(model, contacts, causes, [before, after], zone, rest);
-    increment.wear(model, shear, sliding, model.seconds(cycle - state.cycle));
-    let exponent = law.slip_rate_exponent();
+    let (causes, pressures) = ((friction, sliding), [before, after]);
+    let shear = shear.find(model, contacts, causes, pressures, zone, rest);
+    let seconds = model.seconds(cycle - state.cycle);
+    increment.wear(model, shear, sliding, pressures, seconds);
+    let exponent = law.traits().slip_rate_exponent;
     if exponent != 1.0 {
         let uneven = model.setup.drive.unevenness(exponent, state.cycle, cycle);
         increment.slip_in_less_time(model, slip, contacts, exponent, uneven);

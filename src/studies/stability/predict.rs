@@ -178,7 +178,7 @@ pub(super) fn sawtooth_from(method: AbelMethod) -> Option<(f64, &'static str)> {
 /// Returns G for p = 1 Pa: a spring that slips holds u = μq/G*, so wear by δ lets the surface slip by μE*δ/G* more,
 /// which wears G = kμ²pE*/G* times δ. `None` unless the law is in proportion to friction work.
 fn gain(setup: &Setup) -> Option<f64> {
-    let law = setup.wear.filter(|law| law.follows_energy())?;
+    let law = setup.wear.filter(|law| law.traits().linear_in_work)?;
     let (material, friction) = (&setup.material, setup.material.friction());
     let moduli = material.normal_modulus() / material.tangential_modulus();
     Some(law.coefficient() * friction * friction * moduli)
@@ -208,7 +208,8 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
             Scheme::Trapezoid => 0.5 * (before[j] + after[j]),
         };
         if pressure > scale * amplitude / width {
-            stiffest = stiffest.max(scale * law.stress_exponent() * worn[j] / (pressure * width));
+            stiffest =
+                stiffest.max(scale * law.traits().stress_exponent * worn[j] / (pressure * width));
         }
         most = most.max(share * pressure);
     }

@@ -11,7 +11,7 @@ use crate::reading::Column;
 use crate::scenario::escape::cell;
 use crate::scenario::values::{self, literal};
 use crate::scenario::{Refusal, Scenario, printable};
-use crate::scenario::{assign, schema, units};
+use crate::scenario::{draft, schema, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
@@ -169,7 +169,7 @@ impl Study {
     /// If the text is not an assignment, the key is unknown, or it is the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
         let place = format!("--set {}", printable(set));
-        let (key, value) = assign::split(set, &place)?;
+        let (key, value) = draft::split(set, &place)?;
         known_key(key, &place)?;
         let varied =
             |axis: &StudyAxis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);

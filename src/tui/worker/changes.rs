@@ -2,19 +2,22 @@
 
 use std::mem::replace;
 
+use strum::VariantArray;
+
 use super::outlet::Facts;
 use super::{Change, Worker};
 use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
 use crate::panics::locked;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::spec::{Law, Spec};
+use crate::scenario::spec::Spec;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::{self, Level};
 use crate::tui::beside::Twin;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts::Source;
 use crate::tui::trend::Recorded;
+use crate::wear::Law;
 
 /// Factor by which each key press refines or coarsens cells and steps.
 const STRIDE: f64 = 1.5;
@@ -39,7 +42,7 @@ pub(in crate::tui) fn shift_law(places: isize) -> Change {
         }
         edit(run, |spec| {
             if let Some(wear) = &mut spec.wear {
-                wear.law = wear.law.map(|now| shifted(&Law::ALL, now, places));
+                wear.law = wear.law.map(|now| shifted(Law::VARIANTS, now, places));
             }
         })
     })

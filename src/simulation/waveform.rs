@@ -135,6 +135,44 @@ impl Waveform {
         Self::Polyline(Arc::new(Polyline { phases, values }))
     }
 
+    /// Returns its value after `turns`, which begin `phase` rad into the waveform. Only the fraction of a turn counts, so
+    /// that the millionth turn is like the first.
+    pub fn at(&self, turns: f64, phase: f64) -> f64 {
+        match self {
+            Self::Sine => (TAU * turns.fract() + phase).sin(),
+            Self::Polyline(line) => line.at(line_phase(turns, phase)),
+        }
+    }
+
+    /// Returns its rate after `turns`, relative to the largest one of a sine.
+    pub fn rate(&self, turns: f64, phase: f64) -> f64 {
+        match self {
+            Self::Sine => (TAU * turns.fract() + phase).cos(),
+            Self::Polyline(line) => line.rate(line_phase(turns, phase)) / TAU,
+        }
+    }
+
+    /// Whether it rises at its beginning, or did so before it came to rest there.
+    pub fn rises_at_start(&self, phase: f64) -> bool {
+        match self {
+            Self::Sine => phase.cos() >= 0.0,
+            Self::Polyline(line) => line.last_rate(line_phase(0.0, phase)) >= 0.0,
+        }
+    }
+
+    /// Returns the position of the first corner after `turns`; `None` if it is smooth.
+    pub fn next_corner(&self, turns: f64, phase: f64) -> Option<f64> {
+        match self {
+            Self::Sine => None,
+            Self::Polyline(line) => Some(turns + line.to_next_corner(line_phase(turns, phase))),
+        }
+    }
+
+    /// Whether it is a sine, for which closed forms of two motions are known.
+    pub fn is_harmonic(&self) -> bool {
+        matches!(self, Self::Sine)
+    }
+
     /// Whether it goes from one end to the other and back, with or without rests: one stroke each way.
     pub fn has_two_strokes(&self) -> bool {
         match self {
@@ -155,28 +193,34 @@ impl Waveform {
     }
 }
 
+/// Returns the phase of a polyline, from 0 to below 1.
+fn line_phase(turns: f64, phase: f64) -> f64 {
+    let phase = (turns.fract() + phase / TAU).rem_euclid(1.0);
+    if phase < 1.0 { phase } else { 0.0 }
+}
+
 impl Polyline {
     /// Returns the value at a phase from 0 to 1.
-    pub fn at(&self, phase: f64) -> f64 {
+    fn at(&self, phase: f64) -> f64 {
         let k = self.segment(phase);
         let since = (phase - self.phases[k]).rem_euclid(1.0);
         self.values[k] + self.slope(k) * since
     }
 
     /// Returns the slope per period at a phase; at a corner, the slope behind it.
-    pub fn rate(&self, phase: f64) -> f64 {
+    fn rate(&self, phase: f64) -> f64 {
         self.slope(self.segment(phase))
     }
 
     /// Returns the slope per period at a phase; during a rest, the last slope before it.
-    pub fn last_rate(&self, phase: f64) -> f64 {
+    fn last_rate(&self, phase: f64) -> f64 {
         let (corners, k) = (self.phases.len(), self.segment(phase));
         let mut slopes = (0..corners).map(|back| self.slope((k + corners - back) % corners));
         slopes.find(|slope| *slope != 0.0).unwrap_or(0.0)
     }
 
     /// Returns the distance from `phase` to the next corner, in periods: greater than 0, at most 1.
-    pub fn to_next_corner(&self, phase: f64) -> f64 {
+    fn to_next_corner(&self, phase: f64) -> f64 {
         let next = self.phases.partition_point(|&corner| corner <= phase);
         match self.phases.get(next) {
             Some(corner) => corner - phase,

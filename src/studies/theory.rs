@@ -7,7 +7,6 @@ use crate::oracle::limiting_profile::LimitingProfile;
 use crate::oracle::line_contact::Cylinder;
 use crate::oracle::power_law::PowerLaw;
 use crate::simulation::drive::{Control, Oscillation};
-use crate::simulation::waveform::Waveform;
 use crate::simulation::{Setup, Unworn};
 
 /// The closed forms that apply.
@@ -48,7 +47,7 @@ impl LineContact {
 
 /// Whether the closed forms of a sine hold at all its moments.
 fn is_sine(swing: &Oscillation) -> bool {
-    *swing.waveform() == Waveform::Sine || swing.amplitude() == 0.0
+    swing.waveform().is_harmonic() || swing.amplitude() == 0.0
 }
 
 /// Whether the tangential motion begins at rest and swings about it, under a normal one that is held.

@@ -1,7 +1,5 @@
 //! One direction's oscillation about its mean, Eq. (14) of the paper, counted in its turns.
 
-use std::f64::consts::TAU;
-
 use super::super::waveform::Waveform;
 use crate::math::invalid::{Invalid, finite, non_negative, positive};
 
@@ -77,27 +75,17 @@ impl Oscillation {
     /// Returns the value after `turns` of this oscillation. The waveform only gets the fraction of a turn, so that the
     /// millionth turn is like the first.
     pub fn after_turns(&self, turns: f64) -> f64 {
-        let swing = match &self.waveform {
-            Waveform::Sine => (TAU * turns.fract() + self.phase).sin(),
-            Waveform::Polyline(line) => line.at(self.line_phase(turns)),
-        };
-        self.mean + self.amplitude * swing
+        self.mean + self.amplitude * self.waveform.at(turns, self.phase)
     }
 
     /// Returns the rate of the waveform after `turns`; the maximum for a sine is 1.
     pub(super) fn rate(&self, turns: f64) -> f64 {
-        match &self.waveform {
-            Waveform::Sine => (TAU * turns.fract() + self.phase).cos(),
-            Waveform::Polyline(line) => line.rate(self.line_phase(turns)) / TAU,
-        }
+        self.waveform.rate(turns, self.phase)
     }
 
     /// Whether it moves upwards at the beginning, or did so before coming to rest there.
     pub fn rises_at_start(&self) -> bool {
-        match &self.waveform {
-            Waveform::Sine => self.phase.cos() >= 0.0,
-            Waveform::Polyline(line) => line.last_rate(self.line_phase(0.0)) >= 0.0,
-        }
+        self.waveform.rises_at_start(self.phase)
     }
 
     /// The greatest speed, per second.
@@ -107,16 +95,7 @@ impl Oscillation {
 
     /// Returns the position of the first corner after `turns`, if the waveform has corners.
     pub(super) fn next_corner(&self, turns: f64) -> Option<f64> {
-        match &self.waveform {
-            Waveform::Sine => None,
-            Waveform::Polyline(line) => Some(turns + line.to_next_corner(self.line_phase(turns))),
-        }
-    }
-
-    /// Returns the phase of a polyline, from 0 to below 1.
-    fn line_phase(&self, turns: f64) -> f64 {
-        let phase = (turns.fract() + self.phase / TAU).rem_euclid(1.0);
-        if phase < 1.0 { phase } else { 0.0 }
+        self.waveform.next_corner(turns, self.phase)
     }
 }
 

@@ -22,7 +22,7 @@ pub static RECIPE: Recipe = Recipe {
     ..Recipe::new(make)
 };
 
-/// Free space beside a loop on paper, relative to its width.
+/// Free space on both sides of a loop on paper, relative to its width.
 const MARGIN: f64 = 0.05;
 
 /// Returns the range of the values, made symmetric about zero if they lie on both sides of it.

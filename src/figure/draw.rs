@@ -14,7 +14,7 @@ use crate::plot::{Chart, Curve, Scale};
 /// the frame, because it is an axis.
 const HEADROOM: f64 = 0.04;
 
-/// Widths of curves, of axes, and of the white margin beside a line on a map, mm.
+/// Widths of curves, of axes, and of the white margin along a line on a map, mm.
 const CURVE: f64 = 0.35;
 const FRAME: f64 = 0.15;
 const HALO: f64 = 0.2;

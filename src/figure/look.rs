@@ -48,7 +48,7 @@ const REGIMES: [Rgb; WORDS] = [
 const REGIME_GREYS: [u8; WORDS] = [110, 165, 210, 245];
 
 /// Dash patterns that tell grey lines apart, mm: first for states and other sources, then for closed forms and for the
-/// unworn profile, which are drawn beside them.
+/// unworn profile, which are drawn with them.
 const DASHES: [&[f64]; SERIES.len() + 2] = [
     &[],
     &[2.0, 0.8],
@@ -130,7 +130,7 @@ impl FigureStyle {
 mod tests {
     use super::*;
 
-    /// Each state has different dashes, and the curves drawn beside them have others.
+    /// Each state has different dashes, and the curves drawn with them have others.
     #[test]
     fn greys_tell_states_apart_from_the_unworn_profile_and_the_limit() {
         let look = FigureStyle {

@@ -140,7 +140,7 @@ impl Sheet {
         let rows = self.charts.len().div_ceil(columns).max(1);
         let place = [size[0] / columns as f64, size[1] / rows as f64];
         let mut charts = self.charts.clone();
-        // A single unnamed curve gets a name if other sources are drawn beside it.
+        // A single unnamed curve gets a name if other sources are drawn with it.
         for chart in &mut charts {
             let is_ghost = |curve: &Curve| matches!(curve.role, Role::Ghost(_));
             let has_ghosts = chart.curves.iter().any(is_ghost);

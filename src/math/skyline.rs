@@ -214,7 +214,7 @@ mod tests {
         assert!(output[1].is_nan() && output[2].is_nan());
     }
 
-    /// Inputs that end within a panel's columns, inputs beside them, and empty inputs.
+    /// Inputs that end within a panel's columns, inputs outside them, and empty inputs.
     #[test]
     fn what_lies_outside_the_input_is_passed_over() {
         let dense = DMatrix::from_fn(45, 45, |i, j| {

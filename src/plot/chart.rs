@@ -39,7 +39,7 @@ pub struct Curve {
     pub has_symbols: bool,
     /// Whether a line joins its points on paper.
     pub has_line: bool,
-    /// Whether it is a closed form beside the run's own curves, which alone decide the range of a live chart's axes.
+    /// Whether it is a closed form drawn with the run's own curves, which alone decide the range of a live chart's axes.
     pub is_theory: bool,
 }
 
@@ -96,7 +96,7 @@ impl Curve {
         values.for_each(|value| *value = scale(*value));
     }
 
-    /// The same curve as a closed form beside the run: dashed, and drawn below the run's own curves.
+    /// The same curve as a closed form: dashed, and drawn below the run's own curves.
     #[must_use]
     pub fn theory(mut self) -> Self {
         (self.is_theory, self.dashed) = (true, true);

@@ -139,7 +139,7 @@ mod tests {
                 let shades = (0..SHADES).map(|shade| color(&theme, map, share(shade)));
                 let mut told: Vec<_> = shades.collect();
                 told.dedup();
-                // The two shades beside zero in a diverging map share a grey.
+                // The two shades next to zero in a diverging map share a grey.
                 let shared = usize::from(map == ColorMap::Diverging);
                 assert_eq!(told.len(), SHADES - shared, "{told:?}");
             }

@@ -72,7 +72,7 @@ impl PlotLayout<'_> {
                 free.start = x + width + 1;
                 continue;
             }
-            // Without room above the line, the label goes beside its upper end, unless a curve passes there.
+            // Without room above the line, the label goes next to its upper end, unless a curve passes there.
             let beside = [Some(column + 1), column.checked_sub(width)];
             let mut spots = beside.into_iter().flatten();
             let spot = spots.find_map(|x| {

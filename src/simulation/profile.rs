@@ -72,7 +72,7 @@ impl Profile {
         if let Some(even) = even {
             EdgeCurve::new(even, end).add_to_profile(t, last, &mut self.g);
         }
-        // Eq. (1) of what the line in t to the next node has too much.
+        // Subtracts the image, Eq. (1), of the tail beyond the scar's end.
         let kinks = kink::hat([t[last], next], wear(last), end);
         for (g, &t) in self.g.iter_mut().zip(t).skip(last + 1) {
             if model.setup.geometry.is_line() {

@@ -7,7 +7,7 @@ use super::model::Model;
 use crate::math::abel::field::Field;
 use crate::math::vector::vectorized;
 
-/// p of a solved contact, Pa, at the nodes: as far inwards as steps have needed it.
+/// p of a solved contact at the nodes, Pa, computed from node `from` outwards.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Pressure {
     /// Innermost node whose value belongs to this contact.

@@ -102,7 +102,7 @@ impl Within {
     ) {
         let material = &model.setup.material;
         let (coefficient, reach) = (material.friction(), material.reach());
-        // The displacement of a line contact is told against a gauge: its springs move by less.
+        // The displacement of a line contact is measured relative to a gauge: its springs move by less.
         let increment = match model.setup.geometry {
             Geometry::Round => after.shift - before.shift,
             Geometry::Line { .. } => slip[0] + after.spring.nodal[0] - before.spring.nodal[0],

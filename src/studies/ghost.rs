@@ -1,4 +1,4 @@
-//! Curves to draw beside a simulation: measurements, the files of a run, or a frozen state.
+//! Curves to draw with those of a simulation: measurements, the files of a run, or a frozen state.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -141,7 +141,7 @@ impl AnsiWriter {
         let mut changes = self.shown.diff(wanted);
         let is_whole = self.cut(&mut changes, room);
         // A style takes more bytes than a move, so the cells of one style go out together. The status
-        // line goes first: a slow line shows it at once, and it tells of a key.
+        // line goes first: a slow line shows it at once, and it shows that a key was received.
         changes.sort_by_cached_key(|&(x, y, cell)| {
             (y > 0, Pen::from_cell(cell).1.full_sequence(), y, x)
         });

@@ -101,7 +101,7 @@ commands! {
         Contact [Char('V')] "contact", "the contact itself, large and in motion, or all panels",
             Screen(|on| on.stage.toggle_contact());
         LogScale [Char('L')] "log", "logarithmic scale in the focused panel", Screen(Explorer::toggle_log);
- Cursor [Char('x')] "cursor", "a cursor that reads the curves; arrows move it and zoom", Screen(|on| on.cursor.toggle());
+        Cursor [Char('x')] "cursor", "a cursor that reads the curves; arrows move it and zoom", Screen(|on| on.cursor.toggle());
         Left [Named(N::Left), Char('h')] "left", "move the cursor to the left, or focus the previous panel",
             Screen(|on| on.move_sideways(-1));
         Right [Named(N::Right), Char('l')] "right", "move the cursor to the right, or focus the next panel",

@@ -16,7 +16,7 @@ use super::flow::Request;
 /// dropped.
 const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 
-/// A text for the writer, and the channel that is told once it is written.
+/// A text for the writer, and the channel that is notified once it is written.
 type Chunk = (String, Option<Sender<Event>>);
 
 /// The channel to the terminal.

@@ -17,7 +17,7 @@ pub const CHART: Panel = Panel::Loop;
 const SECONDS: f64 = 8.0;
 const LEAST: f64 = 40.0;
 
-/// Minimum columns for the chart beside the contact; on a narrower screen it is below.
+/// Minimum columns for the chart next to the contact; on a narrower screen it is below.
 const WIDE: u16 = 100;
 
 /// Rows of the large words, including a blank one, and the minimum rows of the screen for them.

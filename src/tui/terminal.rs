@@ -71,7 +71,7 @@ pub fn size() -> io::Result<Size> {
 }
 
 impl Screen {
-    /// Takes the terminal over, and the mouse as well if it was asked for. `events` is told when the
+    /// Takes the terminal over, and the mouse as well if it was asked for. `events` is notified when the
     /// terminal has taken what was drawn, and when it is gone; with `asks`, also what the background is.
     pub fn open(mouse: bool, asks: bool, events: Sender<Event>) -> io::Result<Self> {
         let mut screen = Self {

@@ -25,7 +25,7 @@
 
 use std::f64::consts::PI;
 
-/// The cells from the edge inwards in which the curve is told from its chords.
+/// Number of cells at the edge in which the curve differs from its chords.
 const CELLS: usize = 8;
 
 /// The curve −A ε ln ε of a scar at its edge, A = h/(2πa E*).
@@ -44,7 +44,7 @@ impl EdgeCurve {
         Self { steepness, edge }
     }
 
-    /// How far the surface at r² = `square` (m²) is pressed below its edge, m, but for what is smooth there.
+    /// How far the surface at r² = `square` (m²) is pressed below its edge, m, without the smooth part.
     pub fn at(&self, square: f64) -> f64 {
         -self.steepness * self.times_log(square, self.edge)
     }

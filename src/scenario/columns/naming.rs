@@ -1,11 +1,11 @@
-//! What a user says of the columns of a file whose lines do not say it: `--fields r=2,wear=3 --units um,nm`, or in a
+//! Column names and units that the user gives because the file has none: `--fields r=2,wear=3 --units um,nm`, or in a
 //! scenario `file = { file = "tip.csv", fields = "r=2,f=3", units = "um,nm" }`.
 
 use std::str::FromStr;
 
 use super::{Columns, Refusal, echo, names};
 
-/// What a user says of the columns of a file whose lines do not say it.
+/// User-supplied column names and units.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Naming {
     /// Quantities and where they stand.

@@ -6,10 +6,10 @@
 //! number n of cycles, dδ/dn = W(δ), W the wear of a [steady-state cycle](super::steady_cycle) on
 //! the frozen profile. That is integrated with an error that is controlled by the tolerance: by
 //! [Runge–Kutta–Chebyshev steps](crate::math::chebyshev), whose number of stages follows the stiffness z of the response
-//! of p to wear, and beyond the z where stages cost more by [linearly implicit ones](crate::math::rosenbrock), as long as z
-//! would have it. The friction work is integrated along with it. The tolerance is in units of the largest
-//! depth of the motion or, where the force is prescribed, of the largest compression of a spring; of the work
-//! it allows the part that it is of the scar's depth, up to 1e-4.
+//! of p to wear, or by [linearly implicit steps](crate::math::rosenbrock) if z is so large that stages cost more. The
+//! friction work is integrated along with the depth. The tolerance is in units of the largest depth of the motion or,
+//! if the force is prescribed, of the largest compression of a spring. The work may err by the same relative amount as
+//! the depth of the scar, at most 1e-4.
 //!
 //! Friction and k that run in are taken where a stage stands, in cycles and in work. A jump ends before the next corner of
 //! their courses and before the threshold of wear, which direct steps pass.
@@ -280,8 +280,8 @@ enum Refused {
     WithoutRoom,
 }
 
-/// The error of a jump in units of what is allowed: that of the worn depth, by its rms over the nodes that
-/// wear and its largest value, and that of the friction work relative to all the work so far.
+/// The error of a jump relative to the allowed error: the worn depth counts by its rms over the nodes that wear and by
+/// its largest value, the friction work relative to all the work so far.
 fn error(state: &State, first: &SteadyCycle, jump: &Jump, allowed: f64, tolerance: f64) -> f64 {
     let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
     for (j, error) in jump.error.iter().enumerate() {

@@ -21,7 +21,7 @@ pub(super) struct Jump {
     pub steady: SteadyCycle,
     /// The error of the wear, m.
     pub error: Vec<f64>,
-    /// That of the friction work, J.
+    /// Error of the friction work, J.
     pub error_of_work: f64,
 }
 

@@ -7,7 +7,7 @@
 //! The parts grow in number with the cells. Chebyshev stages inside a part, its contact and its motion held, make them
 //! independent of the cells (Fig. 3 at K = 30, parts of 5 cycles: 3700 on 400 cells and 15 400 on 1600 become 500 and
 //! 540). Up to some hundred cells they pay nothing: with so few parts springs slip inside the border, V errs by 1e-3, and
-//! with enough of them for 2e-5 they take as many transforms as these here; on 1600 cells they take 0.4 of them.
+//! with enough parts for 2e-5 the stages take as many transforms as plain parts do; on 1600 cells they take 0.4 of them.
 //!
 //! # Slip instabilities
 //!

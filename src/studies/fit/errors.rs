@@ -15,7 +15,7 @@
 //!
 //! σ² is W. Förstner's estimate of variance components (1979, Allg. Vermessungs-Nachr. 86, 446–453). The mean
 //! square alone is too small for the set that determines the keys: 17 points of a scar that determine two keys
-//! leave ν = 15, and a loop of 20 points beside it all of its 20. Since the σ are estimated, so are the weights of
+//! leave ν = 15, and a loop of 20 points next to it all of its 20. Since the σ are estimated, so are the weights of
 //! the sets; Λ is what that adds to the variance of the keys, and by as much Φ of estimated weights is too small:
 //! M. G. Kenward, J. H. Roger (1997), Biometrics 53, 983–997. One set has nothing to be weighed against, Λ = 0.
 //!

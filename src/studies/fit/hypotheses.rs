@@ -1,15 +1,15 @@
-//! What may be fitted beside the keys: readings of each file, of which the plainest is tried first.
+//! Candidate zeros, centres and tilts of each file, simplest first.
 
 use super::nuisance::Nuisances;
 use super::{Fit, Switch};
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
-/// Repeats are traces of one kind: with more combinations than this, further files are read as they seem.
+/// Repeats are traces of one kind: with more combinations than this, later files get only their first candidate.
 const MOST: usize = 2;
 
 impl Fit {
-    /// The readings of all files in all combinations, as long as these are few.
+    /// Returns all combinations of the candidates of all files, if these are few.
     pub(super) fn hypotheses(&self) -> Vec<Vec<Nuisances>> {
         self.data.iter().fold(vec![Vec::new()], |all, set| {
             let mut readings = self.readings(set);
@@ -26,8 +26,8 @@ impl Fit {
         })
     }
 
-    /// A trace through its axis may be symmetric about the place where it seems so, or, behind noise, about its zero. One
-    /// on a side of its zero may begin at the axis, or run through it all the same.
+    /// A trace across the axis may be symmetric about its apparent centre or, if noise hides the centre, about zero. A
+    /// trace on one side of zero may begin at the axis, or cross it.
     fn readings(&self, set: &Measured) -> Vec<Nuisances> {
         let [level, shift, tilt] = self.options.nuisances;
         let (is_scar, is_loop) = (set.axes.over_r(), set.axes == Axes::LOOP);

@@ -1,7 +1,7 @@
 //! The levels of numerics of a fit: a coarse one for the search, finer ones at the minimum.
 //!
 //! A finer level is run once at the minimum so far, which tells how far it moves the keys; then the search goes on there,
-//! until the next level would move them by little beside their errors. No fit ends on a coarser level than the third: a
+//! until the next level would move them by much less than their errors. No fit ends on a coarser level than the third: a
 //! border of slip between few cells moves in steps.
 
 use anyhow::Result;
@@ -15,8 +15,8 @@ use crate::studies::refinement::Level;
 /// How much smaller its tolerance of jumps is: their errors add up to its power of two thirds.
 const LESS_TOLERANT: f64 = 2.0;
 
-/// The error left on a level, relative to how far it has moved the keys, and the error of the level before it, if errors
-/// fall with the first to second power of the steps.
+/// Assumed ratio of a level's error to the shift of the keys on it, and of the error of the level before, if errors fall
+/// with the first to second power of the steps.
 const LEFT: f64 = 1.0;
 const BEFORE: f64 = 2.2;
 

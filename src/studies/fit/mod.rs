@@ -4,7 +4,7 @@
 //! in or the last one, histories with their course. Keys that must be positive are fitted by their logarithms. If a
 //! file gives no errors, all its values share one, estimated from the residuals, so that scars in
 //! nanometres and loops in newtons are weighted by their noise. The zeros, the centre and the tilt of each file are
-//! fitted beside the keys, see [`nuisance`].
+//! fitted in addition to the keys, see [`nuisance`].
 //!
 //! # Formula
 //!
@@ -149,7 +149,7 @@ impl Fit {
         })
     }
 
-    /// Seeks the minimum; `on_run` hears of every run.
+    /// Finds the minimum; calls `on_run` after each simulation.
     ///
     /// # Errors
     /// A scenario that cannot run with its start values, and a search that fails.

@@ -47,7 +47,7 @@ impl Value {
     }
 }
 
-/// A zero, a centre or a tilt that was fitted beside the keys.
+/// A zero, a centre or a tilt that was fitted in addition to the keys.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Nuisance {
     /// `baseline`, `level`, `centre`, `shift` or `tilt`.

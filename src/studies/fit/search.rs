@@ -1,4 +1,4 @@
-//! One search: a level of numerics, what is fitted beside the keys, and the errors of the data so far.
+//! One search: a level of numerics, what is fitted in addition to the keys, and the errors of the data so far.
 
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
@@ -22,11 +22,11 @@ const LEAST_ERROR: f64 = 1e-4;
 /// The standard deviation of normal noise in medians of its size.
 const OF_MEDIAN: f64 = 1.4826;
 
-/// A scar without so much of its points beyond its edge shows no baseline.
+/// Minimum fraction of unworn points needed to fit a baseline.
 const BASELINE: f64 = 0.08;
 
-/// A run is aborted after this multiple of the steps of the shortest one, but not before [`ENOUGH_STEPS`]: a coefficient of wear that is
-/// far too large costs a hundred times as much, and is no minimum.
+/// A run is aborted after this multiple of the steps of the shortest one, but not before [`ENOUGH_STEPS`]: a wear
+/// coefficient that is far too large costs a hundred times as much, and is not the minimum.
 const MOST_STEPS: u64 = 20;
 const ENOUGH_STEPS: u64 = 10_000;
 
@@ -74,7 +74,7 @@ pub(super) struct Found {
     pub z: Vec<f64>,
     /// The same, smaller for outliers if these count less, and the keys' distances from their starts.
     weighed: Vec<f64>,
-    /// −2 ln of the likelihood, but for a constant.
+    /// −2 ln of the likelihood, up to a constant.
     pub objective: f64,
 }
 
@@ -121,7 +121,7 @@ impl<'a> Search<'a> {
         (self.in_time)()
     }
 
-    /// The best of all evaluations so far, also of those of a search that has failed.
+    /// The best evaluation so far, also if the search has failed.
     pub fn best_so_far(&self) -> Option<Found> {
         self.best.borrow().clone()
     }

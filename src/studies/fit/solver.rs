@@ -9,7 +9,7 @@ use crate::scenario::{Refusal, Scenario, units};
 /// Maximum range of a positive key, in e-folds.
 const FARTHEST: f64 = 9.3;
 
-/// The step of differences, of a logarithm or relative to a value: the scenario is planned anew for each run, its grid
+/// The step of differences, of a logarithm or relative to a value: the scenario is planned again for each run, its grid
 /// follows the keys, and jumps over cycles end elsewhere, which leaves roughness of some 1e-5 of the depth.
 const STEP: f64 = 0.02;
 

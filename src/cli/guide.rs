@@ -6,10 +6,10 @@ use std::process::{Command, Stdio};
 use anyhow::Result;
 
 use super::args::Guide;
-use super::markdown;
 use crate::guide::{TOPICS, Topic};
 use crate::scenario::Refusal;
 use crate::scenario::nearest::hint;
+use crate::tui::line::{cells, wrapped};
 
 /// Shows a topic, or the list of topics if none is given.
 pub fn guide(options: &Guide) -> Result<()> {
@@ -18,7 +18,7 @@ pub fn guide(options: &Guide) -> Result<()> {
     };
     let topic = Topic::find(name).ok_or_else(|| unknown(name))?;
     let shown = if io::stdout().is_terminal() {
-        page(&markdown::rendered(topic.text, columns()))
+        page(&fitted(topic.text, columns()))
     } else {
         io::stdout().write_all(topic.text.as_bytes())
     };
@@ -39,6 +39,21 @@ fn list() -> String {
 fn unknown(name: &str) -> Refusal {
     let hint = hint(name, TOPICS.iter().map(|topic| topic.name));
     Refusal::new(format_args!("guide {name}"), "no such topic").or(hint)
+}
+
+/// Breaks lines that are wider than the terminal at blanks; code stays as it is.
+fn fitted(text: &str, columns: usize) -> String {
+    let (mut is_code, mut fitted) = (false, String::new());
+    for line in text.lines() {
+        is_code ^= line.starts_with("```");
+        let lines = if is_code || cells(line) <= columns {
+            vec![line.to_owned()]
+        } else {
+            wrapped(line, columns)
+        };
+        fitted += &(lines.join("\n") + "\n");
+    }
+    fitted
 }
 
 /// Shows the text in `$PAGER` or `less`; prints it if neither works.
@@ -64,6 +79,18 @@ fn page(text: &str) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_terminal_breaks_lines_at_blanks_and_leaves_code_and_words_whole() {
+        let code = "```sh\na line of code, however long it may be\n```\n";
+        let text = format!("# A\n{code}one two three\n| `a` | b |\n");
+        let broken = "one two\nthree\n| `a` |\nb |\n";
+        assert_eq!(fitted(&text, 9), format!("# A\n{code}{broken}"));
+        for topic in TOPICS {
+            let shown = fitted(topic.text, 80);
+            assert!(shown.split_whitespace().eq(topic.text.split_whitespace()));
+        }
+    }
 
     #[test]
     fn a_mistyped_topic_is_led_to_the_nearest() {

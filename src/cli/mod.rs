@@ -33,7 +33,6 @@ mod given;
 mod guide;
 mod inspect;
 mod job;
-mod markdown;
 mod new;
 mod presets;
 mod progress;

@@ -73,11 +73,7 @@ pub fn explore(options: &Explore, map: Option<LiveStudy>) -> Result<()> {
         present: options.present,
         panels: config.panels,
         mouse: screen.mouse || config.mouse == Some(true),
-        script: screen.print.map(|size| Script {
-            strokes,
-            size,
-            format: screen.format,
-        }),
+        script: screen.print.map(|size| Script { strokes, size }),
     })?;
     if let Some(word) = farewell.saved {
         complain(&word);

@@ -10,7 +10,7 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use clap_complete::CompleteEnv;
 
@@ -192,6 +192,12 @@ fn mistyped_command(word: &str) -> Option<Refusal> {
     let refusal = Refusal::new(printable(word), "no such command or preset");
     Some(refusal.or(format_args!("did you mean mdr-tui {meant}?")))
 }
+/// Options that older versions had, and what to use instead.
+const GONE: [(&str, &str); 1] = [(
+    "--format",
+    "--print prints text; mdr-tui figure draws charts as SVG, PNG or PDF",
+)];
+
 
 /// Prints help and version on stdout; reports a mistake in one line.
 fn refuse(error: &clap::Error) -> ExitCode {
@@ -205,6 +211,16 @@ fn refuse(error: &clap::Error) -> ExitCode {
     if let Some(refusal) = mistyped_command(&first) {
         complain(&refusal.to_string());
         return ExitCode::from(MISUSED);
+    let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
+    let gone = GONE
+        .iter()
+        .find(|(option, _)| unknown.as_deref() == Some(option));
+    if let (ErrorKind::UnknownArgument, Some((option, instead))) = (kind, gone) {
+        complain(&format!(
+            "{option}: there is no such option any more: {instead}"
+        ));
+        return ExitCode::from(MISUSED);
+    }
     }
     let text = error.render().to_string();
     let is_end =

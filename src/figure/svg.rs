@@ -1,8 +1,7 @@
 //! Writes a figure as SVG. Text stays text, so that an editor can change it; the font is only named.
 
-use super::canvas::{Canvas, Shape};
+use super::canvas::{Canvas, Rgb, Shape};
 use super::font::FAMILY;
-use crate::plot::screen_svg::hex;
 use crate::scenario::escape::xml;
 
 /// Returns the whole file.
@@ -66,6 +65,11 @@ fn element(shape: &Shape) -> String {
             )
         }
     }
+}
+
+/// Returns a colour in SVG notation.
+pub fn hex([red, green, blue]: Rgb) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// Rounds to one micrometre, which is fine enough on paper. Adding zero turns -0 into 0.

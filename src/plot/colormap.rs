@@ -6,7 +6,7 @@ use ratatui::style::Color;
 pub type Rgb = [u8; 3];
 
 /// The terminal's named colours, by number, with their usual RGB values for when the real ones are unknown.
-pub(crate) const NAMED: [(Color, Rgb); 16] = [
+pub const NAMED: [(Color, Rgb); 16] = [
     (Color::Black, [0, 0, 0]),
     (Color::Red, [0xcd, 0x31, 0x31]),
     (Color::Green, [0x0d, 0xbc, 0x79]),
@@ -77,7 +77,7 @@ pub(super) fn between(stops: &[Rgb], share: f64) -> Rgb {
 }
 
 /// The colour at a `share` of the way from one to another.
-pub(super) fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
+pub fn mixed(from: Rgb, to: Rgb, share: f64) -> Rgb {
     [0, 1, 2].map(|k| {
         let [from, to] = [from[k], to[k]].map(f64::from);
         (from + share * (to - from)).round() as u8

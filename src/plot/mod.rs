@@ -15,7 +15,7 @@
 //! colours and signs of a terminal), `theme` (what roles look like), `units` (SI prefixes), `axis` (what an axis shows,
 //! its bounds), `window` (the map from values to dots), `step` (the 1-2-5 grid), `ticks` (an axis laid over cells, on a
 //! screen or on paper), `marker`, `stroke`, `raster` and `segment` (dots finer than a cell), `legend`, `words` (titles
-//! and labels), `widget` (the layout above), `screen_svg` (a screen as a picture).
+//! and labels), `widget` (the layout above).
 //!
 //! All data are in plain units (m, Pa); the plot chooses the prefixes. Points where x or y is not finite, or not
 //! positive on a log axis, are gaps. Where a curve leaves given bounds through the top, `▲` marks the place. No area
@@ -28,7 +28,6 @@ mod legend;
 pub mod map;
 mod marker;
 mod raster;
-pub mod screen_svg;
 pub mod segment;
 pub mod shades;
 pub(crate) mod step;

@@ -68,7 +68,7 @@ mod undo;
 pub mod worker;
 
 use crate::panics::catch;
-use crate::plot::theme::{Depth, Theme};
+use crate::plot::theme::Theme;
 use app::App;
 pub use appearance::theme_of;
 use autosave::ScreenAutosave;
@@ -76,7 +76,7 @@ use event::Event;
 pub use event_loop::NoTerminal;
 use explorer::Next;
 use remembered::Remembered;
-pub use script::{Format, Script, Stroke, parse_size, press, text};
+pub use script::{Script, Stroke, parse_size, press, text};
 use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
 
@@ -123,10 +123,6 @@ pub fn run(options: Options) -> Result<Farewell> {
     if is_live {
         event_loop::require_terminal()?;
     }
-    let theme = match &options.script {
-        Some(script) if script.format == Format::Svg => options.theme.with_depth(Depth::Indexed),
-        _ => options.theme,
-    };
     let is_first = is_first_time(&options);
     let origin = options.run.session.loaded().origin().to_owned();
     let (orders, to_worker) = Orders::channel();
@@ -140,7 +136,7 @@ pub fn run(options: Options) -> Result<Farewell> {
     let running = options.running && is_live;
     let worker = Worker::new(options.run, events.clone(), interval, running);
     let mut worker = worker.with_ghosts(options.ghosts);
-    let mut app = App::new(theme, orders.clone(), Arc::new(worker.frame()));
+    let mut app = App::new(options.theme, orders.clone(), Arc::new(worker.frame()));
     app.explorer.stage.put_first(options.panels);
     if let Some(map) = options.map {
         let events = events.clone();

@@ -1,4 +1,4 @@
-//! `--keys SCRIPT --print SIZE`: the explorer without a terminal, for scripts, tests and pictures.
+//! `--keys SCRIPT --print SIZE`: the explorer without a terminal, for scripts and tests.
 
 use std::io::{self, Write};
 use std::sync::mpsc::Receiver;
@@ -12,8 +12,6 @@ use super::event::Event;
 use super::explorer::Next;
 use super::keys::{self, Key};
 use super::screen;
-use crate::plot::screen_svg::{self, Ground};
-use crate::plot::theme::Look;
 
 /// Reads a size of the screen, `COLUMNSxROWS`.
 ///
@@ -28,24 +26,13 @@ pub fn parse_size(text: &str) -> Result<Size, String> {
     size.ok_or_else(|| "a size is COLUMNSxROWS from 1x1 to 1000x1000, e.g. 80x24".into())
 }
 
-/// The output format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Format {
-    /// Its text.
-    Text,
-    /// A picture with its colours.
-    Svg,
-}
-
-/// Keys to press, and how to print the screen after them.
+/// Keys to press, and the size at which to print the screen after them.
 #[derive(Debug, Clone)]
 pub struct Script {
     /// The keys.
     pub strokes: Vec<Stroke>,
     /// The size of the screen.
     pub size: Size,
-    /// Text or picture.
-    pub format: Format,
 }
 
 /// One action of a script: press a key, paste a text, resize the screen.
@@ -75,17 +62,7 @@ impl Stroke {
 pub fn play(app: &mut App, script: &Script, events: &Receiver<Event>) -> Result<()> {
     crate::failpoint::hit("script");
     let size = press(app, &script.strokes, script.size, events)?;
-    let screen = match script.format {
-        Format::Text => text(app, size),
-        Format::Svg => {
-            let ground = match app.explorer.theme.look {
-                Look::Light => Ground::LIGHT,
-                Look::Dark | Look::Mono => Ground::DARK,
-            };
-            screen_svg::picture(&drawn(app, size), ground)
-        }
-    };
-    io::stdout().lock().write_all(screen.as_bytes())?;
+    io::stdout().lock().write_all(text(app, size).as_bytes())?;
     match &app.explorer.unwritten {
         Some(text) => Err(anyhow!("{text}")),
         None => Ok(()),
@@ -139,13 +116,6 @@ fn catch_up(app: &mut App, events: &Receiver<Event>) -> Result<()> {
     Ok(())
 }
 
-/// Draws the screen into a buffer.
-fn drawn(app: &App, size: Size) -> Buffer {
-    let mut buffer = Buffer::empty(size.into());
-    screen::draw(app, buffer.area, &mut buffer);
-    buffer
-}
-
 /// Returns the character of a cell in plain text. A coloured blank becomes a half block, like a cell with two colours.
 /// A blank between words has an ink and stays.
 fn sign(cell: &Cell) -> &str {
@@ -157,7 +127,8 @@ fn sign(cell: &Cell) -> &str {
 
 /// Returns the screen as lines of text, without trailing blanks.
 pub fn text(app: &App, size: Size) -> String {
-    let buffer = drawn(app, size);
+    let mut buffer = Buffer::empty(size.into());
+    screen::draw(app, buffer.area, &mut buffer);
     let mut text = String::new();
     for row in buffer.area.rows() {
         let mut places = row.positions();

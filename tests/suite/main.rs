@@ -57,6 +57,7 @@ mod oracles;
 mod outputs;
 #[cfg(target_os = "linux")]
 mod packages;
+mod pictures;
 mod properties;
 mod published_cases;
 mod published_methods;

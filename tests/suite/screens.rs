@@ -4,8 +4,6 @@
 //! pinned screens stand in `snapshots/`; `INSTA_UPDATE=always cargo test screens::` writes them
 //! anew, to be read before they are kept.
 
-use std::fs;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -428,40 +426,6 @@ fn space_at_the_end_asks_first() {
     has(&notice, "planned end");
     orders.send(Order::Run(Pace::run_or_pause));
     until(Activity::Running);
-}
-
-/// Compares a picture with its file; `UPDATE_PICTURES=1 cargo test screens::` writes it anew.
-fn assert_picture(file: &str, svg: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/pictures")
-        .join(file);
-    if std::env::var_os("UPDATE_PICTURES").is_some() {
-        fs::write(&path, svg).expect("a picture");
-    }
-    let kept = fs::read_to_string(&path).expect("the picture");
-    assert!(kept == svg, "tests/pictures/{file} is out of date");
-}
-
-/// `explorer.svg` is the picture in the README.
-#[test]
-fn a_screen_can_be_printed_as_a_picture() {
-    let dir = TestDir::new();
-    let long = ",".repeat(30);
-    for (file, keys, size, theme) in [
-        ("explorer.svg", long.as_str(), "120x40", "dark"),
-        ("light-60x18.svg", ",", "60x18", "light"),
-        ("mono-80x24.svg", ",", "80x24", "mono"),
-        ("dark-200x50.svg", ",", "200x50", "dark"),
-    ] {
-        let keys = format!("--keys={keys}");
-        let svg = dir.done(&format!(
-            "{keys} --print {size} --format svg --theme {theme}"
-        ));
-        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
-        assert!(svg.contains("stroke-linecap"), "{file}");
-        assert_eq!(svg.contains("#d7af00"), theme == "dark", "{file}");
-        assert_picture(file, &svg);
-    }
 }
 
 #[test]

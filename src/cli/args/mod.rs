@@ -13,7 +13,7 @@ use super::complete;
 
 use crate::plot::Marker;
 use crate::plot::theme::Look;
-use crate::tui::{Format, parse_size};
+use crate::tui::parse_size;
 
 mod figure;
 mod studies;
@@ -163,9 +163,6 @@ pub struct Screen {
     /// Print the screen at this size after the last key, and exit; the simulation starts paused.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = parse_size)]
     pub print: Option<Size>,
-    /// Print the screen as text, or as a picture with its colours.
-    #[arg(long, value_enum, default_value_t = Format::Text, requires = "print")]
-    pub format: Format,
 }
 
 /// Options of `run`.

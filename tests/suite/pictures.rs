@@ -1,35 +1,45 @@
-//! A character screen as an SVG picture, in colour.
+//! Pictures of the explorer's screen, in colour: the README shows one of them.
+//!
+//! `UPDATE_PICTURES=1 cargo test pictures::` writes them again.
 //!
 //! Letters become text, stretched to their cells so that they line up in any monospaced font. Braille dots, blocks and
 //! rules become shapes, because fonts differ too much there.
 
 use std::fmt::Write;
+use std::fs;
+use std::path::Path;
 
+use mdr_tui::figure::svg::hex;
+use mdr_tui::plot::Marker;
+use mdr_tui::plot::colormap::{NAMED, Rgb, indexed, mixed};
+use mdr_tui::plot::theme::{Depth, Look, Theme};
+use mdr_tui::scenario::escape;
+use mdr_tui::tui::{Stroke, press, screen};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::style::{Color, Modifier};
+use ratatui::layout::{Rect, Size};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::text::Line;
 
-use super::colormap::{NAMED, Rgb, indexed, mixed};
-use crate::scenario::escape;
+use crate::common::Explorer;
 
 /// The terminal's own foreground and background colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Ground {
+struct Ground {
     /// The background.
-    pub back: Rgb,
+    back: Rgb,
     /// The foreground.
-    pub fore: Rgb,
+    fore: Rgb,
 }
 
 impl Ground {
     /// A dark terminal.
-    pub const DARK: Self = Self {
+    const DARK: Self = Self {
         back: [0x14, 0x18, 0x1f],
         fore: [0xd6, 0xdb, 0xe3],
     };
     /// A light terminal.
-    pub const LIGHT: Self = Self {
+    const LIGHT: Self = Self {
         back: [0xff, 0xff, 0xff],
         fore: [0x24, 0x29, 0x2f],
     };
@@ -163,11 +173,6 @@ impl Drawing {
     }
 }
 
-/// Returns a colour in SVG notation.
-pub fn hex([red, green, blue]: Rgb) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
-}
-
 /// A run of letters in one style, starting at a point on its baseline.
 struct Run {
     look: CellStyle,
@@ -194,7 +199,7 @@ impl Run {
 }
 
 /// Returns the picture of a screen on a terminal with the given colours.
-pub fn picture(buffer: &Buffer, ground: Ground) -> String {
+fn picture(buffer: &Buffer, ground: Ground) -> String {
     let (w, h) = CELL;
     let width = f64::from(buffer.area.width) * w + 2.0 * MARGIN;
     let height = f64::from(buffer.area.height) * h + 2.0 * MARGIN;
@@ -253,48 +258,76 @@ pub fn picture(buffer: &Buffer, ground: Ground) -> String {
     svg
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ratatui::layout::Rect;
-    use ratatui::style::Style;
-
-    #[test]
-    fn letters_are_text_and_what_draws_is_drawn() {
-        let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 2));
-        buffer.set_string(0, 0, "a<&>b ⣿─▀", Style::new().fg(Color::Rgb(1, 2, 3)));
-        buffer.set_string(0, 1, "漢 x", Style::new().add_modifier(Modifier::REVERSED));
-        let svg = picture(&buffer, Ground::DARK);
-        assert!(svg.contains(">a&lt;&amp;&gt;b</text>"), "{svg}");
-        assert!(
-            svg.contains("stroke=\"#010203\" stroke-width=\"3\""),
-            "{svg}"
-        );
-        assert_eq!(svg.matches("h0").count(), 8, "{svg}");
-        for sign in ['⣿', '─', '▀'] {
-            assert!(!svg.contains(sign), "{sign} {svg}");
-        }
-        // A wide character takes two cells, and reversed text has a background.
-        assert!(svg.contains("textLength=\"36\""), "{svg}");
-        assert!(
-            svg.contains(&format!("fill=\"{}\" d=\"M8 26", hex(Ground::DARK.fore))),
-            "{svg}"
-        );
-        assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
+/// Compares a picture with its file.
+fn assert_picture(file: &str, svg: &str) {
+    let pictures = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures");
+    let path = pictures.join(file);
+    if std::env::var_os("UPDATE_PICTURES").is_some() {
+        fs::write(&path, svg).expect("a picture");
     }
+    let kept = fs::read_to_string(&path).expect("the picture");
+    assert!(kept == svg, "tests/pictures/{file} is out of date");
+}
 
-    #[test]
-    fn colours_are_those_of_a_terminal() {
-        for (color, rgb) in [
-            (Color::Reset, [9, 9, 9]),
-            (Color::Indexed(16), [0, 0, 0]),
-            (Color::Indexed(231), [255, 255, 255]),
-            (Color::Indexed(178), [215, 175, 0]),
-            (Color::Indexed(232), [8, 8, 8]),
-            (Color::Indexed(255), [238, 238, 238]),
-            (Color::White, [255, 255, 255]),
-        ] {
-            assert_eq!(super::rgb(color, [9, 9, 9]), rgb, "{color:?}");
-        }
+/// `explorer.svg` is the picture in the README.
+#[test]
+fn pictures_are_of_the_screen_as_it_is() {
+    for (file, cycles, size, look) in [
+        ("explorer.svg", 30, (120, 40), Look::Dark),
+        ("light-60x18.svg", 1, (60, 18), Look::Light),
+        ("mono-80x24.svg", 1, (80, 24), Look::Mono),
+        ("dark-200x50.svg", 1, (200, 50), Look::Dark),
+    ] {
+        let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
+        let mut explorer = Explorer::on("li2019-fig3", theme);
+        let strokes = Stroke::script(&",".repeat(cycles)).expect("a script");
+        let events = &explorer.worker.events;
+        press(&mut explorer.app, &strokes, size.into(), events).expect("a screen");
+        let mut buffer = Buffer::empty(Size::from(size).into());
+        screen::draw(&explorer.app, buffer.area, &mut buffer);
+        let ground = match look {
+            Look::Light => Ground::LIGHT,
+            Look::Dark | Look::Mono => Ground::DARK,
+        };
+        assert_picture(file, &picture(&buffer, ground));
+    }
+}
+
+#[test]
+fn letters_are_text_and_what_draws_is_drawn() {
+    let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 2));
+    buffer.set_string(0, 0, "a<&>b ⣿─▀", Style::new().fg(Color::Rgb(1, 2, 3)));
+    buffer.set_string(0, 1, "漢 x", Style::new().add_modifier(Modifier::REVERSED));
+    let svg = picture(&buffer, Ground::DARK);
+    assert!(svg.contains(">a&lt;&amp;&gt;b</text>"), "{svg}");
+    assert!(
+        svg.contains("stroke=\"#010203\" stroke-width=\"3\""),
+        "{svg}"
+    );
+    assert_eq!(svg.matches("h0").count(), 8, "{svg}");
+    for sign in ['⣿', '─', '▀'] {
+        assert!(!svg.contains(sign), "{sign} {svg}");
+    }
+    // A wide character takes two cells, and reversed text has a background.
+    assert!(svg.contains("textLength=\"36\""), "{svg}");
+    assert!(
+        svg.contains(&format!("fill=\"{}\" d=\"M8 26", hex(Ground::DARK.fore))),
+        "{svg}"
+    );
+    assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
+}
+
+#[test]
+fn colours_are_those_of_a_terminal() {
+    for (color, rgb) in [
+        (Color::Reset, [9, 9, 9]),
+        (Color::Indexed(16), [0, 0, 0]),
+        (Color::Indexed(231), [255, 255, 255]),
+        (Color::Indexed(178), [215, 175, 0]),
+        (Color::Indexed(232), [8, 8, 8]),
+        (Color::Indexed(255), [238, 238, 238]),
+        (Color::White, [255, 255, 255]),
+    ] {
+        assert_eq!(self::rgb(color, [9, 9, 9]), rgb, "{color:?}");
     }
 }

@@ -84,7 +84,7 @@ mod tests {
     fn a_terminal_breaks_lines_at_blanks_and_leaves_code_and_words_whole() {
         let code = "```sh\na line of code, however long it may be\n```\n";
         let text = format!("# A\n{code}one two three\n| `a` | b |\n");
-        let broken = "one two\nthree\n| `a` |\nb |\n";
+        let broken = "one two\nthree\n| `a` | b\n|\n";
         assert_eq!(fitted(&text, 9), format!("# A\n{code}{broken}"));
         for topic in TOPICS {
             let shown = fitted(topic.text, 80);

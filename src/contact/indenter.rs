@@ -235,6 +235,16 @@ impl Indenter {
         }
     }
 
+    /// Returns n of a whole tip f = A rⁿ.
+    pub fn exponent(&self) -> Option<f64> {
+        match *self {
+            Self::Paraboloid { .. } if self.tip_radius() == 0.0 => Some(2.0),
+            Self::Cone { .. } if self.tip_radius() == 0.0 => Some(1.0),
+            Self::Power { exponent, .. } => Some(exponent),
+            _ => None,
+        }
+    }
+
     /// Returns the radius of the flat face inside a rising profile, m; 0 if there is none.
     pub fn tip_radius(&self) -> f64 {
         match *self {

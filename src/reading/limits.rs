@@ -218,7 +218,7 @@ fn long_stroke(setup: &Setup, unworn: Unworn<'_>, half_width: f64) -> Option<Str
     let elastic = setup
         .geometry
         .length()
-        .map(|_| unworn.line_shift(unworn.deepest(), 0.0))?;
+        .map(|_| unworn.gross_slip_amplitude(unworn.deepest()))?;
     let stroke = (swing.amplitude() - elastic).max(0.0) / half_width;
     (stroke > LONG_STROKE).then(|| {
         format!(

@@ -2,8 +2,6 @@
 //! pressing the unworn indenter, and choices that depend on the transform method.
 
 use crate::math::abel::AbelMethod;
-use crate::math::quadrature::gauss_in_pieces;
-use crate::math::root;
 use crate::simulation::drive::Control;
 use crate::simulation::{Scheme, Spacing, Unworn};
 use crate::wear::References;
@@ -42,7 +40,9 @@ impl Unworn<'_> {
             Control::Displacement(_) => start,
             Control::Force(force) => {
                 let is_steady = friction_is_constant && worn == 0.0 && force.amplitude() == 0.0;
-                let end = is_steady.then(|| self.settled_depth(start)).flatten();
+                let end = is_steady
+                    .then(|| self.settled_depth(ROOM_TO_SINK * start))
+                    .flatten();
                 let end = end.map_or(f64::INFINITY, |end| BEYOND_SETTLED * end);
                 end.min(ROOM_TO_SINK * start + worn)
             }
@@ -50,10 +50,8 @@ impl Unworn<'_> {
         start.is_finite().then(|| self.indenter.radius_at(depth))
     }
 
-    /// Returns the domain radius of a line contact with the depth `start` (m), as far as known before the run.
-    ///
-    /// Worn to its limit, a cylinder touches up to b = c cosh θ, sinh(2θ)/2θ = (a₀/c)², with a₀ the unworn half-width
-    /// and c the half-width of the permanent stick zone; if c shrinks, that bound is lost. Other shapes differ little.
+    /// Returns the domain radius of a line contact with the depth `start` (m), as far as known before the run: if the
+    /// permanent stick zone shrinks, no bound is known.
     fn line_domain(&self, start: f64, friction_is_constant: bool, worn: f64) -> Option<f64> {
         let edge = self.radius(start);
         if self.indenter.rim().is_some() {
@@ -63,10 +61,7 @@ impl Unworn<'_> {
         let in_edges = match (self.drive.tangential(), melan) {
             (None, _) => UNWORN_LINE,
             (_, Some((_, stick))) if stick > 0.0 => {
-                let ratio = (edge / stick).powi(2);
-                let grows = |theta: f64| (2.0 * theta).sinh() / (2.0 * theta) / ratio - 1.0;
-                let theta = root::bracketed(grows, 1e-6, 4.0, 1e-9).unwrap_or(0.0);
-                let settled = theta.cosh() * stick / edge;
+                let settled = Self::settled_width(edge, stick);
                 (BEYOND_SETTLED * settled).clamp(BEYOND_SETTLED, WORN_LINE)
             }
             _ => WORN_LINE,
@@ -75,23 +70,6 @@ impl Unworn<'_> {
         let room = self.indenter.end().filter(|&end| end > edge);
         let radius = radius.min(room.unwrap_or(f64::INFINITY));
         (radius > 0.0 && radius.is_finite()).then_some(radius)
-    }
-
-    /// Returns the depth, m, at which a held normal force and a tangential amplitude U have worn away all that slips.
-    /// Within the stick radius c the depth is d = g(c) + U/λ, λ = μE*/G*, and the part outside carries nothing,
-    /// F_z = 2E* ∫₀ᶜ (d − g) dx. `None` if that exceeds [`ROOM_TO_SINK`] times the depth at the `start` (m).
-    fn settled_depth(&self, start: f64) -> Option<f64> {
-        let shift = self.drive.tangential()?.displacement()?;
-        let yielding = shift.amplitude() * self.material.stick_ratio();
-        let profile = |x: f64| self.indenter.profile_1d(x);
-        let borne = |c: f64| {
-            let depth = profile(c) + yielding;
-            2.0 * self.material.normal_modulus() * gauss_in_pieces([0.0, c], |x| depth - profile(x))
-        };
-        let force = self.drive.normal().oscillation().mean();
-        let widest = self.indenter.radius_at(ROOM_TO_SINK * start);
-        let radius = root::bracketed(|c| borne(c) / force - 1.0, 0.0, widest, 1e-9 * widest)?;
-        Some(profile(radius) + yielding)
     }
 
     /// Returns what the keys of wear laws may follow from: the mean pressure at the mean normal position, μ times that, and
@@ -159,7 +137,7 @@ mod tests {
             material: &material,
             drive: &drive,
         };
-        let depth = contact.settled_depth(1e-6).expect("a depth");
+        let depth = contact.settled_depth(ROOM_TO_SINK * 1e-6).expect("a depth");
         // (2/3) c³/R + (U/λ) c = F_z/(2E*), d = c²/R + U/λ.
         let yielding = 5e-8 * material.stick_ratio();
         let c = ((depth - yielding) * 0.01).sqrt();

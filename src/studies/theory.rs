@@ -1,162 +1,52 @@
 //! Closed forms for the scenario on the screen, if there are any, to draw over the plots and to check the run.
 
-use crate::contact::indenter::Indenter;
-use crate::oracle::cattaneo_mindlin::CattaneoMindlin;
-use crate::oracle::fretting_loop::Branch;
-use crate::oracle::limiting_profile::LimitingProfile;
-use crate::oracle::line_contact::Cylinder;
-use crate::oracle::power_law::PowerLaw;
-use crate::simulation::drive::{Control, Oscillation};
+use crate::simulation::drive::Control;
 use crate::simulation::{Setup, Unworn};
 
+/// A depth, m, whose load gives that of other depths.
+const REFERENCE: f64 = 1e-6;
+
 /// The closed forms that apply.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Theory {
+    /// The contact before wear.
+    setup: Setup,
     /// The permanent stick radius by Melan's theorem, m; `None` without a permanent stick zone.
     pub stick_radius: Option<f64>,
-    limit: Option<LimitingProfile>,
-    line: Option<LineContact>,
-    unworn: Option<(PowerLaw, f64)>,
-    cattaneo: Option<CattaneoMindlin>,
+    /// The depth and the stick radius at which wear ends, m.
+    limit: Option<[f64; 2]>,
     /// 1/κ = μE*/G*: the ratio of u_x to depth at which gross slip of the unworn indenter begins.
     pub slip_per_depth: f64,
-}
-
-/// A cylinder on a flat, under its largest load.
-#[derive(Debug, Clone)]
-struct LineContact {
-    cylinder: Cylinder,
-    /// Whether it wears to a limit.
-    is_limited: bool,
-    /// The length of the contact and the depth of the gauge, m.
-    length: f64,
-    gauge: f64,
-    /// The amplitude of a tangential force from rest under a held load, N/m.
-    amplitude: Option<f64>,
-}
-
-impl LineContact {
-    /// The same under another load, N/m.
-    fn under(&self, load: f64) -> Cylinder {
-        Cylinder {
-            load: load.max(0.0),
-            ..self.cylinder
-        }
-    }
-}
-
-/// Whether the closed forms of a sine hold at all its moments.
-fn is_sine(swing: &Oscillation) -> bool {
-    swing.waveform().is_harmonic() || swing.amplitude() == 0.0
-}
-
-/// Whether the tangential motion begins at rest and swings about it, under a normal one that is held.
-fn is_from_rest(normal: &Oscillation, tangential: &Oscillation) -> bool {
-    let is_centred = tangential.mean() == 0.0 && tangential.phase() == 0.0;
-    normal.amplitude() == 0.0 && is_centred && is_sine(tangential)
-}
-
-/// Where in a cycle from rest the tangential motion is.
-fn branch(cycle: f64) -> Branch {
-    match cycle {
-        first if first <= 0.25 => Branch::Loading,
-        later if (0.25..0.75).contains(&later.fract()) => Branch::Unloading,
-        _ => Branch::Reloading,
-    }
 }
 
 impl Theory {
     /// Finds the closed forms for the parts of a simulation.
     pub fn new(setup: &Setup) -> Self {
-        let e_star = setup.material.normal_modulus();
-        if let Some(length) = setup.geometry.length() {
-            return Self::of_line(setup, length);
-        }
-        let mut theory = Self {
-            slip_per_depth: setup.material.stick_ratio().recip(),
-            unworn: power_law(&setup.indenter).map(|shape| (shape, e_star)),
-            ..Self::default()
-        };
-        let drive = &setup.drive;
-        let tangential = drive.tangential().and_then(Control::displacement);
-        let Some((normal, tangential)) = drive.normal().displacement().zip(tangential) else {
-            return theory;
-        };
-        // The closed forms begin with the unworn indenter on a stiff rig. For waveforms other than sines they only hold
-        // at the turning points.
-        let is_stiff = setup.drive.rig_compliance() == 0.0;
-        if setup.scar.is_some() || !is_stiff || !is_sine(normal) || !is_sine(tangential) {
-            return theory;
-        }
-        theory.stick_radius = Unworn::new(setup).melan().map(|(_, radius)| radius);
-        let Some(radius) = setup.indenter.ball_radius() else {
-            return theory;
-        };
-        let wears = setup.wear.is_some_and(|law| law.traits().reaches_limit);
-        let limit = |stick_radius| LimitingProfile {
-            e_star,
-            radius,
-            depth: normal.highest(),
-            stick_radius,
-        };
-        theory.limit = theory.stick_radius.filter(|_| wears).map(limit);
-        let from_rest = is_from_rest(normal, tangential);
-        let cattaneo = CattaneoMindlin {
-            e_star,
-            g_star: setup.material.tangential_modulus(),
-            mu: setup.material.friction(),
-            radius,
-            depth: normal.mean(),
-            amplitude: tangential.amplitude(),
-        };
-        theory.cattaneo = (from_rest && !cattaneo.is_gross_slip()).then_some(cattaneo);
-        theory
-    }
-
-    /// Finds the closed forms for a line contact of this `length` (m).
-    fn of_line(setup: &Setup, length: f64) -> Self {
-        let is_worn = setup.scar.is_some();
-        let melan = Unworn::new(setup).melan().filter(|_| !is_worn);
+        let (unworn, drive) = (Unworn::new(setup), &setup.drive);
+        // The closed forms begin with the unworn indenter. For waveforms other than sines they only hold at the turning
+        // points.
+        let mut swings = [Some(drive.normal()), drive.tangential()]
+            .into_iter()
+            .flatten();
+        let holds =
+            setup.geometry.is_line() || swings.all(|control| control.oscillation().is_sine());
+        let melan = unworn.melan().filter(|_| setup.scar.is_none() && holds);
         let stick_radius = melan.map(|(_, radius)| radius);
         let wears = setup.wear.is_some_and(|law| law.traits().reaches_limit);
-        let normal = setup.drive.normal().oscillation();
-        let load = normal.highest() / length;
-        let held = setup.material.friction() * load;
-        let amplitude = match setup.drive.tangential() {
-            Some(Control::Force(force)) if !is_worn && is_from_rest(normal, force) => {
-                Some(force.amplitude() / length)
-            }
-            _ => None,
-        };
-        let line = |radius| LineContact {
-            cylinder: Cylinder {
-                e_star: setup.material.normal_modulus(),
-                radius,
-                friction: setup.material.friction(),
-                load,
-            },
-            is_limited: wears && stick_radius.is_some(),
-            length,
-            gauge: setup.drive.gauge_length().unwrap_or_default(),
-            amplitude: amplitude.filter(|amplitude| *amplitude < held),
-        };
+        let limit = stick_radius.filter(|_| wears && setup.indenter.rim().is_none());
         Self {
             stick_radius,
-            line: setup.indenter.ball_radius().map(line),
+            limit: limit.map(|stick| [unworn.deepest(), stick]),
             slip_per_depth: setup.material.stick_ratio().recip(),
-            ..Self::default()
+            setup: setup.clone(),
         }
     }
 
     /// Returns f∞(r), m: the limiting profile of wear.
     pub fn limiting_profile(&self, radii: &[f64]) -> Option<Vec<f64>> {
-        if let (Some(line), Some(stick)) = (&self.line, self.stick_radius) {
-            let unworn = |x: f64| 0.5 * x * x / line.cylinder.radius;
-            let limit = |x: f64| unworn(x) + line.cylinder.limit_depth(stick, x);
-            return line.is_limited.then(|| over(radii, limit));
-        }
-        let limit = self.limit.as_ref()?;
-        Some(over(radii, |r| limit.profile(r)))
+        let [depth, stick] = self.limit?;
+        let unworn = Unworn::new(&self.setup);
+        Some(over(radii, |r| unworn.limit(depth, stick, r)))
     }
 
     /// Estimates the deepest wear after `cycles` cycles, m, by Archard's law under the pressure of the unworn contact,
@@ -183,72 +73,50 @@ impl Theory {
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
-    /// The amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N):
-    /// u_t = d/κ with F ∝ d^((n+1)/n) for a tip ∝ rⁿ. That of a line is told against its gauge.
+    /// Returns the amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N): that of a line is
+    /// relative to its gauge.
     pub fn gross_slip_amplitude(&self, load: f64) -> Option<f64> {
-        if let Some(line) = &self.line {
-            let pressed = line.under(load / line.length);
-            return Some(pressed.shift(pressed.friction * pressed.load, line.gauge));
-        }
-        let (shape, e_star) = self.unworn.as_ref()?;
-        let depth = 1e-6;
-        let share = load.max(0.0) / shape.force(*e_star, depth);
-        let power = shape.exponent / (shape.exponent + 1.0);
-        Some(depth * share.powf(power) * self.slip_per_depth)
+        let unworn = Unworn::new(&self.setup);
+        let exponent = self.setup.indenter.exponent()?;
+        // F ∝ d^((n+1)/n) under a round tip ∝ rⁿ.
+        let depth = if self.setup.geometry.is_line() {
+            unworn.depth(load)
+        } else {
+            let share = load.max(0.0) / unworn.force(REFERENCE);
+            REFERENCE * share.powf(exponent / (exponent + 1.0))
+        };
+        Some(unworn.gross_slip_shift(depth))
     }
 
     /// Returns p(r), Pa, of the unworn indenter at a depth (m).
     pub fn unworn_pressure(&self, depth: f64, radii: &[f64]) -> Option<Vec<f64>> {
-        if let Some(line) = &self.line {
-            let pressed = line.under(line.cylinder.e_star * depth);
-            return Some(over(radii, |x| pressed.pressure(pressed.half_width(), x)));
-        }
-        let (shape, e_star) = self.unworn.as_ref()?;
-        let radius = shape.contact_radius(depth.max(0.0));
-        Some(over(radii, |r| shape.pressure(*e_star, radius, r)))
+        let unworn = Unworn::new(&self.setup);
+        let pressure = unworn.pressure(depth)?;
+        Some(over(radii, pressure))
     }
 
-    /// τ(r), Pa, of the unworn paraboloid at constant depth at a cycle and a shift (m), or of the unworn cylinder under a
-    /// `force` (N).
+    /// Returns τ(r), Pa, of the unworn indenter under a held load at a cycle, a shift (m) and a `force` (N).
     pub fn unworn_shear(
         &self,
         cycle: f64,
         [shift, force]: [f64; 2],
         radii: &[f64],
     ) -> Option<Vec<f64>> {
-        let branch = branch(cycle);
-        if let Some(line) = &self.line {
-            let amplitude = line.amplitude?;
-            // Rounding may pass the turning points.
-            let force = (force / line.length).clamp(-amplitude, amplitude);
-            let shear = |x| line.cylinder.loop_shear(branch, [force, amplitude], x);
-            return Some(over(radii, shear));
-        }
-        let cattaneo = self.cattaneo.as_ref()?;
-        Some(over(radii, |r| cattaneo.loop_shear(branch, shift, r)))
+        let at = match self.setup.drive.tangential()? {
+            Control::Displacement(_) => shift,
+            Control::Force(_) => force,
+        };
+        let unworn = Unworn::new(&self.setup);
+        let shear = unworn
+            .shear(cycle, at)
+            .filter(|_| self.setup.scar.is_none());
+        Some(over(radii, shear?))
     }
 }
 
 /// Evaluates a function at every radius.
-pub(super) fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
+fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
     radii.iter().map(|&r| value(r)).collect()
-}
-
-/// Returns the profile as a power law, if it is one.
-fn power_law(indenter: &Indenter) -> Option<PowerLaw> {
-    match *indenter {
-        _ if indenter.tip_radius() > 0.0 => None,
-        Indenter::Paraboloid { radius, .. } => Some(PowerLaw::paraboloid(radius)),
-        Indenter::Cone { angle, .. } => Some(PowerLaw::cone(angle.tan())),
-        Indenter::Power {
-            coefficient,
-            exponent,
-        } => Some(PowerLaw {
-            coefficient,
-            exponent,
-        }),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

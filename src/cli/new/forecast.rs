@@ -3,7 +3,6 @@
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-use crate::math::geometry::Geometry;
 use crate::plot::units::{format_value, plain};
 use crate::scenario::Scenario;
 use crate::simulation::drive::Oscillation;
@@ -30,14 +29,10 @@ impl<'a> Forecast<'a> {
         self.setup.indenter.ball_radius().is_some()
     }
 
-    /// The amplitude from which the whole contact slips, m, whatever the shape: u_t = (μ E*/G*) d, by Ciavarella
-    /// and Jäger. A line slips from an amplitude against its gauge.
+    /// The amplitude from which the whole contact slips, m.
     fn threshold(&self) -> f64 {
         let unworn = Unworn::new(self.setup);
-        match self.setup.geometry {
-            Geometry::Round => unworn.deepest() / self.setup.material.stick_ratio(),
-            Geometry::Line { .. } => unworn.line_shift(unworn.deepest(), 0.0),
-        }
+        unworn.gross_slip_amplitude(unworn.deepest())
     }
 
     /// Describes size and pressure of the unworn contact.

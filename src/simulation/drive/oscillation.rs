@@ -42,6 +42,11 @@ impl Oscillation {
         &self.waveform
     }
 
+    /// Whether it is a sine, or does not move at all.
+    pub fn is_sine(&self) -> bool {
+        self.waveform == Waveform::Sine || self.amplitude == 0.0
+    }
+
     /// Returns the value around which the motion oscillates.
     pub fn mean(&self) -> f64 {
         self.mean

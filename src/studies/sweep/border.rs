@@ -30,32 +30,22 @@ pub fn to_lift_off(scenario: &Scenario) -> Option<f64> {
 /// Returns the [distance](Distance), m, from the border between partial and gross slip.
 pub fn to_gross_slip(scenario: &Scenario) -> Option<f64> {
     let setup = scenario.setup();
-    let normal = setup.drive.normal();
-    let ratio = setup.material.stick_ratio();
-    if let Some(depth) = setup.drive.shakedown_depth(ratio) {
+    let drive = &setup.drive;
+    if let Some(depth) = drive.shakedown_depth(setup.material.stick_ratio()) {
         return Some(depth);
     }
-    let shift = setup.drive.tangential()?.displacement()?;
-    let unworn = Unworn::new(setup);
-    if setup.geometry.is_line() {
-        // A displacement under a varying load has no closed form.
-        if normal.oscillation().amplitude() != 0.0 {
-            return None;
-        }
-        let depth = unworn.depth(normal.oscillation().lowest().max(0.0));
-        return Some(unworn.line_shift(depth, 0.0) - shift.amplitude());
+    let shift = drive.tangential()?.displacement()?;
+    let normal = drive.normal().oscillation();
+    // A varying load on a rig, or on a line that is moved, has no closed form.
+    if (setup.geometry.is_line() || drive.has_rig()) && normal.amplitude() != 0.0 {
+        return None;
     }
-    let rig = setup.drive.rig_compliance();
-    let steady = normal.oscillation().amplitude() == 0.0;
-    let lowest = normal.oscillation().lowest();
-    let (depth, force) = match normal {
-        // The share of a rig under a varying load has no closed form.
-        _ if rig > 0.0 && !steady => return None,
-        Control::Force(_) => (unworn.depth(lowest.max(0.0)), lowest.max(0.0)),
-        Control::Displacement(_) => (lowest, unworn.force(lowest)),
+    let unworn = Unworn::new(setup);
+    let depth = match drive.normal() {
+        Control::Force(_) => unworn.depth(normal.lowest().max(0.0)),
+        Control::Displacement(_) => normal.lowest(),
     };
-    let taken_by_rig = rig * setup.material.friction() * force;
-    Some(depth - ratio * (shift.amplitude() - taken_by_rig))
+    Some(unworn.gross_slip_amplitude(depth) - shift.amplitude())
 }
 
 /// Returns the value of axis `along` at which a border is crossed, with the other axes at `places`; `None` if the

@@ -12,7 +12,6 @@ use crate::oracle::power_law::PowerLaw;
 use crate::oracle::truncated::TruncatedParaboloid;
 
 use crate::simulation::{Breakdown, Simulation};
-use crate::studies::theory::over;
 
 /// Returns L/a, about 1.5, and an inner radius over a, about a half, of a grid of N = `points`. The contact
 /// radius a = 1 and the inner radius, the border c of the stick zone or the rim b of a flat tip, both lie a third
@@ -159,4 +158,9 @@ pub fn flat_punch(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Brea
     let theory = over(grid.nodes(), |r| punch.pressure(r));
     let samples = inside(&grid, &pressure, &theory);
     Ok(vec![Errors::new(Some(punch.force() / PI), samples)])
+}
+
+/// Evaluates a function at every radius.
+fn over(radii: &[f64], value: impl Fn(f64) -> f64) -> Vec<f64> {
+    radii.iter().map(|&r| value(r)).collect()
 }

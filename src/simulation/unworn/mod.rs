@@ -1,35 +1,29 @@
-//! The contact of the unworn indenter, by quadrature of its closed 1D profile: independent of grids, steps and
-//! transforms, so that it can check them.
+//! The contact of the unworn indenter, by its closed 1D profile and quadrature: independent of grids, steps and
+//! transforms, so that it can check them. Everything that a closed form says of a scenario comes from here.
 //!
 //! # Formulas
 //!
-//! With λ = μE*/G*, d the depth, and slip beyond the depth d_c of the stick border, g(c) = d_c:
+//! With d the depth and a the contact radius, g(a) = d:
 //!
 //! ```text
 //! F_z(d) = 2E* ∫ (d − g)₊ dx
-//! F_x    = μ [F_z(d) − F_z(d_c)],   d_c = d − U/λ under a displacement amplitude U
-//! E_d    = 8G* ∫ y (U − y) dx over the springs with y = λ(d − g) < U, in a steady-state cycle
+//! p(r)   = (E*/π) ∫ᵣᵃ g′(x)/√(x² − r²) dx
 //! ```
 //!
-//! In a line contact of length L, with dx/(πx) instead of dx and U = Q/(E*L),
-//!
-//! ```text
-//! F_z(d) = L E* d
-//! u_x    = μ [s(d) − s(d_c)],   s(d) = (2/π) [d ln(2ℓ/a) + ∫₀ᵃ g dx/x]   against a point at the gauge length ℓ
-//! ```
-//!
-//! C. Cattaneo (1938), R. D. Mindlin and H. Deresiewicz (1953), for any shape M. Ciavarella (1998); by springs
-//! V. L. Popov and M. Heß (2015), ch. 5.
+//! In a line contact of length L, F_z(d) = L E* d. [`slip`] moves the contact sideways, [`limit`] wears it to its end.
 
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::FRAC_1_PI;
 
 use super::Setup;
-use super::drive::{Control, Drive, Oscillation};
+use super::drive::{Control, Drive};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
 use crate::math::geometry::Geometry;
 use crate::math::quadrature::gauss_in_pieces;
 use crate::math::root;
+
+mod limit;
+mod slip;
 
 /// The parts that determine a contact before wear.
 #[derive(Clone, Copy)]
@@ -42,19 +36,6 @@ pub struct Unworn<'a> {
     pub material: &'a Material,
     /// The motion.
     pub drive: &'a Drive,
-}
-
-/// A contact that slips in a ring, under a held normal load.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Ring {
-    /// a, m.
-    pub contact_radius: f64,
-    /// c, m; 0 in gross slip.
-    pub stick_radius: f64,
-    /// The amplitude of F_x, N.
-    pub force: f64,
-    /// E_d of a steady-state cycle, J.
-    pub energy: f64,
 }
 
 impl<'a> Unworn<'a> {
@@ -89,8 +70,37 @@ impl<'a> Unworn<'a> {
         if let Some(length) = self.geometry.length() {
             return self.material.normal_modulus() * length * depth.max(0.0);
         }
+        self.carried(depth, self.radius(depth))
+    }
+
+    /// Returns what the springs of a round contact within a radius (m) carry at a `depth` (m), N.
+    fn carried(&self, depth: f64, within: f64) -> f64 {
         let gap = |x: f64| (depth - self.image(x)).max(0.0);
-        2.0 * self.material.normal_modulus() * gauss_in_pieces([0.0, self.radius(depth)], gap)
+        2.0 * self.material.normal_modulus() * gauss_in_pieces([0.0, within], gap)
+    }
+
+    /// Returns p(r), Pa, at a `depth` (m) under a whole tip f = A rⁿ; `None` for other shapes.
+    pub fn pressure(&self, depth: f64) -> Option<impl Fn(f64) -> f64> {
+        let exponent = self.indenter.exponent()?;
+        let edge = self.radius(depth);
+        // g′ = n g/x, and x = r cosh v; under a paraboloid n g/x² is constant.
+        let factor = FRAC_1_PI * self.material.normal_modulus() * exponent;
+        let square = self.image(edge) / (edge * edge);
+        Some(move |r: f64| {
+            let leg = ((edge - r) * (edge + r)).max(0.0).sqrt();
+            if leg == 0.0 {
+                0.0
+            } else if exponent == 2.0 {
+                factor * square * leg
+            } else if r > 0.0 {
+                let slope = |v: f64| self.image(r * v.cosh()) / (r * v.cosh());
+                factor * gauss_in_pieces([0.0, (leg / r).asinh()], slope)
+            } else if exponent > 1.0 {
+                factor * square * edge / (exponent - 1.0)
+            } else {
+                f64::INFINITY
+            }
+        })
     }
 
     /// F_z over the area of the contact, Pa, at a `depth` (m).
@@ -127,119 +137,13 @@ impl<'a> Unworn<'a> {
             Control::Force(force) => self.depth(force.highest().max(0.0)),
         }
     }
-
-    /// Returns the displacement of a line contact at a `depth` (m) in full sliding against a point at the gauge length,
-    /// divided by μ, m; 0 for a round one.
-    fn shift_over_friction(&self, depth: f64) -> f64 {
-        let gauge = self.drive.gauge_length().unwrap_or_default();
-        let edge = self.radius(depth);
-        if edge <= 0.0 || !self.geometry.is_line() {
-            return 0.0;
-        }
-        let own = gauss_in_pieces([0.0, edge], |x| self.image(x) / x);
-        FRAC_2_PI * (depth * (2.0 * gauge / edge).ln() + own)
-    }
-
-    /// Returns the displacement of the actuator, m, under which a held load slips outside the border of the unworn
-    /// contact at the depth `border` (m); with `border` = 0 it is the largest without gross slip.
-    pub(crate) fn line_shift(&self, depth: f64, border: f64) -> f64 {
-        let own = self.shift_over_friction(depth) - self.shift_over_friction(border);
-        let in_rig = self.drive.rig_compliance() * (self.force(depth) - self.force(border));
-        self.material.friction() * (own + in_rig)
-    }
-
-    /// Returns the depth, m, at the stick border of a line contact at a `depth` (m) whose actuator oscillates; in gross
-    /// slip negative, the distance that it slides as a whole divided by μ.
-    fn line_border(&self, depth: f64, swing: &Oscillation) -> f64 {
-        let (friction, amplitude) = (self.material.friction(), swing.amplitude());
-        let beyond = |border: f64| self.line_shift(depth, border) / amplitude - 1.0;
-        let sliding = amplitude - self.line_shift(depth, 0.0);
-        if sliding >= 0.0 {
-            return -sliding / friction;
-        }
-        root::bracketed(beyond, 0.0, depth, 1e-13 * depth).unwrap_or(depth)
-    }
-
-    /// Applies Melan's theorem if the motion of the springs is prescribed: returns g at the border of the permanent
-    /// stick zone, m, and the radius c of that border on the unworn indenter, m. `None` without such a zone.
-    pub(crate) fn melan(&self) -> Option<(f64, f64)> {
-        let ratio = self.material.stick_ratio();
-        let depth = self.drive.shakedown_depth(ratio);
-        let depth = depth.filter(|&depth| depth > 0.0)?;
-        Some((depth, self.radius(depth)))
-    }
-
-    /// Returns the depth d_c of the stick border, m, at a held `depth` (m) if the actuator moves by `amplitude` (m), of
-    /// which the rig takes C F_x.
-    fn border_on_rig(&self, depth: f64, amplitude: f64) -> Option<f64> {
-        let (friction, compliance) = (self.material.friction(), self.drive.rig_compliance());
-        let yields = friction * self.material.normal_modulus() / self.material.tangential_modulus();
-        let stiff = depth - amplitude / yields;
-        if compliance == 0.0 {
-            return Some(stiff);
-        }
-        let whole = self.force(depth);
-        let excess = |border: f64| {
-            let force = friction * (whole - self.force(border.max(0.0)));
-            (depth - border) * yields + compliance * force - amplitude
-        };
-        root::bracketed(excess, stiff, depth, 1e-14 * depth)
-    }
-
-    /// Returns the contact under a constant normal load; `None` if the load varies, nothing touches, or nothing moves.
-    pub(crate) fn ring(&self) -> Option<Ring> {
-        let normal = self.drive.normal().oscillation();
-        if normal.amplitude() != 0.0 || normal.mean() <= 0.0 {
-            return None;
-        }
-        let depth = self.deepest();
-        let friction = self.material.friction();
-        let modulus = self.material.tangential_modulus();
-        let yields = friction * self.material.normal_modulus() / modulus;
-        let swing = self.drive.tangential()?;
-        let border = match swing {
-            Control::Displacement(shift) if self.geometry.is_line() => {
-                self.line_border(depth, shift)
-            }
-            Control::Displacement(shift) => self.border_on_rig(depth, shift.amplitude())?,
-            Control::Force(force) => {
-                let left = self.force(depth) - force.amplitude() / friction;
-                if left > 0.0 { self.depth(left) } else { 0.0 }
-            }
-        };
-        if !border.is_finite() || swing.oscillation().amplitude() == 0.0 {
-            return None;
-        }
-        let contact_radius = self.radius(depth);
-        let stick_radius = if border > 0.0 {
-            self.radius(border)
-        } else {
-            0.0
-        };
-        // A line slides by the rest, with its full force.
-        let (reach, sliding) = match self.geometry {
-            Geometry::Round => (yields * (depth - border), 0.0),
-            Geometry::Line { .. } => (yields * (depth - border.max(0.0)), -border.min(0.0)),
-        };
-        let slipping = |x: f64| {
-            let limit = yields * (depth - self.image(x)).max(0.0);
-            limit * (reach - limit).max(0.0) * self.geometry.measure(x)
-        };
-        let of_sliding = 4.0 * friction * self.force(depth) * friction * sliding;
-        Some(Ring {
-            contact_radius,
-            stick_radius,
-            force: friction * (self.force(depth) - self.force(border.max(0.0))),
-            energy: 8.0 * modulus * gauss_in_pieces([stick_radius, contact_radius], slipping)
-                + of_sliding,
-        })
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
 
+    use super::super::drive::Oscillation;
     use super::*;
 
     fn with<T>(indenter: &Indenter, of: impl Fn(Unworn) -> T) -> T {

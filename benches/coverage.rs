@@ -5,6 +5,9 @@
 
 #![allow(clippy::print_stdout, reason = "a program whose output is its result")]
 
+#[allow(dead_code, unused_imports, reason = "tests need the rest")]
+#[path = "../tests/suite/closed_forms/mod.rs"]
+mod closed_forms;
 #[path = "../tests/suite/coverage.rs"]
 mod coverage;
 #[path = "../tests/suite/random.rs"]

@@ -26,8 +26,6 @@
 //!
 //! [`guide`] holds the long documentation, topic by topic.
 //!
-//! [`oracle`] stands apart: closed forms, written with `std` alone, against which the rest is tested.
-//!
 //! A user's TOML becomes a [`scenario::Scenario`], a [`scenario::session::Session`] runs it, and screens and files
 //! receive owned [`reading::Observation`]s. The explorer and the headless commands drive the same session, so the same
 //! scenario and the same changes give bit-for-bit the same results.
@@ -56,7 +54,6 @@ mod failpoint;
 pub mod figure;
 pub mod guide;
 pub mod math;
-pub mod oracle;
 mod panics;
 pub mod plot;
 pub mod reading;

@@ -61,7 +61,7 @@ fn by_problem(outcomes: &[Solved]) -> impl Iterator<Item = (Problem, &[Solved])>
 fn text(outcomes: &[Solved], options: &Verify) -> String {
     let of_problem = |(problem, outcomes): (Problem, &[Solved])| {
         let mut text = format!("{problem}\n");
-        for line in &problem.facts().description {
+        for line in problem.facts().description.lines() {
             text += &format!("  {line}\n");
         }
         text += &problem_table(problem, outcomes).text();
@@ -105,7 +105,12 @@ fn verdict(outcomes: &[Solved]) -> String {
 /// Describes the errors of each problem.
 fn notes(outcomes: &[Solved]) -> Vec<String> {
     let problems = by_problem(outcomes).map(|(problem, _)| problem);
-    let note = |problem: Problem| format!("{problem}: {}", problem.facts().description.join(" "));
+    let note = |problem: Problem| {
+        format!(
+            "{problem}: {}",
+            problem.facts().description.replace('\n', " ")
+        )
+    };
     problems.map(note).collect()
 }
 

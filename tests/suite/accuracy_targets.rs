@@ -5,6 +5,7 @@
 //! says so.
 
 use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
+use crate::closed_forms::partial_slip::stiffness_ratio;
 use crate::common::{
     Scene, apart, as_published, cattaneo, fig3_motion, force, holds, in_steps, largest, limit,
     load, ours, rms, run, run_setup, swing,
@@ -13,7 +14,6 @@ use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{A, B};
 use mdr_tui::math::abel::worn;
 use mdr_tui::math::grid::interpolate;
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Log};
 use mdr_tui::simulation::{Domain, Integrator, Scheme, Setup, Simulation, Spacing, State};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};

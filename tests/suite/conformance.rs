@@ -10,7 +10,7 @@ use std::path::Path;
 
 use crate::closed_forms::pair_catalogue::Transform::{LineToSurface, LoadToStress, ProfileToMdr};
 use crate::closed_forms::pair_catalogue::{PAIRS, Pair};
-use crate::common::largest;
+use crate::common::{PUBLISHED, largest};
 use mdr_tui::math::abel::{AbelMethod, AbelPlan};
 use mdr_tui::math::grid::RadialGrid;
 
@@ -128,7 +128,7 @@ fn every_method_has_its_order_on_every_pair() {
 fn the_stress_of_smooth_data_is_of_first_order_at_the_axis() {
     let is_it = |pair: &&Pair| pair.name == "gauss" && pair.transform == LoadToStress;
     let pair = PAIRS.iter().find(is_it).expect("a pair");
-    for method in AbelMethod::PUBLISHED {
+    for method in PUBLISHED {
         let errors = [400, 800].map(|cells| {
             let grid = grid("uniform", pair, cells);
             let nodes = grid.nodes().iter().zip(image(method, pair, &grid));

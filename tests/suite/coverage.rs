@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
-use mdr_tui::oracle::fretting_loop::Branch;
+use crate::closed_forms::cattaneo_mindlin::CattaneoMindlin;
+use crate::closed_forms::fretting_loop::Branch;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
 use mdr_tui::studies::fit::{Fit, Options};

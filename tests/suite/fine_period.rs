@@ -1,6 +1,6 @@
 //! The finely stepped last period against closed forms, the friction work of the run, and where the run stands.
 
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
+use crate::closed_forms::partial_slip::stiffness_ratio;
 use mdr_tui::simulation::{FinePeriod, Simulation};
 
 use crate::common::{Scene, cattaneo, change, energy, load, near, ours, ran, run_setup};

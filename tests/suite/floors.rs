@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mdr_tui::reading::Column;
 
-/// A floor's height; none for what is not a floor. `cli` stands on `tui`, `oracle` beside them all.
+/// A floor's height; none for what is not a floor. `cli` stands on `tui`.
 fn height(floor: &str) -> Option<u8> {
     Some(match floor {
         "math" | "guide" => 0,
@@ -37,9 +37,6 @@ fn faults(floor: &str, text: &str) -> Vec<String> {
             "{floor} imports all that its parent has, so that no line tells what it needs"
         ));
     }
-    if floor == "oracle" {
-        faults.extend(foreign_to_the_judge(&code));
-    }
     // What is above the readers sees observations of it.
     if height(floor) > height("reading")
         && [".state()", ".model()"]
@@ -57,12 +54,8 @@ fn may_import(floor: &str, target: &str) -> bool {
     }
     match (height(floor), height(target)) {
         (Some(from), Some(to)) => to < from,
-        // The judge serves the studies and the screens, never the judged.
-        (Some(from), None) => {
-            let judged = target == "oracle" && from >= 7 && floor != "export" && floor != "plot";
-            // What the process does when it fails: below every floor.
-            judged || ["failpoint", "panics"].contains(&target)
-        }
+        // What the process does when it fails: below every floor.
+        (Some(_), None) => ["failpoint", "panics"].contains(&target),
         _ => false,
     }
 }
@@ -126,27 +119,6 @@ fn head(path: &str) -> String {
         .collect()
 }
 
-/// Imports of the oracle that leave its folder for anything but `std`.
-fn foreign_to_the_judge(code: &str) -> Vec<String> {
-    let mut faults: Vec<String> = code
-        .lines()
-        .filter_map(|line| {
-            let line = line.trim_start();
-            line.strip_prefix("use ")
-                .or_else(|| line.strip_prefix("pub use "))
-        })
-        .map(head)
-        // A capital is a type of the file itself; `crate` is judged with the floors.
-        .filter(|name| !name.starts_with(char::is_uppercase))
-        .filter(|name| !["std", "super", "self", "crate"].contains(&name.as_str()))
-        .map(|name| format!("oracle imports {name}"))
-        .collect();
-    if code.contains("super::super::") {
-        faults.push("oracle looks out of its folder".into());
-    }
-    faults
-}
-
 /// The code without comments, and without what stands under `#[cfg(test)]` up to where `rustfmt` ends an item: a line as
 /// far to the left that ends it.
 pub fn without_tests(text: &str) -> String {
@@ -208,7 +180,7 @@ fn every_import_points_downwards() {
             continue;
         }
         assert!(
-            height(&floor).is_some() || floor == "oracle",
+            height(&floor).is_some(),
             "{} stands on no known floor",
             path.display()
         );
@@ -258,5 +230,25 @@ fn the_checker_catches_what_it_must_and_lets_pass_what_is_right() {
             usize::from(verdict == "wrong"),
             "{row}: {found:?}"
         );
+    }
+}
+
+/// The judge shares no code with the judged: closed forms import the standard library and one another.
+#[test]
+fn closed_forms_import_nothing_that_they_judge() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = sources(&root.join("tests/suite/closed_forms"));
+    assert!(files.len() > 10, "{files:?}");
+    for file in files
+        .into_iter()
+        .chain([root.join("src/studies/verify/exact.rs")])
+    {
+        let text = fs::read_to_string(&file).expect("a source");
+        let paths = paths(&without_tests(&text)).into_iter();
+        let foreign: Vec<_> = paths
+            .filter(|path| !["std", "super"].contains(&&*path[0]))
+            .collect();
+        assert!(foreign.is_empty(), "{}: {foreign:?}", file.display());
+        assert!(!text.contains("super::super::super"), "{}", file.display());
     }
 }

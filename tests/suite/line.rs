@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::closed_forms::line_contact::Cylinder;
 use mdr_tui::math::scan::largest;
-use mdr_tui::oracle::line_contact::Cylinder;
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Simulation;

@@ -3,13 +3,15 @@
 //! The constants are about 1.5 times what was measured at N = 50 … 800.
 
 use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
-use crate::common::{Scene, cattaneo, fig3_motion, force, holds, largest, limit, near, run, swing};
+use crate::closed_forms::fretting_loop::Branch;
+use crate::closed_forms::limiting_profile::LimitingProfile;
+use crate::closed_forms::partial_slip::stiffness_ratio;
+use crate::closed_forms::power_law::PowerLaw;
+use crate::common::{
+    PUBLISHED, Scene, cattaneo, fig3_motion, force, holds, largest, limit, near, run, swing,
+};
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
-use mdr_tui::oracle::fretting_loop::Branch;
-use mdr_tui::oracle::limiting_profile::LimitingProfile;
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
-use mdr_tui::oracle::power_law::PowerLaw;
 use mdr_tui::reading::Curves;
 use mdr_tui::simulation::Simulation;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
@@ -79,12 +81,7 @@ fn check_normal(
 fn hertz() {
     let shape = Indenter::paraboloid(1.0).expect("a shape");
     let bounds = [(1.2, 1.5), (0.5, 1.5), (0.5, 1.5), (0.3, 0.5)];
-    check_normal(
-        &AbelMethod::PUBLISHED,
-        shape,
-        PowerLaw::paraboloid(1.0),
-        bounds,
-    );
+    check_normal(&PUBLISHED, shape, PowerLaw::paraboloid(1.0), bounds);
 }
 
 /// Exact to rounding for whoever takes f as piecewise linear; B's f′ = 0 at the tip costs order ½.
@@ -102,17 +99,12 @@ fn cone() {
 fn quartic() {
     let shape = Indenter::power(0.375, 4.0).expect("a shape");
     let bounds = [(11.0, 1.5), (0.7, 1.5), (1.2, 1.5), (0.6, 0.5)];
-    check_normal(
-        &AbelMethod::PUBLISHED,
-        shape,
-        PowerLaw::quartic(0.375),
-        bounds,
-    );
+    check_normal(&PUBLISHED, shape, PowerLaw::quartic(0.375), bounds);
 }
 
 #[test]
 fn cattaneo_and_mindlin_on_first_loading() {
-    for method in AbelMethod::PUBLISHED {
+    for method in PUBLISHED {
         for cells in [50, 200, 800] {
             for share in [0.01, 0.3, 0.7, 0.95] {
                 let exact = cattaneo(amplitude(share));
@@ -149,7 +141,7 @@ fn cattaneo_and_mindlin_on_first_loading() {
 /// a spring that slips stands at its limit wherever the step ends.
 #[test]
 fn the_loop_and_its_energy() {
-    for method in AbelMethod::PUBLISHED {
+    for method in PUBLISHED {
         for (cells, share) in [
             (50, 0.1),
             (50, 0.5),
@@ -201,7 +193,7 @@ fn the_wear_of_a_settled_cycle() {
     let exact = cattaneo(0.05);
     let k = 1e-9;
     let peak = largest((0..1000).map(|i| exact.wear_per_cycle(1.0, f64::from(i) / 1000.0)));
-    for method in AbelMethod::PUBLISHED {
+    for method in PUBLISHED {
         for cells in [50, 200] {
             let scene = Scene::by(method).cells(cells).steps(200).wear(k);
             let mut simulation = run(scene, 1.25);
@@ -311,7 +303,7 @@ fn the_limiting_depth_under_held_forces() {
 /// Without a stick zone the tip wears too: the contact unloads towards f = d and never past it.
 #[test]
 fn gross_slip_unloads_the_contact() {
-    for method in AbelMethod::PUBLISHED {
+    for method in PUBLISHED {
         let scene = Scene::by(method).wear(1.0).shaken(amplitude(1.5));
         let mut simulation = run(scene, 0.0);
         let (unworn, mut before) = (simulation.moment().normal_force, f64::INFINITY);
@@ -334,7 +326,7 @@ fn gross_slip_unloads_the_contact() {
 /// The contact opens in a part of every cycle.
 #[test]
 fn separation_leaves_no_traction_and_no_memory() {
-    for method in AbelMethod::PUBLISHED {
+    for method in PUBLISHED {
         let scene = Scene::by(method).wear(0.5).steps(100);
         let scene = scene.normal(swing(0.3, 0.7, 1.0, 0.0));
         let mut simulation = run(scene.moved(swing(0.0, 0.1, 1.0, 0.8)), 0.0);

@@ -2,13 +2,13 @@
 //! and states that stay finite at every extreme.
 
 use crate::closed_forms::abel_pairs::p_of_cut_power;
+use crate::closed_forms::partial_slip::stiffness_ratio;
 use crate::common::{Scene, holds, largest, limit, ours, run, run_setup, swing};
 use crate::test_dir::has;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B};
 use mdr_tui::math::abel::AbelPlan;
 use mdr_tui::math::grid::RadialGrid;
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{Curves, Observation, Zone};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation, Target};
 use mdr_tui::simulation::{Simulation, State};

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_2_PI;
 
+use crate::closed_forms::partial_slip::stiffness_ratio;
 use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::reading::{CycleFigures, Log, Regime, Subject};
 use mdr_tui::simulation::{Setup, Simulation};
 

@@ -1,13 +1,13 @@
 //! Harsh wear: the guard takes every K to its limit, the raw methods fail where it was predicted.
 
+use crate::closed_forms::limiting_profile::LimitingProfile;
+use crate::closed_forms::partial_slip::stiffness_ratio;
 use crate::common::{
     Scene, holds, in_steps, limit, load, near, ours, rms, run_setup, without_numerics,
 };
 use crate::test_dir::has;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
 use mdr_tui::math::abel::worn;
-use mdr_tui::oracle::limiting_profile::LimitingProfile;
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::scenario::preset;
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Stability};
 use mdr_tui::studies::stability::{Ending, StabilityStudy, VISIBLE, Variant, sawtooth};

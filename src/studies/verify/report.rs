@@ -13,7 +13,7 @@ const ROOMY: usize = 2;
 
 /// Makes the table of one problem, with a row for each method and N.
 pub fn problem_table(problem: Problem, outcomes: &[Solved]) -> Report {
-    let quantities = &problem.facts().quantities;
+    let quantities = problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
     let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Rough)];
     for quantity in quantities {

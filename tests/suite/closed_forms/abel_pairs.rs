@@ -10,9 +10,9 @@
 //! which (1) and (2) keep and (3) divides by m. Radii are non-negative, parameters positive. [`super::pair_catalogue`]
 //! lists the pairs, ready for a conformance suite.
 
+use super::elementary::{angle_beyond, kappa, leg};
+use super::power_law::{displacement_integral, pressure_integral};
 use super::special::{bessel_i0_scaled, dawson, erf};
-use mdr_tui::oracle::power_law::{displacement_integral, pressure_integral};
-use mdr_tui::oracle::special::{angle_beyond, kappa, leg};
 use std::f64::consts::PI;
 
 // (1) ------------------------------------------------------------------------------------------
@@ -124,8 +124,8 @@ pub fn p_of_cut_gauss(a: f64, sigma: f64, r: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadrature::integrate;
     use super::*;
-    use mdr_tui::oracle::quadrature::integrate;
     use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
     fn close(value: f64, exact: f64, relative: f64, what: &str) {

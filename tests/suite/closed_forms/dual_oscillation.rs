@@ -12,7 +12,7 @@
 //! A constant offset of u_x shifts both minima in opposite directions and cancels. A value ≤ 0 means that no point
 //! sticks permanently (this includes loss of contact).
 
-use mdr_tui::oracle::special::positive_part;
+use super::elementary::positive_part;
 use std::f64::consts::TAU;
 
 /// The ratio of the two frequencies.

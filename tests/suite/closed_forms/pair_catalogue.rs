@@ -160,8 +160,8 @@ impl Pair {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadrature::integrate;
     use super::*;
-    use mdr_tui::oracle::quadrature::integrate;
     use std::f64::consts::{FRAC_PI_2, PI};
 
     /// Applies (2) to any function, with x = r sin t, split at the kinks.

@@ -70,8 +70,8 @@ pub fn bessel_i0_scaled(y: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadrature::integrate;
     use super::*;
-    use mdr_tui::oracle::quadrature::integrate;
 
     fn close(value: f64, exact: f64, relative: f64) {
         assert!(

@@ -9,15 +9,15 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
+use crate::closed_forms::cattaneo_mindlin::CattaneoMindlin;
 use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
+use crate::closed_forms::limiting_profile::LimitingProfile;
+use crate::closed_forms::partial_slip::stiffness_ratio;
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::contact::material::Material;
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::math::geometry::Geometry;
 use mdr_tui::math::grid::RadialGrid;
-use mdr_tui::oracle::cattaneo_mindlin::CattaneoMindlin;
-use mdr_tui::oracle::limiting_profile::LimitingProfile;
-use mdr_tui::oracle::partial_slip::stiffness_ratio;
 use mdr_tui::plot::Marker;
 use mdr_tui::plot::theme::{Look, Theme};
 use mdr_tui::scenario::session::Session;
@@ -36,6 +36,14 @@ use ratatui::layout::Size;
 
 use crate::hostile::fuzzed::rehearse;
 use crate::test_dir::fits;
+
+/// The methods of the paper and its reference 9.
+pub const PUBLISHED: [AbelMethod; 4] = [
+    AbelMethod::A,
+    AbelMethod::APlusB,
+    AbelMethod::B,
+    AbelMethod::Benad,
+];
 
 /// The parts of a run as plain values; a test names only what differs from the default.
 #[derive(Debug, Clone)]

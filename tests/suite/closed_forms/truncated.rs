@@ -8,9 +8,9 @@
 //! it is integrated numerically. p is finite on the axis, +∞ (logarithmic) at the rim r = b, and 0 at the contact edge.
 //! b = 0 is the whole paraboloid.
 
+use super::elementary::{leg, positive_part};
 use super::power_law::PowerLaw;
 use super::quadrature::integrate;
-use super::special::{leg, positive_part};
 use std::f64::consts::PI;
 
 /// f = (r² − b²)/(2R) for r > b, 0 for r ≤ b.

@@ -6,7 +6,7 @@
 //! tangential displacement every spring reaches its friction limit at the same moment, U_s =
 //! μE*d/G*: the punch sticks or slips as a whole.
 
-use super::special::{leg, positive_part};
+use super::elementary::{leg, positive_part};
 use std::f64::consts::PI;
 
 /// A flat punch at a given depth.

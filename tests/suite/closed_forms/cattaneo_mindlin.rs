@@ -9,7 +9,7 @@
 //! The differences (a − c, sin y − y cos y, 1 − (1−ε)^{3/2}) are computed without cancellation, so that amplitudes of
 //! 1e-9 d and less keep their digits.
 
-use super::special::{angle_beyond, leg, positive_part};
+use super::elementary::{angle_beyond, leg, positive_part};
 use std::f64::consts::PI;
 
 /// A paraboloid r²/(2R) held at depth d and moved sideways with amplitude U.
@@ -56,7 +56,7 @@ impl CattaneoMindlin {
     }
 
     /// c, m, at a displacement of the first loading.
-    pub(super) fn stick_radius_at(&self, displacement: f64) -> f64 {
+    pub fn stick_radius_at(&self, displacement: f64) -> f64 {
         if displacement == 0.0 {
             return self.contact_radius();
         }
@@ -94,7 +94,7 @@ impl CattaneoMindlin {
     }
 
     /// τ(r), Pa, at a displacement u ≥ 0 of the first loading.
-    pub(super) fn first_loading_shear(&self, u: f64, r: f64) -> f64 {
+    pub fn first_loading_shear(&self, u: f64, r: f64) -> f64 {
         let (a, c) = (self.contact_radius(), self.stick_radius_at(u));
         let factor = 2.0 * self.mu * self.e_star / (PI * self.radius);
         if r >= c {

@@ -11,8 +11,8 @@
 //!
 //! All by adaptive quadrature; g must rise from g(0) ≥ 0 to g(a) = d without falling.
 
+use super::elementary::{bisect, positive_part};
 use super::quadrature::integrate;
-use super::special::{bisect, positive_part};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// G*/E* = 2(1−ν)/(2−ν), dimensionless: rigid on elastic, or two similar bodies (Mindlin 1949).

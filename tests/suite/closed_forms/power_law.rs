@@ -10,8 +10,8 @@
 //! I₀ = acosh(a/r), I₁ = √(a²−r²), and its mirror image for w; for other n they are integrated numerically after
 //! x = r cosh v, x = r sin φ. At r = 0 the pressure is finite for n > 1 and truly infinite for n ≤ 1. At r = a it is 0.
 
+use super::elementary::{acosh_ratio, kappa, leg, positive_part};
 use super::quadrature::integrate;
-use super::special::{acosh_ratio, kappa, leg, positive_part};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A rigid indenter f(r) = A rⁿ with its tip at r = 0.

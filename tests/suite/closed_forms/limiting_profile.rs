@@ -11,8 +11,8 @@
 //!
 //! d is the largest depth of the motion. c → 0: f∞ = d for 0 < r < √2 a. c = a: nothing wears, b = a.
 
+use super::elementary::{angle_beyond, bisect, leg, positive_part};
 use super::quadrature::integrate;
-use super::special::{angle_beyond, bisect, leg, positive_part};
 use std::f64::consts::PI;
 
 /// The limiting state of a paraboloid r²/(2R) under a fixed depth and permanent stick radius.

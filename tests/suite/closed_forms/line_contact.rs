@@ -14,8 +14,8 @@
 //!   p = (E*/2R)√(c² − x²) + (E*/4R)(a² − c²)/√(c² − x²).
 //! - Gross slip: the pressure becomes P/2b; up to a half-width b, V = 2b³/3R − a²b/2R.
 
+use super::elementary::bisect;
 use super::fretting_loop::{Branch, masing};
-use super::special::bisect;
 use std::f64::consts::PI;
 
 /// A cylinder under a held load.
@@ -139,8 +139,8 @@ impl Cylinder {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadrature::integrate;
     use super::*;
-    use crate::oracle::quadrature::integrate;
 
     const CYLINDER: Cylinder = Cylinder {
         e_star: 2.0,

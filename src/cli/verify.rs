@@ -86,7 +86,7 @@ fn verdict(outcomes: &[Solved]) -> String {
         0 => String::new(),
         count => format!("; {count} runs stopped"),
     };
-    let best = AbelMethod::Product;
+    let best = AbelMethod::default();
     let finest = by_problem(outcomes).filter_map(|(_, outcomes)| {
         let tried = outcomes.iter().filter(|o| o.task.method == best);
         let outcome = tried.max_by_key(|o| o.task.points)?;

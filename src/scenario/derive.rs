@@ -20,7 +20,7 @@ const WORN_LINE: f64 = 2.0;
 
 /// Default grid and scheme: the published methods run as published.
 pub fn choices(method: AbelMethod) -> (Spacing, Scheme) {
-    if AbelMethod::PUBLISHED.contains(&method) {
+    if method.traits().is_published {
         (Spacing::Uniform, Scheme::Euler)
     } else {
         (Spacing::Graded, Scheme::Trapezoid)

@@ -74,7 +74,7 @@ impl Parameter {
             return None;
         };
         if let ("method", Ok(method)) = (self.key(), word.parse()) {
-            return Some(AbelMethod::description(method));
+            return Some(AbelMethod::traits(method).description);
         }
         let known = words.iter().find(|known| known.word == word)?;
         Some(known.meaning)

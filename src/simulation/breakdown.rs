@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use super::Setup;
 use super::choices::Stability;
-use crate::math::abel::AbelMethod;
 
 /// A step that failed. The state after the last good step remains.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -134,20 +133,13 @@ fn short(value: f64) -> String {
 
 /// Returns the likely remedy for a state that diverges, by method.
 pub(super) fn advice(setup: &Setup) -> &'static str {
-    match setup.method {
-        AbelMethod::Benad => {
-            "method benad amplifies errors in every round trip f -> g -> f; \
-             numerics.method = \"product\" is stable"
-        }
-        AbelMethod::B => {
-            "method b develops a sawtooth at large wear coefficients; try numerics.method = \
-             \"product\" or more numerics.steps_per_cycle"
-        }
-        _ if setup.stability == Stability::Off => {
+    match setup.method.traits().sawtooth {
+        Some(sawtooth) => sawtooth.advice,
+        None if setup.stability == Stability::Off => {
             "the wear per step is too large for the grid; try numerics.stability = \"sub-step\", \
              more numerics.steps_per_cycle, fewer numerics.points or a smaller wear.coefficient"
         }
-        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => {
+        None => {
             "the wear per step is too large for the grid; try more numerics.steps_per_cycle, \
              fewer numerics.points or a smaller wear.coefficient"
         }

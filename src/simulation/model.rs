@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::Setup;
 use crate::contact::foundation::WinklerFoundation;
-use crate::math::abel::{AbelMethod, AbelPlan, counted};
+use crate::math::abel::{AbelPlan, counted};
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
 use crate::math::vector::{vectorized, write_each};
@@ -39,13 +39,12 @@ impl Operators {
         let nodes = setup.grid.nodes();
         let unworn: Arc<[f64]> = nodes.iter().map(|&r| setup.indenter.profile(r)).collect();
         let mut unworn_1d = vec![0.0; nodes.len()];
-        match setup.method {
-            AbelMethod::Product => {
-                for (g, &x) in unworn_1d.iter_mut().zip(nodes) {
-                    *g = setup.indenter.image(setup.geometry, x);
-                }
+        if setup.method.traits().is_published {
+            plan.profile(&unworn, &mut unworn_1d);
+        } else {
+            for (g, &x) in unworn_1d.iter_mut().zip(nodes) {
+                *g = setup.indenter.image(setup.geometry, x);
             }
-            _ => plan.profile(&unworn, &mut unworn_1d),
         }
         Self {
             foundation: WinklerFoundation::for_geometry(setup.geometry, &setup.grid),

@@ -8,7 +8,6 @@
 use std::f64::consts::PI;
 
 use super::model::Model;
-use crate::math::abel::AbelMethod;
 use crate::math::abel::dome::Dome;
 use crate::math::abel::edge_curve::EdgeCurve;
 use crate::math::abel::field::Field;
@@ -109,7 +108,7 @@ fn end_of_scar(
     even: Option<f64>,
 ) -> Option<(usize, f64)> {
     let t = model.grid.squares();
-    if model.setup.method != AbelMethod::Product {
+    if !model.setup.method.traits().follows_kinks {
         return None;
     }
     let last = (1..t.len()).rev().find(|&j| wear(j) > 0.0)?;

@@ -19,15 +19,6 @@
 //! of a run is 0.9 to 1.05 of the largest z of its nodes, unworn and worn (Fig. 3, methods product and a).
 
 use super::choices::Scheme;
-use crate::math::abel::AbelMethod;
-
-/// Returns ρ: the largest eigenvalue of the response of p to wear, times the cell width.
-pub fn response(method: AbelMethod) -> f64 {
-    match method {
-        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB | AbelMethod::Benad => 1.51,
-        AbelMethod::B => 0.34,
-    }
-}
 
 /// Returns the largest z of a stable step.
 pub fn limit(scheme: Scheme) -> f64 {
@@ -39,8 +30,7 @@ pub fn limit(scheme: Scheme) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::math::abel::AbelPlan;
+    use crate::math::abel::{AbelMethod, AbelPlan};
     use crate::math::grid::RadialGrid;
     use nalgebra::DMatrix;
 
@@ -72,7 +62,7 @@ mod tests {
                 .iter()
                 .map(|z| z.re.hypot(z.im))
                 .fold(0.0, f64::max);
-            let error = (response(method) / largest - 1.0).abs();
+            let error = (method.traits().response / largest - 1.0).abs();
             assert!(error < 0.02, "{method}: {largest}");
             let smallest = eigenvalues
                 .iter()

@@ -16,7 +16,6 @@ use std::ops::Range;
 
 use super::contact::Contact;
 use super::model::Model;
-use super::stability::response;
 use super::traction::Pressure;
 use crate::contact::tangential::SpringState;
 use crate::math::abel::field::Field;
@@ -202,7 +201,8 @@ impl Increment {
         let setup = &model.setup;
         let Some(law) = &setup.wear else { return 0.0 };
         let material = &setup.material;
-        let scale = response(setup.method) * material.friction() * material.normal_modulus();
+        let scale =
+            setup.method.traits().response * material.friction() * material.normal_modulus();
         let per_width = &model.per_width[self.nodes.clone()];
         let (stiffness, worn, surface) = self.surface(law, shear, sliding);
         vectorized(

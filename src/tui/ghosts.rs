@@ -91,7 +91,7 @@ impl Source {
         let setup = session.simulation().setup();
         let name = format!(
             "{}, N = {}",
-            setup.method.display_name(),
+            setup.method.traits().title,
             setup.grid.cells()
         );
         Ok(Self {
@@ -154,7 +154,7 @@ type Edit = Box<dyn Fn(&mut Spec)>;
 /// What a run can be compared with: every other method, and itself on half the cells.
 fn choices(session: &Session) -> Vec<Edit> {
     let setup = session.simulation().setup();
-    let mut others = AbelMethod::for_geometry(setup.geometry).to_vec();
+    let mut others = AbelMethod::for_geometry(setup.geometry);
     others.retain(|method| *method != setup.method);
     // Method b comes first, because the paper's conclusion is about it.
     others.sort_by_key(|method| *method != AbelMethod::B);

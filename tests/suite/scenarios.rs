@@ -137,7 +137,7 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
         if scenario.value("numerics.grid").is_some() {
             continue;
         }
-        for &method in AbelMethod::for_geometry(scenario.setup().geometry) {
+        for method in AbelMethod::for_geometry(scenario.setup().geometry) {
             let changed = scenario.with("numerics.method", method.name());
             let changed = changed.expect("a method");
             let setup = changed.setup();

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dome::Dome;
 use super::kink::{self, Kink};
-use super::{AbelMethod, AbelPlan, line};
+use super::{AbelPlan, line};
 use crate::math::grid::RadialGrid;
 
 /// Values at the nodes of a grid, and the kinks between them.
@@ -46,7 +46,7 @@ impl Field {
                 kink::add_to_displacement(kinks, grid, w)
             }
         };
-        if has_kinks(plan) {
+        if plan.method().traits().follows_kinks {
             add_kinks(&self.kinks, w);
         }
         if let Some(dome) = dome {
@@ -75,7 +75,7 @@ impl Field {
     ) -> usize {
         let dome = self.dome_for(plan);
         let first = plan.stress_from(first, self.without(dome, grid, rest), p);
-        if has_kinks(plan) && first < p.len() {
+        if plan.method().traits().follows_kinks && first < p.len() {
             let (within, beyond) = p.split_at_mut(touching.max(first));
             let (squares, within) = (&grid.squares()[first..], &mut within[first..]);
             kink::add_to_stress(&self.kinks, squares, within);
@@ -97,7 +97,7 @@ impl Field {
 
     /// Returns the dome if the method supports one.
     fn dome_for(&self, plan: &AbelPlan) -> Option<Dome> {
-        self.dome.filter(|_| has_kinks(plan))
+        self.dome.filter(|_| plan.method().traits().follows_kinks)
     }
 
     /// Returns the nodal values minus the dome, in `rest` if there is one.
@@ -115,13 +115,9 @@ impl Field {
     }
 }
 
-/// Whether the method handles kinks and domes.
-fn has_kinks(plan: &AbelPlan) -> bool {
-    plan.method() == AbelMethod::Product
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::AbelMethod;
     use super::*;
     use std::f64::consts::FRAC_2_PI;
 

@@ -55,14 +55,11 @@
 use std::cell::Cell;
 use std::fmt::Debug;
 
-use nalgebra::DMatrix;
-use serde::{Deserialize, Serialize};
-use strum::{Display, EnumString, IntoStaticStr, VariantNames};
-
 use super::geometry::Geometry;
-use super::grid::{MAX_CELLS, RadialGrid};
+use super::grid::RadialGrid;
 use super::skyline::Skyline;
 use fast::{Inwards, Outwards, Worn};
+pub use method::{AbelMethod, MOST_DENSE_CELLS, Sawtooth, Traits};
 
 pub mod a;
 pub mod b;
@@ -74,90 +71,11 @@ pub mod field;
 mod kernel;
 pub mod kink;
 pub mod line;
+mod method;
 pub mod product;
 #[cfg(test)]
 mod testing;
 pub mod worn;
-
-/// Maximum number of cells of a method that only has the dense
-/// form; its three triangular matrices then take about 0.8 GB.
-pub const MOST_DENSE_CELLS: usize = 8192;
-
-/// A way to compute the three transforms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[derive(Display, EnumString, IntoStaticStr, VariantNames)]
-#[strum(serialize_all = "kebab-case")]
-pub enum AbelMethod {
-    /// Product integration, linear in r²: ours.
-    Product,
-    /// The paper's Method A: splits off the singularity of (2), Eq. (7).
-    A,
-    /// The paper's suggestion (b): Method A for (1) and (3), Method B for (2).
-    #[strum(serialize = "a+b")]
-    #[serde(rename = "a+b")]
-    APlusB,
-    /// The paper's Method B: trapezoids in asin and acosh, Eqs. (11) to (13).
-    B,
-    /// Integration by parts, J. Benad (2018): the paper's reference 9.
-    Benad,
-}
-
-impl AbelMethod {
-    /// All methods, in the order in which keys step through them.
-    pub const ALL: [Self; 5] = [Self::Product, Self::A, Self::APlusB, Self::B, Self::Benad];
-
-    /// The methods of the paper and its reference 9.
-    pub const PUBLISHED: [Self; 4] = [Self::A, Self::APlusB, Self::B, Self::Benad];
-
-    /// Returns the methods available for this `geometry`; the published ones are for round contacts only.
-    pub fn for_geometry(geometry: Geometry) -> &'static [Self] {
-        match geometry {
-            Geometry::Round => &Self::ALL,
-            Geometry::Line { .. } => &[Self::Product],
-        }
-    }
-
-    /// Returns the name used in scenarios, on the screen and in files.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-
-    /// Whether it uses the [`fast`] form instead of the dense one on this many cells.
-    pub fn prefers_fast(self, cells: usize) -> bool {
-        self == Self::Product && cells >= CROSSOVER
-    }
-
-    /// Returns the maximum number of cells.
-    pub fn most_cells(self) -> usize {
-        match self {
-            Self::Product => MAX_CELLS,
-            _ => MOST_DENSE_CELLS,
-        }
-    }
-
-    /// Returns the name for use in a sentence, with the paper's capital letters.
-    pub fn display_name(self) -> &'static str {
-        match self {
-            Self::Product => "product",
-            Self::Benad => "Benad",
-            Self::A => "A",
-            Self::B => "B",
-            Self::APlusB => "A+B",
-        }
-    }
-
-    /// Describes the method in one line.
-    pub fn description(self) -> &'static str {
-        match self {
-            Self::Product => "product integration linear in r²; exact for a paraboloid",
-            Self::Benad => "integration by parts (Benad 2018); unstable in fretting",
-            Self::A => "Method A of the paper: singularity split off; causal",
-            Self::B => "Method B of the paper: trapezoids; leaks at the stick border",
-            Self::APlusB => "Method A for Eqs. (1) and (3), B for Eq. (2); causal",
-        }
-    }
-}
 
 /// A transform on a grid, dense or fast.
 trait Transform: Debug + Send + Sync {
@@ -171,10 +89,6 @@ impl Transform for Skyline {
         Self::apply_from(self, first, values, image)
     }
 }
-
-/// Number of cells from which every operator is faster in the [`fast`] form than in the dense one, by `cargo bench
-/// --bench transforms`: the three transforms are from about 100 on, the worn depth from 200 on.
-const CROSSOVER: usize = 200;
 
 /// The transforms of one method on one grid, ready to apply.
 #[derive(Debug)]
@@ -237,25 +151,18 @@ impl AbelPlan {
 
     /// Makes `method` on `grid` in the dense form.
     pub fn dense(method: AbelMethod, grid: &RadialGrid) -> Self {
-        type Weights = fn(&[f64]) -> DMatrix<f64>;
-        let (profile, displacement, stress): (Weights, Weights, Weights) = match method {
-            AbelMethod::Product => (product::profile, product::displacement, product::stress),
-            AbelMethod::Benad => (benad::profile, benad::displacement, benad::stress),
-            AbelMethod::A => (benad::profile, a::displacement, benad::stress),
-            AbelMethod::B => (b::profile, b::displacement, b::stress),
-            AbelMethod::APlusB => (benad::profile, b::displacement, benad::stress),
-        };
-        let pack =
-            |weights: &DMatrix<f64>| -> Box<dyn Transform> { Box::new(Skyline::pack(weights)) };
+        let pack = |weights| -> Box<dyn Transform> { Box::new(Skyline::pack(&weights)) };
         let nodes = grid.nodes();
-        let has_form = method == AbelMethod::Product && grid.border().is_some();
+        let traits = method.traits();
+        let [profile, displacement, stress] = traits.weights.map(|weights| pack(weights(nodes)));
+        let has_form = traits.follows_kinks && grid.border().is_some();
         Self {
             method,
             geometry: Geometry::Round,
-            profile: pack(&profile(nodes)),
-            displacement: pack(&displacement(nodes)),
-            stress: pack(&stress(nodes)),
-            worn: has_form.then(|| pack(&worn::profile(grid))),
+            profile,
+            displacement,
+            stress,
+            worn: has_form.then(|| pack(worn::profile(grid))),
         }
     }
 
@@ -317,6 +224,9 @@ pub(crate) fn counted<T>(compute: impl FnOnce() -> T) -> (T, u64) {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+    use strum::VariantNames;
+
     use super::*;
 
     #[test]
@@ -346,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn all_operators_but_those_of_b_and_benad_are_causal() {
+    fn operators_are_as_causal_as_their_traits_say() {
         let grid = RadialGrid::uniform(20, 1.0).expect("a grid");
         for method in AbelMethod::ALL {
             let plan = AbelPlan::new(method, &grid);
@@ -358,8 +268,7 @@ mod tests {
             let causal = profile == profile.lower_triangle()
                 && displacement == displacement.lower_triangle()
                 && stress == stress.upper_triangle();
-            let looks_ahead = matches!(method, AbelMethod::B | AbelMethod::Benad);
-            assert_eq!(causal, !looks_ahead, "{method}");
+            assert_eq!(causal, method.traits().is_causal, "{method}");
         }
     }
 }

@@ -16,7 +16,6 @@
 
 use super::super::drive::Control;
 use super::super::model::Model;
-use super::super::stability::response;
 use super::super::state::SteadyCycle;
 use crate::math::krylov;
 use crate::math::tridiagonal::Tridiagonal;
@@ -41,7 +40,7 @@ impl<'a> Response<'a> {
     /// That of a time `h` of `steady` cycles.
     pub fn new(model: &'a Model, steady: &SteadyCycle, h: f64) -> Self {
         let touching = steady.touching;
-        let scale = h / response(model.setup.method);
+        let scale = h / model.setup.method.traits().response;
         // Slip grows outwards.
         let mut most = 0.0_f64;
         let cells = steady.stiffness.iter().zip(&model.per_width);

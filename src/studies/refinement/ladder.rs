@@ -14,7 +14,6 @@ use super::level::{Level, MOST_TOLERANT, Ratio};
 use super::outcome::{Difference, Outcome};
 use super::rung::{Rung, Top, run_in_part};
 use crate::contact::indenter::Indenter;
-use crate::math::abel::AbelMethod;
 use crate::math::grid::RadialGrid;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
@@ -359,7 +358,7 @@ impl Ladder<'_> {
     fn placing(&self) -> Option<&Indenter> {
         let setup = self.scenario.setup();
         let is_open = self.scenario.spec().numerics.grid.is_none();
-        (setup.method == AbelMethod::Product && is_open).then_some(&setup.indenter)
+        (setup.method.traits().follows_kinks && is_open).then_some(&setup.indenter)
     }
 
     /// Places nodes for a level with `cells` cells after a run with this outcome; `None` if there is no scar, or the

@@ -30,11 +30,9 @@
 
 use super::growth::growing_from;
 use super::{StabilityStudy, VISIBLE, Variant};
-use crate::math::abel::AbelMethod;
 use crate::math::scan::largest;
 use crate::reading::{Curves, Zone};
 use crate::scenario::session::{Session, SessionError};
-use crate::simulation::stability::response;
 use crate::simulation::{Scheme, Setup, Simulation};
 
 /// Wear number at which the unworn contact is examined: small enough to preserve its shape.
@@ -76,9 +74,9 @@ pub(super) fn predict(
     // The first cycle lets the springs settle.
     cycle(&mut mild, MILD, 0.0)?;
     let unworn = cycle(&mut mild, MILD, 0.0)?;
-    if let Some((depth, _)) = sawtooth_from(setting.method) {
+    if let Some(sawtooth) = setting.method.traits().sawtooth {
         let worn = unworn.worn * study.cycles;
-        return Ok((worn > 0.0).then(|| depth / worn));
+        return Ok((worn > 0.0).then(|| sawtooth.from / worn));
     }
     let scheme = mild.simulation().setup().scheme;
     let boundary = unworn.growing(scheme);
@@ -153,28 +151,6 @@ fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, 
     Ok(cycle)
 }
 
-/// Returns the wear at which a method shows a sawtooth whatever the step, at the rate of a cycle of the unworn contact
-/// and relative to the largest depth, and why. `None` if short steps prevent it.
-///
-/// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps per cycle,
-/// 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of the map from a profile to its wear per cycle
-/// do not predict this: with b they equal those of other methods, with benad they change fourfold with N. On other
-/// motions the constants may be off by more than 1.5.
-pub(super) fn sawtooth_from(method: AbelMethod) -> Option<(f64, &'static str)> {
-    match method {
-        AbelMethod::Product | AbelMethod::A | AbelMethod::APlusB => None,
-        AbelMethod::B => {
-            let why =
-                "its differences reach across the stick border and wear the permanent stick zone";
-            Some((0.4, why))
-        }
-        AbelMethod::Benad => {
-            let why = "its Eq. (2) adds the unevenness of the springs in every cycle";
-            Some((0.045, why))
-        }
-    }
-}
-
 /// Returns G for p = 1 Pa: a spring that slips holds u = μq/G*, so wear by δ lets the surface slip by μE*δ/G* more,
 /// which wears G = kμ²pE*/G* times δ. `None` unless the law is in proportion to friction work.
 fn gain(setup: &Setup) -> Option<f64> {
@@ -190,7 +166,7 @@ fn step(simulation: &Simulation, before: &[f64], after: &[f64], height: f64) -> 
     let Some(law) = &setup.wear else {
         return (0.0, 0.0);
     };
-    let scale = response(setup.method) * setup.material.normal_modulus();
+    let scale = setup.method.traits().response * setup.material.normal_modulus();
     let share = gain(setup).unwrap_or_default();
     let amplitude = 0.5 * height * depth(simulation);
     let worn = simulation.last_wear();

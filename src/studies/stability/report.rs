@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use super::predict::sawtooth_from;
 use super::{Ending, Limit, Variant};
 use crate::scenario::scalars::Value;
 use crate::studies::table::Format::{Fixed, Rough, Words};
@@ -92,10 +91,10 @@ pub fn maps(lines: &[Limit]) -> String {
         let rungs = first.outcomes.iter().map(|(k, _)| format!("{k:<RUNG$}"));
         let rungs: String = rungs.collect();
         let _ = writeln!(text, "  N  K={}", rungs.trim_end());
-        if let Some((_, why)) = sawtooth_from(first.setting.method) {
+        if let Some(sawtooth) = first.setting.method.traits().sawtooth {
             let measured =
                 "Measured, not derived: the sawtooth grows with K x cycles at any step size";
-            let _ = writeln!(text, "  {measured};\n  {why}.");
+            let _ = writeln!(text, "  {measured};\n  {}.", sawtooth.why);
         }
         text.push('\n');
     }

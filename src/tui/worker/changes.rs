@@ -95,7 +95,7 @@ impl Worker {
             if methods.len() < 2 {
                 return refuse("a line contact has the method product only");
             }
-            let method = shifted(methods, setup.method, places);
+            let method = shifted(&methods, setup.method, places);
             edit(run, |spec| spec.numerics.method = Some(method))
         });
         self.change(shift, false);

@@ -14,7 +14,7 @@ use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement::{Budget, Level, Reached, SearchError, Verdict, run_to_accuracy};
-use crate::studies::trade::{self, Candidate, Reference, Timed, Trial, cheapest, front, table};
+use crate::studies::trade::{self, Candidate, Timed, Trial, cheapest, front, table};
 
 /// Accuracies for which the search for a level is timed, in addition to the fixed settings.
 const ACCURACIES: [f64; 2] = [1e-2, 1e-3];
@@ -105,7 +105,7 @@ fn run(
     let best = trade::by_the_best(scenario)?;
     let reference = match run_to_accuracy(&best, cycles, finest, LONGEST_SEARCH, go_on) {
         Err(SearchError::Session(SessionError::Interrupted)) => return Ok(None),
-        reached => Reference::from(reached.context("the reference")?),
+        reached => reached.context("the reference")?,
     };
     let mut trials: Vec<Trial> = Vec::new();
     for setting in &settings {
@@ -123,7 +123,7 @@ fn run(
             scenario.title(),
             number(cycles)
         ),
-        format!("reference: {reference}"),
+        format!("reference: {}", trade::describe_reference(&reference)),
     ];
     for accuracy in ACCURACIES.into_iter().take_while(|_| go_on()) {
         bar.set_message(format!("numerics.accuracy = {accuracy:e}"));
@@ -141,9 +141,12 @@ fn run(
 }
 
 /// Describes what an accuracy cost, compared with the cheapest fixed setting that meets it.
-fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reference) -> String {
+fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reached) -> String {
     let (seconds, Level { points, steps, .. }) = (reached.seconds, &reached.rung.level);
-    let errors = reached.rung.outcome.difference_from(&reference.outcome);
+    let errors = reached
+        .rung
+        .outcome
+        .difference_from(&reference.rung.outcome);
     let met = match reached.verdict {
         Verdict::Met => "",
         _ => ", not reached",

@@ -16,7 +16,7 @@ use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::{Numerics, Spec};
 use crate::scenario::{Refusal, Scenario};
 use crate::simulation::{Integrator, Scheme};
-use crate::studies::refinement::{self, Level, Outcome, Reached, Rung};
+use crate::studies::refinement::{self, Level, Outcome, Reached};
 use crate::studies::table::{Format, Report};
 
 /// Numbers of cells to try.
@@ -128,7 +128,7 @@ pub fn settings(
         .filter(|of| known.contains(of))
         .flat_map(of_method)
     {
-        let is_best = method == AbelMethod::Product && scheme == Scheme::Trapezoid;
+        let is_best = method == AbelMethod::default() && scheme == Scheme::Trapezoid;
         let mut tolerances = if wants_jumps { vec![] } else { vec![None] };
         if repeats && (is_best || wants_jumps) {
             tolerances.extend(TOLERANCES.map(Some));
@@ -157,50 +157,19 @@ pub fn settings(
 /// If its shape does not allow that method.
 pub fn by_the_best(scenario: &Scenario) -> Result<Scenario, Refusal> {
     scenario.edited(|spec| {
-        spec.numerics.method = Some(AbelMethod::Product);
+        spec.numerics.method = Some(AbelMethod::default());
         spec.numerics.scheme = Some(Scheme::Trapezoid);
     })
 }
 
-/// The run that settings are compared with, whose own error is known.
-#[derive(Debug)]
-pub struct Reference {
-    session: Session,
-    /// Its state at the end.
-    pub outcome: Outcome,
-    level: Level,
-    /// The largest of the reference's estimated errors.
-    error: f64,
-    seconds: f64,
-}
-
-impl From<Reached> for Reference {
-    fn from(reached: Reached) -> Self {
-        let Rung {
-            level,
-            session,
-            outcome,
-            ..
-        } = reached.rung;
-        Self {
-            error: reached.error.promised(),
-            seconds: reached.seconds,
-            session,
-            outcome,
-            level,
-        }
-    }
-}
-
-impl Display for Reference {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Level { points, steps, .. } = self.level;
-        write!(
-            f,
-            "N = {points}, {steps} steps per cycle, found in {:.1e} s; its own error is {:.1e} at worst",
-            self.seconds, self.error
-        )
-    }
+/// Describes the run that settings are compared with, whose own error is known.
+pub fn describe_reference(reference: &Reached) -> String {
+    let Level { points, steps, .. } = reference.rung.level;
+    format!(
+        "N = {points}, {steps} steps per cycle, found in {:.1e} s; its own error is {:.1e} at worst",
+        reference.seconds,
+        reference.error.promised()
+    )
 }
 
 /// Whether the user asks for jumps; jumps chosen by an accuracy do not count.
@@ -230,7 +199,7 @@ impl Trial {
     pub fn new(
         setting: Candidate,
         ended: Result<(Session, f64), SessionError>,
-        reference: &Reference,
+        reference: &Reached,
     ) -> Self {
         let (level, tolerance) = (&setting.level, setting.level.tolerance);
         let mut row: Vec<Value> = vec![
@@ -250,14 +219,17 @@ impl Trial {
                 row.resize(row.len() + 5, Value::Null);
             }
             Ok((session, seconds)) => {
-                let errors = Outcome::from_session(&session).difference_from(&reference.outcome);
-                let complaints = complaints(&session, &reference.session);
+                let errors =
+                    Outcome::from_session(&session).difference_from(&reference.rung.outcome);
+                let complaints = complaints(&session, &reference.rung.session);
                 if complaints.is_empty() && errors.promised().is_finite() {
-                    point = Some([seconds, errors.promised() + reference.error]);
+                    point = Some([seconds, errors.promised() + reference.error.promised()]);
                 }
                 let simulation = session.simulation();
-                let (moment, exact) =
-                    (simulation.moment(), reference.session.simulation().moment());
+                let (moment, exact) = (
+                    simulation.moment(),
+                    reference.rung.session.simulation().moment(),
+                );
                 let radius = |of: &Moment| of.permanent_stick_radius.unwrap_or(f64::NAN);
                 // In contact radii; not counted towards the worst error.
                 let stick = (radius(&moment) - radius(&exact)).abs() / exact.contact_radius;
@@ -341,6 +313,7 @@ pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::studies::refinement::{Difference, Rung, Verdict};
 
     fn trial(points: usize, seconds: f64, worst: f64) -> Trial {
         Trial {
@@ -354,12 +327,16 @@ mod tests {
         }
     }
 
-    fn reference(session: Session) -> Reference {
-        Reference {
-            outcome: Outcome::from_session(&session),
-            level: Level::from_scenario(session.scenario()),
-            session,
-            error: 0.0,
+    fn reference(session: Session) -> Reached {
+        Reached {
+            rung: Rung {
+                outcome: Outcome::from_session(&session),
+                level: Level::from_scenario(session.scenario()),
+                session,
+                seconds: 0.0,
+            },
+            error: Difference::default(),
+            verdict: Verdict::Met,
             seconds: 0.0,
         }
     }
@@ -394,7 +371,7 @@ mod tests {
         assert_eq!(stars.count(), 3);
         assert!(table.text().contains("broke"));
         // Without tangential motion there is no stick radius; errors of a missing scar do not count.
-        let judged = judged(8, Ok((reference.session.clone(), 0.1)));
+        let judged = judged(8, Ok((reference.rung.session.clone(), 0.1)));
         assert_eq!(judged.row[13], Value::Null);
     }
 

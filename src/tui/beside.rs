@@ -128,7 +128,7 @@ impl Twin {
         let is_there = self.beside.run.cycle() >= self.due;
         if let Some(run) = self.run.take_if(|_| is_there) {
             let twin = Outcome::from_session(&self.beside.run.session);
-            self.told = Some((self.due, refinement::by_twin(&twin, &run)));
+            self.told = Some((self.due, run.error_by(&twin, run.finer_than(&twin))));
             self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
         }
     }

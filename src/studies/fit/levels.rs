@@ -10,15 +10,10 @@ use super::coarse::FINER;
 use super::errors::Errors;
 use super::search::{Found, Search};
 use super::solver::Free;
-use crate::studies::refinement::Level;
+use crate::studies::refinement::{Level, difference_per_error};
 
 /// How much smaller its tolerance of jumps is: their errors add up to its power of two thirds.
 const LESS_TOLERANT: f64 = 2.0;
-
-/// Assumed ratio of a level's error to the shift of the keys on it, and of the error of the level before, if errors fall
-/// with the first to second power of the steps.
-const LEFT: f64 = 1.0;
-const BEFORE: f64 = 2.2;
 
 /// An error is small that is less than this part of the statistical one.
 const SMALL: f64 = 0.3;
@@ -47,11 +42,14 @@ pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, 
             break;
         };
         let moved = errors.newton_step(&search.in_errors(&changes));
-        let moved = |factor: f64| moved.iter().map(|moved| factor * moved.abs()).collect();
-        let Some(accuracy) = accuracy else {
-            return Ok((errors, Some(moved(BEFORE))));
+        let error_on = |finer: f64| {
+            let per_error = difference_per_error(finer);
+            moved.iter().map(|moved| moved.abs() / per_error).collect()
         };
-        let left: Vec<f64> = moved(LEFT);
+        let Some(accuracy) = accuracy else {
+            return Ok((errors, Some(error_on(FINER.recip()))));
+        };
+        let left: Vec<f64> = error_on(FINER);
         let is_less = |(i, free): (usize, &Free)| {
             let met = accuracy * free.size(found.theta[i]);
             // What the data do not determine needs no finer level.

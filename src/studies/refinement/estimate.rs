@@ -26,37 +26,23 @@ pub fn estimate(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Differenc
         let twin = run(&twin_of(session, factor)?, cycle, go_on)?;
         Ok(Outcome::from_session(&twin))
     };
+    let by = |twin: &Outcome| here.error_by(twin, here.finer_than(twin));
     let coarser = TWIN.recip();
     if !level.allows_twin(coarser * coarser) {
-        // The error of the coarser run is the finer run's error plus the difference.
-        let twin = ended(TWIN)?;
-        let difference = here.difference_from(&twin);
-        let finer = difference.error_of_finer(ratio(&here, &twin));
-        return Ok(difference.combined(&finer, |difference, finer| difference + finer));
+        return Ok(by(&ended(TWIN)?));
     }
     let twin = ended(coarser)?;
     match ended(coarser * coarser) {
         Ok(coarsest) => {
-            let before = by_twin(&coarsest, &twin);
-            let error = twin
-                .difference_from(&here)
-                .error_above(&before, ratio(&twin, &here));
+            let before = twin.error_by(&coarsest, twin.finer_than(&coarsest));
+            let difference = twin.difference_from(&here);
+            let error = difference.error_above(&before, here.finer_than(&twin));
             Ok(error.as_estimate())
         }
         Err(SessionError::Interrupted) => Err(SessionError::Interrupted),
         // If the coarsest one breaks down, only a chance agreement of two numbers may go unnoticed.
-        Err(_) => Ok(by_twin(&twin, &here)),
+        Err(_) => Ok(by(&twin)),
     }
-}
-
-/// Estimates the error of a run from its [`twin`] alone, at the same cycle.
-pub fn by_twin(twin: &Outcome, run: &Outcome) -> Difference {
-    twin.difference_from(run).error_of_finer(ratio(twin, run))
-}
-
-/// Returns how many times finer one of two runs is; rounding to whole cells makes this differ from [`TWIN`].
-fn ratio(coarse: &Outcome, fine: &Outcome) -> f64 {
-    fine.grid.cells() as f64 / coarse.grid.cells() as f64
 }
 
 /// Returns the run with fewer cells and steps by [`TWIN`], at its start; `None` if that would be too coarse.

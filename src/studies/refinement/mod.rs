@@ -12,9 +12,9 @@ mod resolve;
 mod rung;
 
 pub use budget::Budget;
-pub use estimate::{by_twin, estimate, twin};
+pub use estimate::{estimate, twin};
 pub use ladder::{Reached, SearchError, Verdict, climb, run_to_accuracy};
 pub use level::Level;
-pub use outcome::{Difference, Outcome};
+pub use outcome::{Difference, Outcome, difference_per_error};
 pub use resolve::{Resolved, resolve, resolve_soon, statements_of};
 pub use rung::{Rung, run};

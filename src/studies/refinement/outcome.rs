@@ -157,16 +157,16 @@ impl Difference {
         estimate
     }
 
-    /// Estimates the error of the finer of two levels with this difference, the one `ratio` times finer: D/(ρᵖ − 1).
-    pub(super) fn error_of_finer(&self, ratio: f64) -> Self {
-        self.combined(self, |d, _| d / (ratio.powf(ORDER) - 1.0))
+    /// Returns the error of a run with this difference from its twin, than which it is `ratio` times finer.
+    pub(super) fn error_at(&self, ratio: f64) -> Self {
+        let per_error = difference_per_error(ratio);
+        self.combined(self, |d, _| d / per_error)
     }
 
-    /// As [`error_of_finer`](Self::error_of_finer), if the coarser
-    /// level has the error `before`: at least 1/ρ² of it remains.
+    /// As [`error_at`](Self::error_at), if the twin is coarser and has the error `before`: at least 1/ρ² of it remains.
     pub(super) fn error_above(&self, before: &Self, ratio: f64) -> Self {
         let left = ratio.powf(-HIGHEST_ORDER);
-        let error = self.error_of_finer(ratio);
+        let error = self.error_at(ratio);
         error.combined(before, |error, before| error.max(before * left))
     }
 
@@ -174,6 +174,12 @@ impl Difference {
     pub(super) fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Self(std::array::from_fn(|k| combine(self.0[k], other.0[k])))
     }
+}
+
+/// Returns how far two runs differ, relative to the error of one that is `ratio` times finer than the other, or coarser
+/// for a ratio below 1: |ρᵖ − 1|, for errors that fall with the power p of cells and steps.
+pub fn difference_per_error(ratio: f64) -> f64 {
+    (ratio.powf(ORDER) - 1.0).abs()
 }
 
 impl Outcome {
@@ -221,6 +227,22 @@ impl Outcome {
         let before = first.saturating_sub(1);
         let after = (last + 1).min(self.grid.cells());
         Some((self.grid.nodes()[before], self.grid.nodes()[after]))
+    }
+
+    /// Estimates the error of this run by a `twin`, than which it is `ratio` times finer, or coarser for a ratio below 1.
+    pub fn error_by(&self, twin: &Self, ratio: f64) -> Difference {
+        let [coarse, fine] = if ratio < 1.0 {
+            [self, twin]
+        } else {
+            [twin, self]
+        };
+        coarse.difference_from(fine).error_at(ratio)
+    }
+
+    /// Returns how many times as many cells it has as a `twin` whose steps differ alike; rounding to whole cells makes
+    /// this differ from what was asked for.
+    pub fn finer_than(&self, twin: &Self) -> f64 {
+        self.grid.cells() as f64 / twin.grid.cells() as f64
     }
 
     /// Returns the difference of this run from a finer one, in units of the finer one.
@@ -302,7 +324,10 @@ mod tests {
     fn differences_tell_errors_of_the_usual_order_and_no_coincidence() {
         // e(h) = hᵖ: with a ratio of 2 an error of 1 of the finer level gives a difference of 2ᵖ − 1.
         let difference = all(2f64.powf(ORDER) - 1.0);
-        assert!((difference.error_of_finer(2.0).promised() - 1.0).abs() < 1e-12);
+        assert!((difference.error_at(2.0).promised() - 1.0).abs() < 1e-12);
+        // The coarser one errs by the difference and the finer one's error.
+        let coarser = all(2f64.powf(ORDER));
+        assert!((difference.error_at(0.5).promised() / coarser.promised() - 1.0).abs() < 1e-12);
         assert_eq!(difference.error_above(&all(3.0), 2.0).promised(), 1.0);
         // If two levels agree, a quarter of the coarser one's error remains.
         assert_eq!(all(0.0).error_above(&all(1.0), 2.0).promised(), 0.25);

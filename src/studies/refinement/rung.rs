@@ -31,8 +31,7 @@ impl Rung {
     /// Returns the error in a source by a twin that is coarser in it.
     pub(super) fn error_by(&self, twin: &Self, source: usize) -> Difference {
         let ratio = self.level.ratio(&twin.level)[source];
-        let difference = twin.outcome.difference_from(&self.outcome);
-        difference.error_of_finer(ratio)
+        self.outcome.error_by(&twin.outcome, ratio)
     }
 }
 

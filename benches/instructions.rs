@@ -63,7 +63,7 @@ fn perform(what: &str, times: &str) -> Result<()> {
     if what == "step" {
         let points = cells.to_string();
         let preset = Scenario::load("li2019-fig3", &[])?;
-        let scenario = preset.with_all(&[
+        let scenario = preset.assigned(&[
             ("numerics.points", points.as_str()),
             ("numerics.method", method),
         ])?;

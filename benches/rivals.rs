@@ -43,7 +43,7 @@ fn main() {
     }
     for method in ["product", "a"] {
         let scenario = Scenario::load("li2019-fig3", &[])
-            .and_then(|scenario| scenario.with("numerics.method", method))
+            .and_then(|scenario| scenario.assigned(&[("numerics.method", method)]))
             .expect("the preset");
         report(&format!("fig3 {method}"), 100, || {
             let mut simulation = Simulation::new(scenario.setup().clone()).expect("a contact");
@@ -66,9 +66,9 @@ fn steps(sizes: &[usize]) {
     let simulation = |cells: &usize| {
         let points = cells.to_string();
         let scenario = Scenario::load("li2019-fig3", &[])
-            .and_then(|scenario| scenario.with("numerics.points", &points))
+            .and_then(|scenario| scenario.assigned(&[("numerics.points", &points)]))
             // So mild that no step is taken in parts: on 100 000 cells they would be.
-            .and_then(|scenario| scenario.with("wear.coefficient", "1.3e-13"))
+            .and_then(|scenario| scenario.assigned(&[("wear.coefficient", "1.3e-13")]))
             .expect("the preset");
         Simulation::new(scenario.setup().clone()).expect("a contact")
     };

@@ -14,7 +14,7 @@ fn fig3(method: &str, cells: usize) -> Simulation {
     let scenario = Scenario::load("li2019-fig3", &[])
         .and_then(|scenario| {
             let points = cells.to_string();
-            scenario.with_all(&[
+            scenario.assigned(&[
                 ("numerics.points", points.as_str()),
                 ("numerics.method", method),
             ])

@@ -1,6 +1,7 @@
 //! `numerics.accuracy` and `--estimate-error` on the command line.
 
 use super::{complain, progress};
+use crate::reading::Errors;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Budget, Resolved};
@@ -41,19 +42,16 @@ pub(super) fn session(
         refinement::resolve(scenario, cycles, Budget::UNLIMITED, &|| true)
     })?;
     let mut session = Session::start(found.scenario)?;
-    session.state(found.statements);
+    session.state(found.errors);
     Ok(session)
 }
 
-/// Returns the estimated error of a finished run as header lines, or the reason why there is none in one line.
-pub(super) fn estimated(
-    session: &Session,
-    go_on: &dyn Fn() -> bool,
-) -> Result<Vec<(String, String)>, String> {
+/// Returns the estimated errors of a finished run, or the reason why there are none in one line.
+pub(super) fn estimated(session: &Session, go_on: &dyn Fn() -> bool) -> Result<Errors, String> {
     let moment = session.simulation().moment();
     let has_worn = moment.wear_volume > moment.initial_volume;
     match refinement::estimate(session, go_on) {
-        Ok(error) => Ok(refinement::statements_of(&error, has_worn)),
+        Ok(error) => Ok(error.stated(has_worn)),
         Err(SessionError::Interrupted) => Err("interrupted: no error was estimated".into()),
         Err(error) => Err(format!("cannot estimate the error: a coarser run {error}")),
     }

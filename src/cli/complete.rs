@@ -8,8 +8,8 @@ use std::path::Path;
 use clap_complete::engine::{CompletionCandidate, PathCompleter, ValueCompleter};
 
 use crate::guide::{TOPICS, Topic};
+use crate::scenario::key::Key;
 use crate::scenario::preset::{self, Preset};
-use crate::scenario::schema::{find, parameters};
 
 /// The variable with which a shell asks for completions.
 pub const VARIABLE: &str = "MDR_TUI_COMPLETE";
@@ -59,12 +59,12 @@ pub fn assignments(typed: &OsStr) -> Vec<CompletionCandidate> {
         return Vec::new();
     };
     let Some((key, value)) = typed.split_once('=') else {
-        let known = parameters().filter(|known| known.section() != "changes");
+        let known = Key::all().filter(|known| known.section() != "changes");
         let begun = known.filter(|known| known.path.starts_with(typed));
         let offered = begun.map(|known| candidate(format!("{}=", known.path), &known.described()));
         return offered.collect();
     };
-    let words = find(key).and_then(|known| known.kind.words());
+    let words = Key::find(key).and_then(|known| known.kind.words());
     let words = words.into_iter().flatten();
     let begun = words.filter(|word| word.starts_with(value));
     let offered = begun.map(|word| CompletionCandidate::new(format!("{key}={word}")));

@@ -14,7 +14,7 @@ use crate::plot::Marker;
 use crate::plot::theme::Look;
 use crate::scenario::Refusal;
 use crate::scenario::bounded_read::{self, Unread};
-use crate::scenario::nearest::nearest;
+use crate::scenario::hint::nearest;
 use crate::scenario::typed;
 use crate::tui::command::{COMMANDS, Command};
 use crate::tui::keys::{Key, parse_script};

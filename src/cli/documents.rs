@@ -12,7 +12,7 @@ use super::args::{Arguments, Manual};
 use super::complete::VARIABLE;
 use crate::export::file::write_whole;
 use crate::scenario::Refusal;
-use crate::scenario::nearest::hint;
+use crate::scenario::hint::hint;
 use crate::tui::manual;
 
 /// Prints a script with which a shell asks this program for completions.

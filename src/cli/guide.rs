@@ -8,7 +8,7 @@ use anyhow::Result;
 use super::args::Guide;
 use crate::guide::{TOPICS, Topic};
 use crate::scenario::Refusal;
-use crate::scenario::nearest::hint;
+use crate::scenario::hint::hint;
 use crate::tui::line::{cells, wrapped};
 
 /// Shows a topic, or the list of topics if none is given.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::args::{CycleAsGiven, HistoryChoice, Run, cycles};
 use crate::export::history::History;
+use crate::reading::Errors;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 
@@ -37,8 +38,8 @@ pub struct RunJob {
     /// Whether the error of the result is estimated at the end.
     #[serde(default)]
     pub estimates: bool,
-    /// Statements for the file headers, such as the estimated error.
-    pub statements: Vec<(String, String)>,
+    /// The errors that its files state.
+    pub errors: Errors,
     /// The directory of the run's files, if the checkpoint is stored elsewhere.
     pub home: Option<PathBuf>,
 }

@@ -15,7 +15,7 @@ use clap::{CommandFactory, Parser};
 use clap_complete::CompleteEnv;
 
 use crate::export::file::WriteError;
-use crate::scenario::nearest::nearest;
+use crate::scenario::hint::nearest;
 use crate::scenario::session::SessionError;
 use crate::scenario::{Refusal, preset, printable};
 use crate::tui::NoTerminal;
@@ -192,12 +192,12 @@ fn mistyped_command(word: &str) -> Option<Refusal> {
     let refusal = Refusal::new(printable(word), "no such command or preset");
     Some(refusal.or(format_args!("did you mean mdr-tui {meant}?")))
 }
+
 /// Options that older versions had, and what to use instead.
 const GONE: [(&str, &str); 1] = [(
     "--format",
     "--print prints text; mdr-tui figure draws charts as SVG, PNG or PDF",
 )];
-
 
 /// Prints help and version on stdout; reports a mistake in one line.
 fn refuse(error: &clap::Error) -> ExitCode {
@@ -211,6 +211,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
     if let Some(refusal) = mistyped_command(&first) {
         complain(&refusal.to_string());
         return ExitCode::from(MISUSED);
+    }
     let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
     let gone = GONE
         .iter()
@@ -220,7 +221,6 @@ fn refuse(error: &clap::Error) -> ExitCode {
             "{option}: there is no such option any more: {instead}"
         ));
         return ExitCode::from(MISUSED);
-    }
     }
     let text = error.render().to_string();
     let is_end =

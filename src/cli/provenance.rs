@@ -11,7 +11,7 @@ use std::time::UNIX_EPOCH;
 use crate::export::file::shell_word;
 use crate::export::header;
 use crate::scenario::bounded_read;
-use crate::scenario::values::literal;
+use crate::scenario::value::literal;
 
 /// The name of the file.
 pub const FILE: &str = "provenance.toml";

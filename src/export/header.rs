@@ -83,17 +83,16 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     if let Some(note) = &session.loaded().run().note {
         line("note", note);
     }
-    for (key, value) in session.statements() {
-        line(key, value);
+    for (key, value) in session.errors().entries() {
+        line(key, &value);
     }
-    let is_measured = |(key, _): &(String, String)| key.starts_with(UNMEASURED.0);
     let moves = setup.drive.tangential().is_some();
-    if moves && !session.statements().iter().any(is_measured) {
+    if moves && !session.errors().are_measured() {
         line(UNMEASURED.0, UNMEASURED.1);
     }
     for change in session.changes() {
         let place = format!("at cycle {}", number(change.at_cycle));
-        line(&place, &change.set);
+        line(&place, &change.to_string());
     }
     entries
 }

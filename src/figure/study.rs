@@ -9,8 +9,9 @@ use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Map, Mark, Point, Scale};
 use crate::reading::column::unit_of;
 use crate::reading::{Column, Regime};
-use crate::scenario::nearest::nearest;
-use crate::scenario::{printable, schema};
+use crate::scenario::hint::nearest;
+use crate::scenario::key::Key;
+use crate::scenario::printable;
 use crate::studies::sweep::slice::{Contour, Slice};
 use crate::studies::sweep::{self, Design};
 
@@ -123,7 +124,7 @@ fn places(axis: &sweep::StudyAxis) -> Vec<f64> {
 /// Returns an axis of a study with its title and unit.
 pub fn paper_axis(slice: &Slice, axis: &sweep::StudyAxis) -> Axis {
     let unit = slice.study.unit(axis);
-    let label = schema::find(&axis.key).and_then(|known| known.label);
+    let label = Key::find(&axis.key).and_then(|known| known.label);
     let mut label = match (axis.key.as_str(), unit) {
         ("motion.normal.mean", "N") => "mean normal force F_z".to_owned(),
         ("motion.normal.mean", _) => "mean depth d".to_owned(),

@@ -182,7 +182,7 @@ pub fn to_ascii(text: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::schema::parameters;
+    use crate::scenario::key::Key;
     use crate::scenario::units::quantity;
 
     #[test]
@@ -276,8 +276,8 @@ mod tests {
             for ascii in [true, false] {
                 let (number, of) = reading(value, unit, ascii);
                 assert!(!ascii || of.is_ascii());
-                let known = parameters().find(|known| known.unit == unit);
-                let read = quantity(&format!("{number} {of}"), known.expect("a key"), false);
+                let known = Key::all().find(|known| known.unit == unit);
+                let read = quantity(&format!("{number} {of}"), &known.expect("a key"), false);
                 if let Some(Ok(read)) = read {
                     assert!(
                         (read - value).abs() <= 1e-6 * value.abs(),

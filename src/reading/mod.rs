@@ -3,6 +3,7 @@
 mod checks;
 pub mod column;
 mod cycle_figures;
+mod errors;
 pub mod fatigue;
 mod limits;
 mod log;
@@ -15,6 +16,7 @@ mod table;
 pub use checks::{Check, Subject, verdict};
 pub use column::Column;
 pub use cycle_figures::{CycleFigures, Regime};
+pub use errors::Errors;
 pub use log::{Log, Passed};
 pub use observation::{Curves, Moment, Observation, Zone};
 pub use quantity::Quantity;

@@ -5,62 +5,81 @@
 
 use toml::{Table, Value};
 
-use super::error::{Origin, Refusal};
+use super::error::Refusal;
 use super::escape::echo;
-use super::values::{self, show};
+use super::fault::Faults;
+use super::value::{number, show};
 
 /// The tables whose keys a block may change.
 const CHANGEABLE: [&str; 3] = ["motion", "friction", "wear"];
 
-/// Returns the table of the first block, `[[changes]]` for the others, and the total length in cycles.
+/// What blocks stand for.
+#[derive(Default)]
+pub(super) struct Blocks {
+    /// The table of the first block.
+    pub first: Table,
+    /// Changes at the beginnings of the others: cycle, path, value and place.
+    pub changes: Vec<(f64, String, Value, String)>,
+    /// Their total length.
+    pub cycles: f64,
+}
+
+/// Reads blocks.
+///
+/// # Errors
+///
+/// What is no block, `[[changes]]`, and an assignment to a key that a block sets.
 pub(super) fn expand(
     blocks: &Value,
     changes: Option<&Value>,
-    origin: &Origin,
-) -> Result<(Table, Value, f64), Refusal> {
+    faults: &Faults,
+) -> Result<Blocks, Refusal> {
+    let refuse =
+        |path: &str, value: &str, rule: &str| Err(Refusal::new(faults.place(path, value), rule));
     let rule = "must be an array of tables, [[blocks]] with cycles and the keys that change";
     let list = blocks.as_array().filter(|list| !list.is_empty());
     let list = list.map(|list| list.iter().map(Value::as_table).collect::<Option<Vec<_>>>());
     let Some(list) = list.flatten() else {
-        return Err(origin.refuse("blocks", &show(blocks), rule));
+        return refuse("blocks", &show(blocks), rule);
     };
     if let Some(changes) = changes {
         let rule = "conflicts with [[blocks]]; give one of them";
-        return Err(origin.refuse("changes", &show(changes), rule));
+        return refuse("changes", &show(changes), rule);
     }
-    let (mut first, mut changes, mut cycle) = (Table::new(), Vec::new(), 0.0);
+    let mut expanded = Blocks::default();
     for (i, block) in list.into_iter().enumerate() {
         let at = format!("blocks[{i}]");
         let given = block.get("cycles");
-        let cycles = given.and_then(values::number);
-        let Some(cycles) = cycles.filter(|cycles| *cycles > 0.0) else {
+        let Some(cycles) = given.and_then(number).filter(|cycles| *cycles > 0.0) else {
             let value = given.map_or_else(|| "nothing".into(), show);
             let rule = "must be a number of cycles greater than 0";
-            return Err(origin.refuse(&format!("{at}.cycles"), &value, rule));
+            return refuse(&format!("{at}.cycles"), &value, rule);
         };
         for (section, value) in block.iter().filter(|(key, _)| *key != "cycles") {
             if !CHANGEABLE.contains(&section.as_str()) {
                 let rule = format!("a block takes cycles and keys of {}", CHANGEABLE.join(", "));
-                let at = format!("{at}.{}", echo(section));
-                return Err(origin.refuse(&at, &show(value), rule));
-            }
-            if i == 0 {
-                first.insert(section.clone(), value.clone());
-                continue;
+                return refuse(&format!("{at}.{}", echo(section)), &show(value), &rule);
             }
             let mut keys = Vec::new();
             flatten(section, value, &mut keys);
-            changes.extend(keys.into_iter().map(|(path, value)| {
-                let set = Value::String(format!("{path} = {}", values::literal(&value)));
-                Value::Table(Table::from_iter([
-                    ("at_cycle".into(), Value::Float(cycle)),
-                    ("set".into(), set),
-                ]))
-            }));
+            if let Some(set) = keys.iter().find_map(|(path, _)| faults.assigned(path)) {
+                let rule = format!("{at} sets this key; change it there");
+                return Err(Refusal::new(set, rule));
+            }
+            if i == 0 {
+                expanded.first.insert(section.clone(), value.clone());
+                continue;
+            }
+            expanded
+                .changes
+                .extend(keys.into_iter().map(|(path, value)| {
+                    let place = faults.place(&format!("{at}.{}", echo(&path)), &show(&value));
+                    (expanded.cycles, path, value, place)
+                }));
         }
-        cycle += cycles;
+        expanded.cycles += cycles;
     }
-    Ok((first, Value::Array(changes), cycle))
+    Ok(expanded)
 }
 
 /// Collects the values of a table with their dotted paths.
@@ -104,10 +123,10 @@ mod tests {
             Some("3e-7")
         );
         assert_eq!(scenario.run().cycles, Some(9.5));
-        let changes: Vec<(f64, &str)> = scenario
+        let changes: Vec<(f64, String)> = scenario
             .changes()
             .iter()
-            .map(|change| (change.at_cycle, change.set.as_str()))
+            .map(|change| (change.at_cycle, change.to_string()))
             .collect();
         assert_eq!(
             changes,
@@ -116,6 +135,7 @@ mod tests {
                 (3.0, "motion.tangential.amplitude = 1e-7"),
                 (7.5, "friction.coefficient = 0.2"),
             ]
+            .map(|(cycle, set)| (cycle, set.to_owned()))
         );
         let again = Scenario::from_toml(&scenario.to_toml(), "again", &[]).expect("a scenario");
         assert!(again == scenario);

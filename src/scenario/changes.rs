@@ -1,28 +1,11 @@
-//! Changes made during a run: `[[changes]]`, and the resulting scenarios.
+//! The scenarios that changes during a run lead to.
 
-use super::change::Change;
-use super::draft::{self, Draft};
-use super::error::Origin;
+use super::change::{Change, MOST_CHANGES, Planned};
 use super::escape::echo;
-use super::spec::{Control, Spec};
-use super::{Refusal, Scenario, schema, units, values};
-use std::path::Path;
-
-impl Change {
-    /// Returns the change with another value of the key: what it sets, edited.
-    #[must_use]
-    pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Self {
-        let mut edited = self.clone();
-        let mut draft = Draft::new(Spec::default(), "");
-        if draft.assign(self.key(), self.value(), "").is_ok()
-            && let Ok(mut read) = draft.finish(Path::new(""))
-        {
-            edit(&mut read.spec);
-            read.spec.write_changes(std::slice::from_mut(&mut edited));
-        }
-        edited
-    }
-}
+use super::key::{Key, join};
+use super::spec::Control;
+use super::value::Value;
+use super::{Refusal, Scenario, units};
 
 /// Groups changes, in their order, by cycle.
 pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]> {
@@ -32,81 +15,107 @@ pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]
 impl Scenario {
     /// Returns the scenario after `changes` of one cycle, which are only valid together; it has no changes itself.
     /// Applied to one cycle after another, it yields the stages of a run.
+    ///
+    /// # Errors
+    ///
+    /// Values that are refused.
     pub fn after(&self, changes: &[Change]) -> Result<Self, Refusal> {
-        self.changed(changes, |at| echo(&changes[at].set))
+        let places: Vec<String> = changes.iter().map(|of| echo(&of.to_string())).collect();
+        self.changed(changes, &places)
     }
 
-    /// Walks through the stages of a run, to find a change that cannot be made before the run starts.
-    pub(super) fn check_changes(&self, changes: &[Change], from: &Origin) -> Result<(), Refusal> {
-        for (k, pair) in changes.windows(2).enumerate() {
+    /// Reads changes of one cycle, each in the unit that the motion then has.
+    pub(super) fn read_changes(&self, planned: &[Planned]) -> Result<Vec<Change>, Refusal> {
+        let is_force = |key: Key| {
+            let control = join(key.section(), "control");
+            let given = planned.iter().rev().find(|of| of.key.path == control);
+            given.map_or_else(
+                || self.prescribes_force(key.path),
+                |of| of.raw.as_str() == Some(Control::Force.into()),
+            )
+        };
+        let read = planned.iter().map(|of| of.change(is_force(of.key)));
+        read.collect()
+    }
+
+    /// Walks through the stages of a run, those `made` so far and those `planned`, to find a change that cannot be made
+    /// before the run starts.
+    pub(super) fn plan_changes(
+        &self,
+        made: Vec<Change>,
+        planned: Vec<Planned>,
+    ) -> Result<Vec<Change>, Refusal> {
+        let made = made.into_iter().enumerate();
+        let made = made.map(|(at, change)| Planned {
+            place: format!("{}: changes[{at}].set = \"{change}\"", self.origin),
+            at_cycle: change.at_cycle,
+            key: change.key,
+            raw: (&change.value).into(),
+        });
+        let planned: Vec<Planned> = made.chain(planned).collect();
+        let refuse = |path: &str, value: f64, rule: String| {
+            Err(Refusal::of_value(
+                format_args!("{}: {path}", self.origin),
+                value,
+                rule,
+            ))
+        };
+        if planned.len() > MOST_CHANGES {
+            let rule = format!("must have at most {MOST_CHANGES} entries");
+            return refuse("changes", planned.len() as f64, rule);
+        }
+        for (k, pair) in planned.windows(2).enumerate() {
             let [before, cycle] = [&pair[0], &pair[1]].map(|change| change.at_cycle);
             if cycle < before {
                 let at = format!("changes[{}].at_cycle", k + 1);
                 let rule = format!("must be {before} or greater: changes must be in order");
-                return Err(from.refuse(&at, &cycle.to_string(), rule));
+                return refuse(&at, cycle, rule);
             }
         }
-        let (mut stage, mut first) = (self.clone(), 0);
-        for together in at_one_cycle(changes) {
-            stage = stage.changed(together, |at| {
-                let path = format!("changes[{}].set", first + at);
-                from.place(&path, &format!("\"{}\"", echo(&together[at].set)))
-            })?;
-            first += together.len();
+        let (mut stage, mut changes) = (self.clone(), Vec::new());
+        for together in planned.chunk_by(|a, b| a.at_cycle == b.at_cycle) {
+            let read = stage.read_changes(together)?;
+            let places: Vec<String> = together.iter().map(|of| of.place.clone()).collect();
+            stage = stage.changed(&read, &places)?;
+            changes.extend(read);
         }
-        Ok(())
+        Ok(changes)
     }
 
-    /// Returns the scenario after `changes` of one cycle; messages call each change by its `place`.
-    fn changed(
-        &self,
-        changes: &[Change],
-        place: impl Fn(usize) -> String,
-    ) -> Result<Self, Refusal> {
-        let mut spec = self.spec.clone();
-        spec.changes.clear();
-        let mut draft = Draft::new(spec, &self.origin);
-        for (at, change) in changes.iter().enumerate() {
-            let written = place(at);
-            let (key, value) = draft::split(&change.set, &written)?;
-            if let Some(because) = schema::find(key).and_then(|known| known.fixed) {
-                let rule = format!("{key} cannot change during a run: {because}");
-                return Err(Refusal::new(written, rule));
-            }
-            draft.assign(key, value, &written)?;
+    /// Returns the scenario after `changes` of one cycle; messages call each change by its place.
+    pub(super) fn changed(&self, changes: &[Change], places: &[String]) -> Result<Self, Refusal> {
+        self.refuse_values_in_other_units(changes, places)?;
+        let mut draft = self.draft();
+        draft.spec.changes.clear();
+        for (change, place) in changes.iter().zip(places) {
+            draft.put(change.key, (&change.value).into(), place);
         }
-        let changed = Self::build(draft, &self.origin, &self.directory);
-        let spec = changed.as_ref().map(|changed| &changed.spec);
-        self.refuse_values_in_other_units(spec.ok(), changes, place)?;
-        changed
+        Self::build(draft)
     }
 
     /// Refuses a change of control without new values: the motion then has another unit, and metres given for the old
     /// control must not be read as newtons.
     fn refuse_values_in_other_units(
         &self,
-        after: Option<&Spec>,
         changes: &[Change],
-        place: impl Fn(usize) -> String,
+        places: &[String],
     ) -> Result<(), Refusal> {
-        let changes_at = |path: &str| changes.iter().position(|change| change.key() == path);
+        let last = |path: &str| changes.iter().rposition(|change| change.key.path == path);
         for (section, before) in self.spec.motion.directions() {
-            let key = values::join(section, "control");
-            let given = changes.iter().rev().find(|change| change.key() == key);
-            let control = after
-                .and_then(|after| after.motion.directions().find(|of| of.0 == section))
-                .and_then(|of| of.1.control)
-                .or_else(|| given?.value().trim_matches('"').parse().ok());
-            let (Some(at), Some(control)) = (changes_at(&key), control) else {
+            let Some(at) = last(&join(section, "control")) else {
                 continue;
             };
+            let control = &changes[at].value;
+            let is_same =
+                before.control.map(|word| Value::Word(word.into())) == Some(control.clone());
             for (key, value) in [("mean", before.mean), ("amplitude", before.amplitude)] {
-                let path = values::join(section, key);
-                let is_stale = before.control != Some(control) && changes_at(&path).is_none();
+                let path = join(section, key);
+                let is_stale = !is_same && last(&path).is_none();
                 if is_stale && value.is_some_and(|value| value != 0.0) {
-                    let unit = units::unit_of(schema::known(&path), control == Control::Force);
+                    let is_force = *control == Value::Word(Control::Force.into());
+                    let unit = units::unit_of(&Key::known(&path), is_force);
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
-                    return Err(Refusal::new(place(at), rule));
+                    return Err(Refusal::new(&places[at], rule));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! A checkpoint: a session saved in one file and restored bit for bit.
 //!
 //! ```text
-//! mdr-tui checkpoint 7
+//! mdr-tui checkpoint 8
 //! 20517 bytes, CRC-32 9ae0daaf
 //! run 5f0c2a91, written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>
@@ -25,11 +25,11 @@ use super::changes::at_one_cycle;
 use super::session::{Session, State, Unchanged};
 use super::{Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
-use crate::reading::Log;
+use crate::reading::{Errors, Log};
 use crate::simulation::{Saved, Simulation};
 
 /// The format version written, and the only one read.
-pub const VERSION: u32 = 7;
+pub const VERSION: u32 = 8;
 
 /// Start of the first line.
 const MAGIC: &str = "mdr-tui checkpoint ";
@@ -282,7 +282,7 @@ fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
         changes: body.changes.into_owned(),
         pending: body.pending,
         unchanged,
-        statements: Vec::new(),
+        errors: Errors::default(),
         goals: body.goals.into_owned(),
     };
     Ok(Checkpoint {

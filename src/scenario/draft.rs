@@ -1,57 +1,46 @@
 //! A scenario being put together: what was given, as it was given, on top of a [`Spec`].
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use toml::{Table, Value as Raw};
 
+use super::blocks;
+use super::change::{Planned, parsed};
 use super::columns::Columns;
 use super::embed::named_file;
-use super::error::{Faults, Origin, Refusal};
+use super::error::Refusal;
 use super::escape::echo;
-use super::schema::{self, Kind, Parameter};
-use super::spec::{Control, NORMAL, Spec, TANGENTIAL};
-use super::value::Value;
-use super::values::{self, show};
-use super::{blocks, hints};
-
-/// One value as given.
-struct Given {
-    key: &'static Parameter,
-    raw: Raw,
-}
+use super::fault::Faults;
+use super::hint::{meant, unknown_key};
+use super::key::{Embedded, Key, SCHEMA, is_section, join};
+use super::spec::{Control, Passage, Spec};
+use super::value::{Value, show};
 
 /// A scenario being put together.
 pub(super) struct Draft {
-    spec: Spec,
-    given: Vec<Given>,
+    pub spec: Spec,
+    pub faults: Faults,
+    /// The name of the text.
+    pub origin: String,
+    /// Base directory of the files that are named.
+    pub directory: PathBuf,
+    /// Values as given, by the paths of their keys.
+    given: BTreeMap<&'static str, Raw>,
     /// `[[changes]]` and `[[blocks]]`, as given.
     lists: Table,
-    pub origin: Origin,
-    faults: Faults,
-}
-
-/// What a draft has become.
-pub(super) struct Read {
-    pub spec: Spec,
-    pub origin: Origin,
-    pub faults: Faults,
-    /// `[[changes]]`: the cycle and the text of each.
-    pub changes: Vec<(f64, String)>,
-    /// Rows left out of files.
-    pub notes: Vec<String>,
 }
 
 impl Draft {
     /// Begins on top of a spec, whose values count as given.
-    pub fn new(spec: Spec, origin: &str) -> Self {
-        let (origin, faults) = (Origin::new(origin), Faults::default());
-        let (given, lists) = (Vec::new(), Table::new());
+    pub fn on(spec: Spec, origin: &str, directory: &Path) -> Self {
         Self {
             spec,
-            given,
-            lists,
-            origin,
-            faults,
+            faults: Faults::new(origin),
+            origin: origin.to_owned(),
+            directory: directory.to_owned(),
+            given: BTreeMap::new(),
+            lists: Table::new(),
         }
     }
 
@@ -67,201 +56,182 @@ impl Draft {
     /// Adds the values of the table at `path`, called `shown` in messages.
     fn walk(&mut self, table: Table, path: &str, shown: &str) {
         for (name, raw) in table {
-            let path = values::join(path, &name);
-            let shown = values::join(shown, &echo(&name));
-            if let Some(key) = schema::find(&path) {
-                self.given.retain(|given| given.key.path != key.path);
-                self.given.push(Given { key, raw });
-            } else if !schema::is_section(&path) {
+            let (path, shown) = (join(path, &name), join(shown, &echo(&name)));
+            if let Some(key) = Key::find(&path) {
+                self.given.insert(key.path, raw);
+            } else if !is_section(&path) {
                 self.unknown(&path, &shown);
             } else if let Raw::Table(inner) = raw {
                 self.spec.open(&path);
                 self.walk(inner, &path, &shown);
             } else {
                 let rule = format!("must be a table, [{path}]");
-                self.faults
-                    .note(&shown, || self.origin.refuse(&shown, &show(&raw), rule));
+                self.faults.refuse_value(&shown, &show(&raw), rule);
             }
         }
     }
 
+    /// Notes an unknown key. The key that was meant does not count as missing as well.
     fn unknown(&mut self, path: &str, shown: &str) {
-        // The key that was meant does not count as missing as well.
-        let meant = if self.faults.is_full() {
-            Vec::new()
-        } else {
-            hints::meant(path)
-        };
-        self.faults
-            .note(shown, || unknown(self.origin.name(), path, shown));
-        meant.iter().for_each(|(meant, _)| self.faults.blame(meant));
+        let is_reported = !self.faults.is_full();
+        self.faults.note(shown, |of| {
+            Refusal::new(&of.origin, unknown_key(path, shown))
+        });
+        let meant = is_reported.then(|| meant(path)).into_iter().flatten();
+        meant.for_each(|(meant, _)| self.faults.cover(meant));
     }
 
-    /// Adds an assignment, `written` as the user wrote it; it takes the place of what it excludes.
-    pub fn assign(&mut self, key: &str, value: &str, written: &str) -> Result<(), Refusal> {
-        let refuse = |rule: String| Refusal::new(written, rule);
-        if key == "changes" || key.starts_with("changes.") {
-            return Err(refuse("changes are recorded during a run, not set".into()));
-        }
-        match schema::find(key) {
-            Some(key) => self.put(key, parsed(key, value), written),
-            None if schema::is_section(key) => {
-                let known = hints::known_in(key);
-                return Err(refuse(format!("{key} is a table; {known}")));
-            }
-            None => return Err(unknown(written, key, key)),
-        }
+    /// Adds an assignment, `written` as the user wrote it; `text` is TOML or a bare word.
+    pub fn assign(&mut self, key: &str, text: &str, written: &str) -> Result<(), Refusal> {
+        let key = Key::named(key, written)?;
+        self.put(key, parsed(key, text), written);
         Ok(())
     }
 
-    /// Adds a value for a known key.
-    pub fn put(&mut self, key: &'static Parameter, raw: Raw, written: &str) {
+    /// Adds a value, in place of what it excludes.
+    pub fn put(&mut self, key: Key, raw: Raw, written: &str) {
         match key.path {
             "indenter.shape" => self.drop_keys_of_other_shapes(&raw),
-            "numerics.accuracy" if !self.origin.assigns("numerics.integrator") => {
+            "numerics.accuracy" if self.faults.assigned("numerics.integrator").is_none() => {
                 // An accuracy chooses how cycles are gone through, unless that is given with it.
                 let numerics = &mut self.spec.numerics;
-                let direct = Some(super::spec::Passage::Direct);
+                let direct = Some(Passage::Direct);
                 numerics.integrator = numerics
                     .integrator
                     .filter(|_| numerics.accuracy.is_some() || numerics.integrator != direct);
             }
             _ => {}
         }
-        for path in schema::replaced_by(key.path) {
-            self.remove(path);
+        key.displaces().for_each(|other| self.remove(other));
+        self.faults.assign(key.path, written);
+        self.given.insert(key.path, raw);
+    }
+
+    fn remove(&mut self, key: Key) {
+        self.given.remove(key.path);
+        self.spec.clear(key);
+    }
+
+    /// Returns the word of a key given here or before.
+    fn word(&self, path: &str) -> Option<&str> {
+        match self.given.get(path) {
+            Some(raw) => raw.as_str(),
+            None => match self.spec.get(Key::known(path))? {
+                Value::Word(word) => Some(word),
+                _ => None,
+            },
         }
-        self.origin.assign(key.path, written);
-        self.given.retain(|given| given.key.path != key.path);
-        self.given.push(Given { key, raw });
     }
 
-    fn remove(&mut self, path: &str) {
-        self.given.retain(|given| given.key.path != path);
-        schema::find(path)
-            .into_iter()
-            .for_each(|key| self.spec.clear(key));
-    }
-
-    /// The text of a key given here or before.
-    fn word(&self, path: &str) -> Option<String> {
-        let given = self.given.iter().find(|given| given.key.path == path);
-        let before = || match self.spec.get(schema::known(path))? {
-            Value::Word(word) => Some(word.to_owned()),
-            _ => None,
-        };
-        given.map_or_else(before, |given| given.raw.as_str().map(str::to_owned))
+    /// Whether the motion of a key prescribes a force.
+    pub fn is_force(&self, key: Key) -> bool {
+        let control = join(key.section(), "control");
+        let is_motion = Key::find(&control).is_some();
+        is_motion && self.word(&control) == Some(Control::Force.into())
     }
 
     /// Drops the keys of the shape before, which would be refused or misread. Keys of both shapes stay if they are
     /// assigned together with the shape.
     fn drop_keys_of_other_shapes(&mut self, shape: &Raw) {
-        let known = schema::known("indenter.shape").kind;
-        let Some(shape) = shape.as_str().filter(|_| known.fits(shape)) else {
+        let words = Key::known("indenter.shape")
+            .kind
+            .words()
+            .unwrap_or_default();
+        let Some(shape) = shape.as_str().filter(|shape| words.contains(shape)) else {
             return;
         };
         let is_punch = |shape: &str| shape == "flat-punch";
-        let was_punch = self
-            .word("indenter.shape")
-            .is_some_and(|word| is_punch(&word));
-        for key in schema::parameters().filter(|key| !key.belongs_to(shape)) {
-            self.remove(key.path);
+        let was_punch = self.word("indenter.shape").is_some_and(is_punch);
+        for key in Key::all().filter(|key| !key.belongs_to(shape)) {
+            self.remove(key);
         }
-        for (key, is_stale) in [
+        for (path, is_stale) in [
             ("indenter.radius", was_punch != is_punch(shape)),
             ("numerics.domain_radius", is_punch(shape)),
         ] {
-            if is_stale && !self.origin.assigns(key) {
-                self.remove(key);
+            if is_stale && self.faults.assigned(path).is_none() {
+                self.remove(Key::known(path));
             }
         }
     }
 
-    /// Reads all that was given, and finds what is wrong in it.
-    pub fn finish(mut self, directory: &Path) -> Result<Read, Refusal> {
-        let blocks = self.lists.remove("blocks");
-        if let Some(blocks) = blocks {
-            let has_cycles = self
-                .given
-                .iter()
-                .any(|given| given.key.path == "run.cycles")
-                || self.spec.run.cycles.is_some();
-            let (first, changes, cycles) =
-                blocks::expand(&blocks, self.lists.get("changes"), &self.origin)?;
-            self.lists.insert("changes".into(), changes);
-            self.walk(first, "", "");
-            if !has_cycles {
-                let (key, raw) = (schema::known("run.cycles"), Raw::Float(cycles));
-                self.given.push(Given { key, raw });
+    /// Reads all that was given, and notes what is wrong in it. Returns the changes, and what was left out of files, a
+    /// line each.
+    ///
+    /// # Errors
+    ///
+    /// What cannot be read at all: `[[blocks]]`, or a file.
+    pub fn finish(&mut self) -> Result<(Vec<Planned>, Vec<String>), Refusal> {
+        let mut changes = self.expand_blocks()?;
+        let notes = self.read_files()?;
+        changes.extend(self.read_changes());
+        let mut keys: Vec<Key> = Key::all().collect();
+        keys.sort_by_key(|key| key.path);
+        for key in keys {
+            if let Some(raw) = self.given.get(key.path).cloned() {
+                self.read_value(key, raw);
+            } else if let Some(Err(rule)) = self.spec.get(key).map(|value| value.check(key)) {
+                self.refuse(key, rule);
             }
         }
-        let notes = self.read_files(directory)?;
-        self.given.sort_by_key(|given| given.key.path);
-        let force = [NORMAL, TANGENTIAL].map(|section| {
-            let word = self.word(&values::join(section, "control"));
-            word.as_deref() == Some(Control::Force.into())
-        });
-        let changes = self.read_changes();
-        for Given { key, mut raw } in std::mem::take(&mut self.given) {
-            let is_force = force[usize::from(key.section() == TANGENTIAL)];
-            // A wrong value says, too, that its table was meant.
-            self.spec.open(key.section());
-            match Value::read(&mut raw, key, is_force) {
-                Ok(value) => self.spec.put(key, value),
-                Err(rule) => {
-                    // A value that is wrong counts as given, not as missing.
-                    self.spec.clear(key);
-                    self.faults
-                        .note(key.path, || self.origin.refuse(key.path, &show(&raw), rule));
-                }
-            }
-            self.origin.show(key.path, raw);
+        Ok((changes, notes))
+    }
+
+    /// Refuses the value of a key, which counts as given, not as missing; its table was meant, too.
+    fn refuse(&mut self, key: Key, rule: String) {
+        self.faults.refuse::<()>(&self.spec, key.path, rule);
+        self.spec.put(key, None);
+    }
+
+    /// Reads the value of a key.
+    fn read_value(&mut self, key: Key, mut raw: Raw) {
+        let read = Value::read(&mut raw, key, self.is_force(key));
+        self.faults.give(key, raw);
+        match read {
+            Ok(value) => self.spec.put(key, Some(value)),
+            Err(rule) => self.refuse(key, rule),
         }
-        for key in schema::parameters() {
-            if let Some(Err(rule)) = self.spec.get(key).map(|value| value.check(key)) {
-                let value = self
-                    .spec
-                    .get(key)
-                    .map(|value| value.literal())
-                    .unwrap_or_default();
-                self.faults.note(key.path, || {
-                    self.origin.refuse(key.path, &echo(&value), rule)
-                });
+    }
+
+    /// Puts the first of `[[blocks]]` in its place, and returns the changes of the others.
+    fn expand_blocks(&mut self) -> Result<Vec<Planned>, Refusal> {
+        let Some(raw) = self.lists.remove("blocks") else {
+            return Ok(Vec::new());
+        };
+        let blocks = blocks::expand(&raw, self.lists.get("changes"), &self.faults)?;
+        self.walk(blocks.first, "", "");
+        let (key, cycles) = (Key::known("run.cycles"), blocks.cycles);
+        if self.spec.get(key).is_none() {
+            self.given.entry(key.path).or_insert(cycles.into());
+        }
+        let mut changes = Vec::new();
+        for (at_cycle, path, raw, place) in blocks.changes {
+            match Planned::new(at_cycle, &path, |_| raw, place.clone()) {
+                Ok(planned) => changes.push(planned),
+                Err(error) => self.faults.note(&place, |_| error),
             }
         }
-        let Self {
-            spec,
-            origin,
-            faults,
-            ..
-        } = self;
-        Ok(Read {
-            spec,
-            origin,
-            faults,
-            changes,
-            notes,
-        })
+        Ok(changes)
     }
 
     /// Puts the columns of the files that are named in their place.
-    fn read_files(&mut self, directory: &Path) -> Result<Vec<String>, Refusal> {
+    fn read_files(&mut self) -> Result<Vec<String>, Refusal> {
         let mut notes = Vec::new();
-        for schema::Embedded { key, lists } in &schema::SCHEMA.files {
-            let is_named = |given: &Given| {
-                given.key.path == *key && matches!(given.raw, Raw::String(_) | Raw::Table(_))
-            };
-            let Some(at) = self.given.iter().position(is_named) else {
+        for Embedded { key, lists } in &SCHEMA.files {
+            let is_name = |raw: &Raw| raw.is_str() || raw.is_table();
+            if !self.given.get(key).is_some_and(is_name) {
+                continue;
+            }
+            let Some(value) = self.given.remove(key) else {
                 continue;
             };
-            let value = self.given.swap_remove(at).raw;
-            let place = self.origin.place(key, &show(&value));
+            let place = self.faults.place(key, &show(&value));
             let (file, naming) = named_file(key, &value).ok_or_else(|| {
                 let example = "{ file = \"tip.csv\", fields = \"r=2,f=3\", units = \"um,nm\" }";
                 let rule = format!("must be the path of a file, or as in {example}");
-                self.origin.refuse(key, &show(&value), rule)
+                Refusal::new(&place, rule)
             })?;
-            let columns = Columns::read_as(&directory.join(file), &naming)?;
+            let columns = Columns::read_as(&self.directory.join(file), &naming)?;
             let found = lists.each_ref().map(|lists| {
                 let there = lists.iter().find(|(_, name)| columns.has(name));
                 there.unwrap_or(&lists[0])
@@ -270,104 +240,60 @@ impl Draft {
             let left_out = columns.left_out(&rows);
             notes.extend(left_out.map(|note| format!("{}: {note}", columns.path)));
             for ((path, _), numbers) in found.into_iter().zip(numbers) {
-                self.remove(path);
-                self.origin.assign(path, &place);
-                self.given.push(Given {
-                    key: schema::known(path),
-                    raw: numbers.into(),
-                });
+                self.faults.assign(path, &place);
+                self.given.insert(path, numbers.into());
             }
         }
         Ok(notes)
     }
 
     /// Reads `[[changes]]`: an array of tables, each with both of its keys.
-    fn read_changes(&mut self) -> Vec<(f64, String)> {
-        let Some(raw) = self.lists.remove("changes") else {
-            return Vec::new();
-        };
-        let refuse = |origin: &Origin, shown: &str, raw: &Raw| {
-            let rule = "must be an array of tables, [[changes]] with at_cycle and set";
-            origin.refuse(shown, &show(raw), rule)
-        };
+    fn read_changes(&mut self) -> Vec<Planned> {
+        let raw = self
+            .lists
+            .remove("changes")
+            .unwrap_or(Raw::Array(Vec::new()));
+        let rule = "must be an array of tables, [[changes]] with at_cycle and set";
         let Raw::Array(list) = raw else {
-            self.faults
-                .note("changes", || refuse(&self.origin, "changes", &raw));
+            self.faults.refuse_value("changes", &show(&raw), rule);
             return Vec::new();
         };
         let mut changes = Vec::new();
         for (i, entry) in list.into_iter().enumerate() {
             let at = format!("changes[{i}]");
-            let Raw::Table(mut table) = entry else {
-                self.faults.note(&at, || refuse(&self.origin, &at, &entry));
-                continue;
-            };
-            let found = ["at_cycle", "set"].map(|name| {
-                let key = schema::known(&values::join("changes", name));
-                let (shown, raw) = (values::join(&at, name), table.remove(name));
-                Some((key, shown, raw))
-            });
-            for name in table.keys() {
-                self.unknown(
-                    &values::join("changes", name),
-                    &values::join(&at, &echo(name)),
-                );
-            }
-            let mut of = |found: Option<(&'static Parameter, String, Option<Raw>)>| {
-                let (key, shown, raw) = found?;
-                let Some(mut raw) = raw else {
-                    if !self.faults.covers(key.path) {
-                        self.faults
-                            .note(&shown, || self.origin.missing(&shown, key.described()));
-                    }
-                    return None;
-                };
-                let value = Value::read(&mut raw, key, false);
-                value
-                    .map_err(|rule| {
-                        self.faults
-                            .note(&shown, || self.origin.refuse(&shown, &show(&raw), rule))
-                    })
-                    .ok()
-            };
-            let [cycle, set] = found.map(&mut of);
-            if let (Some(Value::Number(cycle)), Some(Value::Text(set))) = (cycle, set) {
-                changes.push((cycle, set));
+            match entry {
+                Raw::Table(table) => changes.extend(self.read_change(&at, table)),
+                other => self.faults.refuse_value(&at, &show(&other), rule),
             }
         }
         changes
     }
-}
 
-/// Parses the value of an assignment as TOML, or takes the bare text.
-fn parsed(key: &Parameter, text: &str) -> Raw {
-    if key.kind == Kind::Number && values::is_large_whole(text) {
-        let number = text.parse();
-        return number.map_or_else(|_| Raw::String(text.to_owned()), Raw::Float);
+    fn read_change(&mut self, at: &str, mut table: Table) -> Option<Planned> {
+        let given = ["at_cycle", "set"].map(|name| (name, table.remove(name)));
+        for name in table.keys() {
+            self.unknown(&join("changes", name), &join(at, &echo(name)));
+        }
+        let [cycle, set] = given.map(|(name, raw)| {
+            let (key, shown) = (Key::known(&join("changes", name)), join(at, name));
+            let Some(mut raw) = raw else {
+                if !self.faults.covers(key.path) {
+                    self.faults.missing::<()>(&shown, key.described());
+                }
+                return None;
+            };
+            let value = Value::read(&mut raw, key, false);
+            let refused = |rule| self.faults.refuse_value(&shown, &show(&raw), rule);
+            value.map_err(refused).ok()
+        });
+        let (Value::Number(at_cycle), Value::Text(set)) = (cycle?, set?) else {
+            return None;
+        };
+        let place = self
+            .faults
+            .place(&join(at, "set"), &format!("\"{}\"", echo(&set)));
+        let planned = Planned::read(at_cycle, &set, place.clone());
+        let refused = |error| self.faults.note(&place, |_| error);
+        planned.map_err(refused).ok()
     }
-    match (key.kind, text.parse::<Raw>()) {
-        (Kind::Text | Kind::Choice(_), Ok(Raw::String(text))) => Raw::String(text),
-        (Kind::Text | Kind::Choice(_), _) | (_, Err(_)) => Raw::String(text.to_owned()),
-        (_, Ok(raw)) => raw,
-    }
-}
-
-/// Splits `KEY=VALUE`, found at `place`.
-pub(crate) fn split<'a>(text: &'a str, place: &str) -> Result<(&'a str, &'a str), Refusal> {
-    let (key, value) = text.split_once('=').unwrap_or_default();
-    let (key, value) = (key.trim(), value.trim());
-    let rule = "must be KEY=VALUE, as in numerics.points=400";
-    let whole = (!key.is_empty() && !value.is_empty()).then_some((key, value));
-    whole.ok_or_else(|| Refusal::new(place, rule))
-}
-
-/// Builds the error for an unknown key at `place`.
-fn unknown(place: &str, path: &str, shown: &str) -> Refusal {
-    let rule = format!("unknown key {}; {}", echo(shown), hints::hint(path));
-    Refusal::new(place, rule)
-}
-
-/// Formats an assignment for an error message.
-pub(super) fn written(key: &str, value: &str) -> String {
-    format!("{} = {}", echo(key), echo(value))
 }

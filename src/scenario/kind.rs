@@ -5,8 +5,6 @@ use std::fmt;
 use serde::{Deserialize, Deserializer};
 use toml::Value;
 
-use super::values::number;
-
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case", bound(deserialize = "'de: 'static"))]
@@ -58,21 +56,6 @@ impl Kind {
                 format!("one of {}", words.collect::<Vec<_>>().join(", "))
             }
             Self::Numbers => "a list of finite numbers".into(),
-        }
-    }
-
-    /// Whether `value` is of this kind. Numbers must be finite, words known.
-    pub fn fits(self, value: &Value) -> bool {
-        let is_number = |value: &Value| number(value).is_some();
-        match self {
-            Self::Number => is_number(value),
-            Self::Whole => value.is_integer(),
-            Self::Flag => value.is_bool(),
-            Self::Text => value.is_str(),
-            Self::Choice(words) => words.iter().any(|known| value.as_str() == Some(known.word)),
-            Self::Numbers => value
-                .as_array()
-                .is_some_and(|list| list.iter().all(is_number)),
         }
     }
 

@@ -1,54 +1,53 @@
-//! Scenarios: turns a TOML text, plus assignments of the command line, into parts that can be run.
+//! Scenarios: a TOML text, plus assignments of the command line, becomes parts that can be run.
 //!
-//! The pipeline: text (`read`) → TOML table → assignments (`assign`) → columns of other files (`embed`, `columns`) →
-//! every key checked against the [`schema`], with its number in SI units (`check`, `units`) → fields with defaults
-//! ([`spec`], `derive`) → the parts' own constructors (`parts`) → [`Scenario`]. Each step refuses bad input with one line
-//! that names the origin, the dotted path, the value and the rule.
+//! One way in: a text (`read`) is a TOML table; a `draft` holds what it and assignments give, each value under its
+//! [`key`], then reads the columns of other files (`embed`, [`columns`]) and each value as one of its key, in SI units
+//! ([`value`], [`units`]). A [`spec`] holds all values, typed; `setup` makes the parts that can be run. What is wrong is
+//! noted on the way (`fault`), and told at once: a line each that names the origin, the dotted path, the value and the
+//! rule. One way out: `write`.
 
 use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use draft::{Draft, Read as Drafted};
+use draft::Draft;
 
+use crate::reading::Errors;
 use crate::simulation::{Domain, Setup, Spacing};
 
 pub(crate) mod blocks;
 pub(crate) mod bounded_read;
-mod change;
+pub(crate) mod change;
 mod changes;
 pub mod checkpoint;
 pub mod columns;
-mod derive;
-pub(crate) mod draft;
+mod draft;
 mod embed;
 mod error;
 pub mod escape;
-pub mod hints;
+mod fault;
+pub mod hint;
+pub mod key;
 mod kind;
-pub mod nearest;
-mod parts;
 pub mod preset;
 mod read;
-mod run;
 pub mod scalars;
-pub mod schema;
 pub mod session;
+mod setup;
 pub mod spec;
 pub mod typed;
 pub mod units;
 pub mod value;
-pub(crate) mod values;
 pub(crate) mod write;
 
 pub use change::{Change, MOST_CHANGES};
-pub use derive::choices;
-use error::Origin;
 pub use error::Refusal;
 use escape::echo;
 pub use escape::printable;
-pub use run::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan};
-pub use spec::{Spec, USUAL_ACCURACY};
+use key::{Key, join, split};
+pub use setup::choices;
+pub use spec::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan, Spec, USUAL_ACCURACY};
+use value::Value;
 
 /// Maximum length of the [stem](Scenario::stem), in bytes.
 const LONGEST_STEM: usize = 200;
@@ -112,76 +111,59 @@ impl Scenario {
         sets: &[String],
     ) -> Result<Self, Refusal> {
         let directory = directory.unwrap_or(Path::new(""));
-        let (table, commas) = read::table(text, &Origin::new(origin))?;
-        let mut draft = Draft::new(Spec::default(), origin);
+        let (table, commas) = read::table(text, origin)?;
+        let mut draft = Draft::on(Spec::default(), origin, directory);
         draft.read(table);
         for set in sets {
             let written = format!("--set {}", echo(set));
-            let (key, value) = draft::split(set, &written)?;
+            let (key, value) = change::split(set, &written)?;
             draft.assign(key, value, &written)?;
         }
-        let built = Self::build(draft, origin, directory);
+        let built = Self::build(draft);
         let errors = commas.into_iter().chain(built.as_ref().err().cloned());
         Refusal::all(errors).map_or(built, Err)
     }
 
-    /// Returns the same scenario with one key changed, by the rules of `--set`: `value` is TOML or a bare word.
-    /// Changing `indenter.shape` drops the keys of the previous shape. Unless the scenario gives `numerics.grid` and
-    /// `numerics.scheme`, they follow a change of `numerics.method`.
-    pub fn with(&self, key: &str, value: &str) -> Result<Self, Refusal> {
-        self.with_all(&[(key, value)])
+    /// Begins to put a scenario together on top of this one.
+    fn draft(&self) -> Draft {
+        Draft::on(self.spec.clone(), &self.origin, &self.directory)
     }
 
-    /// The same scenario with other numbers at dotted paths.
+    /// Returns the same scenario with keys assigned together, by the rules of `--set`: a value is TOML or a bare word.
+    /// Another `indenter.shape` drops the keys of the shape before. Unless the scenario gives `numerics.grid` and
+    /// `numerics.scheme`, they follow a change of `numerics.method`.
     ///
     /// # Errors
-    /// Numbers that are refused.
-    pub fn with_numbers<'a>(
-        &self,
-        numbers: impl IntoIterator<Item = (&'a str, f64)>,
-    ) -> Result<Self, Refusal> {
-        let mut draft = Draft::new(self.spec.clone(), &self.origin);
-        for (key, number) in numbers {
-            let written = draft::written(key, &scalars::number(number));
-            draft.put(schema::known(key), toml::Value::Float(number), &written);
-        }
-        Self::build(draft, &self.origin, &self.directory)
-    }
-
-    /// [`with`](Self::with) for several keys that are only right together, such as another shape
-    /// and its size.
-    pub fn with_all(
+    ///
+    /// Keys that are unknown, and values that are refused.
+    pub fn assigned(
         &self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<Self, Refusal> {
-        let mut draft = Draft::new(self.spec.clone(), &self.origin);
+        let mut draft = self.draft();
         for (key, value) in assignments {
-            let (key, value) = (key.as_ref(), value.as_ref());
-            let written = draft::written(key, value);
-            draft.assign(key.trim(), value.trim(), &written)?;
+            let (key, value) = (key.as_ref().trim(), value.as_ref().trim());
+            draft.assign(key, value, &written(key, value))?;
         }
-        let mut changed = Self::build(draft, &self.origin, &self.directory)?;
+        let mut changed = Self::build(draft)?;
         changed.notes.splice(..0, self.notes.iter().cloned());
         Ok(changed)
+    }
+
+    /// Returns the same scenario with other values, whose types are of their keys.
+    ///
+    /// # Errors
+    ///
+    /// Values that are refused.
+    pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Result<Self, Refusal> {
+        let mut draft = self.draft();
+        edit(&mut draft.spec);
+        Self::build(draft)
     }
 
     /// What was left out of the files that it names, a line each.
     pub fn notes(&self) -> &[String] {
         &self.notes
-    }
-
-    /// The same scenario with other parts.
-    ///
-    /// # Errors
-    /// Values that are refused.
-    pub fn edited(&self, edit: impl FnOnce(&mut Spec)) -> Result<Self, Refusal> {
-        let mut spec = self.spec.clone();
-        edit(&mut spec);
-        Self::build(
-            Draft::new(spec, &self.origin),
-            &self.origin,
-            &self.directory,
-        )
     }
 
     /// Where the domain radius comes from.
@@ -202,30 +184,25 @@ impl Scenario {
         scenario
     }
 
-    /// Returns the same scenario with the statements of its files on its errors, keys and values.
-    /// [`statements`](Self::statements) returns them while the scenario stays otherwise unchanged.
+    /// Returns the same scenario with the errors of its run. [`errors`](Self::errors) returns them while the scenario
+    /// stays otherwise unchanged.
     #[must_use]
-    pub fn stating(mut self, statements: &[(String, String)]) -> Self {
-        let seal = self.seal();
-        self.spec.run.state(statements, &seal);
+    pub fn stating(mut self, errors: &Errors) -> Self {
+        let stated = (*errors != Errors::default()).then(|| format!("{errors} | {}", self.seal()));
+        self.spec.run.stated = stated;
         self
     }
 
-    /// Returns the error statements, keys and values, in the files of the recorded run; empty if the scenario records
-    /// no run, or was edited since.
-    pub fn statements(&self) -> Vec<(String, String)> {
-        match self.spec.run.statements() {
-            Some((statements, seal)) if seal == self.seal() => statements,
-            _ => Vec::new(),
-        }
+    /// Returns the errors of the recorded run, unless the scenario was edited since.
+    pub fn errors(&self) -> Option<Errors> {
+        let (errors, seal) = self.spec.run.stated.as_deref()?.rsplit_once(" | ")?;
+        errors.parse().ok().filter(|_| seal == self.seal())
     }
 
-    /// Identifies this scenario without its statements.
+    /// Identifies this scenario without its errors.
     fn seal(&self) -> String {
-        let bare = self.with_run(RunPlan {
-            stated: None,
-            ..self.spec.run.clone()
-        });
+        let mut bare = self.clone();
+        bare.spec.run.stated = None;
         format!("{:08x}", crc32fast::hash(bare.to_toml().as_bytes()))
     }
 
@@ -304,25 +281,19 @@ impl Scenario {
 
     /// Returns the value at a dotted path as TOML, if the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
-        self.spec
-            .get(schema::find(path)?)
-            .map(|value| value.literal())
+        Some(self.spec.get(Key::find(path)?)?.literal())
     }
 
     /// Returns the number at a dotted path, if the scenario gives one.
     pub fn number(&self, path: &str) -> Option<f64> {
-        match self.spec.get(schema::find(path)?)? {
-            value::Value::Number(number) => Some(number),
-            value::Value::Whole(whole) => Some(whole as f64),
-            _ => None,
-        }
+        self.spec.get(Key::find(path)?)?.number()
     }
 
     /// Whether the key at a dotted path is one of a motion that prescribes a force.
     pub fn prescribes_force(&self, path: &str) -> bool {
-        let section = values::split(path).0;
-        let motion = self.spec.motion.directions().find(|of| of.0 == section);
-        motion.is_some_and(|(_, motion)| motion.control == Some(spec::Control::Force))
+        let control = Key::find(&join(split(path).0, "control"));
+        let force = Value::Word(spec::Control::Force.into());
+        control.and_then(|key| self.spec.get(key)) == Some(force)
     }
 
     /// Returns the complete scenario for a run. Reading it back gives an equal one, bit for bit. Values that follow
@@ -335,45 +306,49 @@ impl Scenario {
         write::scenario(&self.spec, &follows, &source)
     }
 
-    /// Checks a draft and makes its parts; errors show values as the user wrote them.
-    fn build(draft: Draft, origin: &str, directory: &Path) -> Result<Self, Refusal> {
-        let Drafted {
+    /// Reads a draft and makes its parts; errors show values as the user wrote them.
+    fn build(mut draft: Draft) -> Result<Self, Refusal> {
+        let (planned, notes) = draft.finish()?;
+        let Draft {
             mut spec,
-            origin: from,
-            faults,
-            changes,
-            notes,
-        } = draft.finish(directory)?;
-        let from = &from;
-        let before = std::mem::take(&mut spec.changes);
-        let setup = parts::setup(&mut spec, from, faults)?;
-        let changes = changes
-            .into_iter()
-            .map(|(at_cycle, set)| Change { at_cycle, set });
-        let changes: Vec<Change> = before.into_iter().chain(changes).collect();
-        if changes.len() > MOST_CHANGES {
-            let rule = format!("must have at most {MOST_CHANGES} entries");
-            return Err(from.refuse("changes", &changes.len().to_string(), rule));
-        }
-        let given = spec.title.as_deref();
-        let given = given.filter(|title| !title.trim().is_empty());
-        let description = spec.description.as_deref().unwrap_or_default();
+            mut faults,
+            origin,
+            directory,
+            ..
+        } = draft;
+        // Defaults exclude nothing, and parts cannot be made of keys that exclude each other.
+        let setup = match spec.conflict() {
+            Some((path, rule)) => faults.refuse(&spec, path, rule),
+            None => {
+                spec.fill();
+                setup::setup(&spec, &mut faults)
+            }
+        };
+        let setup = faults.result(setup)?;
+        let changes = std::mem::take(&mut spec.changes);
+        let about = spec.about.clone();
+        let title = about.title.filter(|title| !title.trim().is_empty());
+        let description = about.description.unwrap_or_default();
         let lines: Vec<String> = description.lines().map(printable).collect();
-        let scenario = Self {
-            origin: origin.to_owned(),
-            directory: directory.to_owned(),
-            title: printable(given.unwrap_or(origin)),
+        let mut scenario = Self {
+            title: printable(title.as_ref().unwrap_or(&origin)),
             description: lines.join("\n"),
+            origin,
+            directory,
             spec,
             setup,
             notes,
         };
-        scenario.check_changes(&changes, from)?;
-        let mut scenario = scenario.with_changes(changes);
-        if scenario.spec.run.stated.is_some() && scenario.statements().is_empty() {
-            // They are about the scenario before it was edited.
+        scenario.spec.changes = scenario.plan_changes(changes, planned)?;
+        if scenario.errors().is_none() {
+            // They are of the scenario before it was edited.
             scenario.spec.run.stated = None;
         }
         Ok(scenario)
     }
+}
+
+/// Formats an assignment for an error message.
+fn written(key: &str, value: &str) -> String {
+    format!("{} = {}", echo(key), echo(value))
 }

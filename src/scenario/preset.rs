@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::escape::printable;
-use super::nearest;
+use super::hint::hint as name_hint;
 
 /// A preset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub fn is_path(text: &str) -> bool {
 
 /// Returns a hint for the unknown `name`.
 pub fn hint(name: &str) -> String {
-    nearest::hint(name, ALL.iter().map(|preset| preset.name))
+    name_hint(name, ALL.iter().map(|preset| preset.name))
 }
 
 impl Preset {

@@ -6,10 +6,10 @@ use std::path::Path;
 use toml::Table;
 
 use super::bounded_read::{self, Unread};
-use super::error::{Origin, Refusal};
+use super::error::Refusal;
 use super::escape::printable;
+use super::typed::parse;
 use super::units::with_decimal_point;
-use super::values;
 
 /// Maximum size of a scenario's file, in bytes.
 const LARGEST_FILE: u64 = 1 << 20;
@@ -38,11 +38,11 @@ fn refusal(origin: &str, why: Unread) -> Refusal {
 
 /// Parses the text as a TOML table, and reports numbers with a decimal comma. These are read as meant, so that the rest
 /// can be checked as well.
-pub(super) fn table(text: &str, origin: &Origin) -> Result<(Table, Vec<Refusal>), Refusal> {
+pub(super) fn table(text: &str, origin: &str) -> Result<(Table, Vec<Refusal>), Refusal> {
     let mut text = text.to_owned();
     let mut commas = Vec::new();
     loop {
-        let error = match values::parse(&text) {
+        let error = match parse(&text) {
             Ok(table) => return Ok((table, commas)),
             Err(error) => error,
         };
@@ -53,7 +53,7 @@ pub(super) fn table(text: &str, origin: &Origin) -> Result<(Table, Vec<Refusal>)
             let line = before.matches('\n').count() + 1;
             let column = text[start..end].chars().count() + 1;
             let rule = format_args!("line {line}, column {column}: {message}");
-            Refusal::new(origin.name(), rule)
+            Refusal::new(printable(origin), rule)
         };
         let Some((comma, number)) = decimal_comma(&text[start..]) else {
             let message = printable(&error.message().replace('\n', "; "));

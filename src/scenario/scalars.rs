@@ -2,12 +2,12 @@
 
 use std::cell::OnceCell;
 
-use super::{nearest, printable};
+use super::{hint, printable};
 use crate::math::scan::largest;
 use crate::reading::column::other_columns;
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
-use crate::reading::{Column, CycleFigures, Moment};
+use crate::reading::{Column, CycleFigures, Moment, Quantity};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
@@ -195,9 +195,8 @@ impl<'a> Reading<'a> {
 
     /// The estimated error that the headers of the run's files state.
     fn stated(&self, error: Column) -> Option<f64> {
-        let mut stated = self.session.statements().iter();
-        let (_, value) = stated.find(|(known, _)| known == error.name())?;
-        value.parse().ok()
+        let of = Quantity::ALL.iter().find(|of| of.column() == error)?;
+        self.session.errors().get(*of)
     }
 }
 
@@ -214,7 +213,7 @@ pub fn all() -> impl Iterator<Item = Column> + Clone {
 /// In one line, the unknown name with the nearest known one.
 pub fn find_scalar(name: &str) -> Result<Column, String> {
     all().find(|scalar| scalar.name() == name).ok_or_else(|| {
-        let hint = nearest::hint(name, all().map(Column::name));
+        let hint = hint::hint(name, all().map(Column::name));
         format!("unknown column {}; {hint}", printable(name))
     })
 }

@@ -7,9 +7,11 @@ use std::mem::replace;
 
 use thiserror::Error;
 
-use super::change::{Change, MOST_CHANGES};
-use super::{Refusal, RunPlan, Scenario, Spec};
-use crate::reading::{Check, CycleFigures, Log};
+use super::change::{Change, MOST_CHANGES, Planned, parsed};
+use super::key::Key;
+use super::value::Value;
+use super::{Refusal, RunPlan, Scenario, Spec, written};
+use crate::reading::{Check, CycleFigures, Errors, Log};
 use crate::simulation::{Breakdown, Domain, Simulation};
 
 /// Why a session could not start, change or continue.
@@ -48,8 +50,8 @@ pub struct Session {
     /// The run before the changes of the current cycle, which are made together: each further change restarts from
     /// there, with the earlier ones.
     pub(super) unchanged: Option<Box<Unchanged>>,
-    /// Statements for the file headers, such as the estimated error.
-    pub(super) statements: Vec<(String, String)>,
+    /// The errors that its files state.
+    pub(super) errors: Errors,
 }
 
 /// A moment of a run.
@@ -92,7 +94,7 @@ impl Session {
             pending: scenario.changes().to_vec(),
             loaded: scenario,
             unchanged: None,
-            statements: Vec::new(),
+            errors: Errors::default(),
             goals: Vec::new(),
         };
         session.make_due_changes()?;
@@ -217,58 +219,78 @@ impl Session {
         }
     }
 
-    /// Changes parts of the scenario now, carrying the state over; what differs is recorded, and returned.
-    ///
-    /// # Errors
-    ///
-    /// As [`change_all`](Self::change_all).
-    pub fn edit(
-        &mut self,
-        edit: impl FnOnce(&mut Spec),
-    ) -> Result<Vec<(&'static str, String)>, SessionError> {
-        let before = self.now.scenario.spec();
-        let mut after = before.clone();
-        edit(&mut after);
-        let edits = before.changes_to(&after);
-        self.change_all(&edits)?;
-        Ok(edits)
-    }
-
-    /// Changes one key of the scenario now, carrying the state over, and records it.
-    /// On an error nothing has changed.
-    pub fn change(&mut self, key: &str, value: &str) -> Result<(), SessionError> {
-        self.change_all(&[(key, value)])
-    }
-
-    /// Changes several keys of the scenario at once, such as a control and its force.
+    /// Changes values of the scenario now, carrying the state over; what differs is recorded, and returned.
     ///
     /// # Errors
     ///
     /// If a value is refused, the contact cannot be solved, or wear would be lost; nothing has changed then.
-    pub fn change_all(
+    pub fn edit(
+        &mut self,
+        edit: impl FnOnce(&mut Spec),
+    ) -> Result<Vec<(Key, Value)>, SessionError> {
+        let before = self.now.scenario.spec();
+        let mut after = before.clone();
+        edit(&mut after);
+        let edits = before.diff(&after);
+        let at_cycle = self.now.simulation.cycle();
+        let changes = edits.iter().cloned();
+        let changes = changes.map(|(key, value)| Change {
+            at_cycle,
+            key,
+            value,
+        });
+        self.make(changes.collect())?;
+        Ok(edits)
+    }
+
+    /// Assigns keys that change together, such as a control and its force, by the rules of `--set`; carries the state
+    /// over, and records them.
+    ///
+    /// # Errors
+    ///
+    /// As [`edit`](Self::edit), and for unknown keys.
+    pub fn assign(
         &mut self,
         assignments: &[(impl AsRef<str>, impl AsRef<str>)],
     ) -> Result<(), SessionError> {
-        let cycle = self.now.simulation.cycle();
-        let changes = assignments.iter();
-        self.make(changes.map(|(key, value)| Change::new(cycle, key.as_ref(), value.as_ref())))
+        let at_cycle = self.now.simulation.cycle();
+        let planned = assignments.iter().map(|(key, text)| {
+            let (key, text) = (key.as_ref().trim(), text.as_ref().trim());
+            Planned::new(at_cycle, key, |key| parsed(key, text), written(key, text))
+        });
+        let planned = planned.collect::<Result<Vec<_>, _>>()?;
+        let changes = self.now.scenario.read_changes(&planned)?;
+        self.make_called(changes, planned.into_iter().map(|of| of.place).collect())
     }
 
-    /// Makes changes together with those already made at this cycle, and records the values that they gave.
-    fn make(&mut self, changes: impl Iterator<Item = Change>) -> Result<(), SessionError> {
+    /// Makes changes now, and records them.
+    ///
+    /// # Errors
+    ///
+    /// As [`edit`](Self::edit).
+    pub fn make(&mut self, changes: Vec<Change>) -> Result<(), SessionError> {
+        let places = changes.iter().map(Change::to_string).collect();
+        self.make_called(changes, places)
+    }
+
+    /// Makes changes together with those already made at this cycle; messages call each by its place.
+    fn make_called(
+        &mut self,
+        new: Vec<Change>,
+        mut places: Vec<String>,
+    ) -> Result<(), SessionError> {
         let (before, made) = match self.unchanged() {
             Some(before) => (&before.state, before.changes),
             None => (&self.now, self.changes.len()),
         };
-        let mut changes: Vec<Change> = self.changes.iter().cloned().chain(changes).collect();
-        if let Some(last) = changes.last().filter(|_| changes.len() > MOST_CHANGES) {
+        let changes = [self.changes.clone(), new].concat();
+        if changes.len() > MOST_CHANGES {
             let rule = format!("a run takes at most {MOST_CHANGES} changes");
-            return Err(Refusal::new(&last.set, rule).into());
+            return Err(Refusal::new(places.pop().unwrap_or_default(), rule).into());
         }
-        let scenario = before.scenario.after(&changes[made..])?;
-        scenario
-            .spec()
-            .write_changes(&mut changes[self.changes.len()..]);
+        let earlier = self.changes[made..].iter().map(Change::to_string);
+        let places: Vec<String> = earlier.chain(places).collect();
+        let scenario = before.scenario.changed(&changes[made..], &places)?;
         let (mut simulation, mut log) = (before.simulation.clone(), before.log.clone());
         // If no key changes the domain, it may have grown.
         let radius = |scenario: &Scenario| scenario.setup().grid.radius();
@@ -300,17 +322,14 @@ impl Session {
         (before.state.simulation.cycle() == self.simulation().cycle()).then_some(before)
     }
 
-    /// Adds statements, keys and values, for the headers of this run's files, as `# key: value`; replaces those with
-    /// the same key.
-    pub fn state(&mut self, statements: Vec<(String, String)>) {
-        let is_new = |key: &String| statements.iter().all(|(new, _)| new != key);
-        self.statements.retain(|(known, _)| is_new(known));
-        self.statements.extend(statements);
+    /// Sets the errors that the run's files state.
+    pub fn state(&mut self, errors: Errors) {
+        self.errors = errors;
     }
 
-    /// Returns the statements in file headers, in order.
-    pub fn statements(&self) -> &[(String, String)] {
-        &self.statements
+    /// Returns the errors that its files state.
+    pub fn errors(&self) -> &Errors {
+        &self.errors
     }
 
     /// Returns the same run with a remark for its files.
@@ -336,7 +355,7 @@ impl Session {
         self.loaded
             .with_changes(self.changes.clone())
             .with_run(plan)
-            .stating(&self.statements)
+            .stating(&self.errors)
     }
 
     /// Makes the recorded changes whose cycle has come. Changes of one cycle are made together: a force and its control
@@ -347,8 +366,8 @@ impl Session {
         match pending.take_while(|change| change.at_cycle <= now).count() {
             0 => Ok(()),
             due => {
-                let changes: Vec<Change> = self.pending.drain(..due).collect();
-                self.make(changes.into_iter())
+                let changes = self.pending.drain(..due).collect();
+                self.make(changes)
             }
         }
     }

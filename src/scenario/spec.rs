@@ -1,12 +1,11 @@
-//! A scenario key by key, as fields: paths name its keys only where a user does. What is not given follows from the rest.
+//! A scenario as typed keys; `None`: not given, so it follows from the rest.
 
 use std::sync::LazyLock;
 
 use strum::{EnumString, IntoStaticStr, VariantNames};
 
 use super::change::Change;
-use super::run::RunPlan;
-use super::schema::{self, Parameter};
+use super::key::{Default as Usual, Key, SCHEMA};
 use super::value::{Field, Held, Section, Value, fields, section, words};
 use crate::math::abel::AbelMethod;
 use crate::simulation::{Scheme, Spacing, Stability};
@@ -15,13 +14,18 @@ use crate::wear::{Law, Parameters};
 /// Default accuracy of a run with wear if no numerics are given.
 pub const USUAL_ACCURACY: f64 = 1e-2;
 
+/// Keys that an accuracy chooses.
+const CHOSEN: [&str; 3] = [
+    "numerics.points",
+    "numerics.steps_per_cycle",
+    "numerics.integrator",
+];
+
 /// All keys, but those that name files, whose columns are keys of their own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Spec {
-    /// A short name.
-    pub title: Option<String>,
-    /// What the scenario shows.
-    pub description: Option<String>,
+    /// Title and description.
+    pub about: About,
     /// `[indenter]`.
     pub indenter: Indenter,
     /// `[material]`.
@@ -38,6 +42,16 @@ pub struct Spec {
     pub run: RunPlan,
     /// `[[changes]]`.
     pub changes: Vec<Change>,
+}
+
+section! {
+    /// The keys outside of any table.
+    About {
+        /// A short name.
+        title: Option<String>,
+        /// What the scenario shows.
+        description: Option<String>,
+    }
 }
 
 section! {
@@ -106,7 +120,7 @@ section! {
         fatigue_limit: Option<f64>,
         /// The same in shear, Pa.
         shear_fatigue_limit: Option<f64>,
-    } {
+    } tables {
         /// `[material.indenter]`.
         indenter: Option<Body>,
         /// `[material.half_space]`.
@@ -243,7 +257,7 @@ section! {
         initial_depths: Option<Vec<f64>>,
         /// The part of the worn depth that is the indenter's.
         share: Option<f64>,
-    } {
+    } parts {
         /// k per friction work, 1/Pa.
         per_work: Coefficient,
         /// Keys of the laws.
@@ -289,186 +303,159 @@ pub enum Passage {
     CycleJump,
 }
 
+/// Maximum length of a run, in cycles.
+pub const MOST_CYCLES: f64 = 1e9;
+
+/// Maximum number of snapshots of a run.
+pub const MOST_SNAPSHOTS: usize = 10_000;
+
+section! {
+    /// `[run]`: the length of a run and its output.
+    RunPlan {
+        /// Length of the run in cycles, 0 or more; `None` runs until the user stops it.
+        cycles: Option<f64>,
+        /// Cycles at which the state is written; those after the end of the run are ignored.
+        snapshot_at: Vec<f64>,
+        /// Cycles at which a step or jump was cut short although the run continued, such as a planned end that the explorer
+        /// went past. Without them, a replay would take other steps.
+        shortened_at: Vec<f64>,
+        /// A remark to store in the files.
+        note: Option<String>,
+        /// The errors of the recorded run, sealed by [`Scenario::stating`](super::Scenario::stating).
+        stated: Option<String>,
+    }
+}
+
 fields! { Parameters { stress_exponent, slip_rate_exponent, reference_stress, reference_slip_rate } }
 
 words!(
     Shape, Geometry, Control, Wave, Law, Passage, AbelMethod, Spacing, Scheme, Stability
 );
 
-/// Keys and their new values.
-pub type Edits = Vec<(&'static Parameter, Value)>;
-
 impl Spec {
-    fn field(&self, key: &Parameter) -> Option<&dyn Field> {
-        let name = key.key();
-        match key.section() {
-            "" if name == "title" => Some(&self.title),
-            "" => Some(&self.description),
-            "indenter" => self.indenter.field(name),
-            "material" => self.material.field(name),
-            "material.indenter" => self.material.indenter.as_ref()?.field(name),
-            "material.half_space" => self.material.half_space.as_ref()?.field(name),
-            "friction" => self.friction.field(name),
-            NORMAL => self.motion.normal.field(name),
-            TANGENTIAL => self.motion.tangential.as_ref()?.field(name),
-            "wear" => {
-                let wear = self.wear.as_ref()?;
-                let law = || wear.parameters.field(name);
-                wear.field(name)
-                    .or_else(|| wear.per_work.field(name))
-                    .or_else(law)
-            }
-            "numerics" => self.numerics.field(name),
-            _ => self.run.field(name),
-        }
+    /// Returns the struct of a table; `None` for one that is not given.
+    fn section(&self, path: &str) -> Option<&dyn Section> {
+        Some(match path {
+            "" => &self.about,
+            "indenter" => &self.indenter,
+            "material" => &self.material,
+            "material.indenter" => self.material.indenter.as_ref()?,
+            "material.half_space" => self.material.half_space.as_ref()?,
+            "friction" => &self.friction,
+            NORMAL => &self.motion.normal,
+            TANGENTIAL => self.motion.tangential.as_ref()?,
+            "wear" => self.wear.as_ref()?,
+            "numerics" => &self.numerics,
+            "run" => &self.run,
+            _ => return None,
+        })
     }
 
-    /// The same, to be changed; adds the table of the key.
-    fn field_mut(&mut self, key: &Parameter) -> Option<&mut dyn Field> {
-        let name = key.key();
-        match key.section() {
-            "" if name == "title" => Some(&mut self.title),
-            "" => Some(&mut self.description),
-            "indenter" => self.indenter.field_mut(name),
-            "material" => self.material.field_mut(name),
-            "friction" => self.friction.field_mut(name),
-            NORMAL => self.motion.normal.field_mut(name),
-            "numerics" => self.numerics.field_mut(name),
-            "run" => self.run.field_mut(name),
-            optional => {
-                self.open(optional);
-                match optional {
-                    "material.indenter" => self.material.indenter.as_mut()?.field_mut(name),
-                    "material.half_space" => self.material.half_space.as_mut()?.field_mut(name),
-                    TANGENTIAL => self.motion.tangential.as_mut()?.field_mut(name),
-                    _ => {
-                        let wear = self.wear.as_mut()?;
-                        if wear.per_work.field(name).is_some() {
-                            wear.per_work.field_mut(name)
-                        } else if wear.parameters.field(name).is_some() {
-                            wear.parameters.field_mut(name)
-                        } else {
-                            wear.field_mut(name)
-                        }
-                    }
-                }
-            }
-        }
+    /// Returns the struct of a table; adds one that is not given.
+    pub(super) fn open(&mut self, path: &str) -> Option<&mut dyn Section> {
+        Some(match path {
+            "" => &mut self.about,
+            "indenter" => &mut self.indenter,
+            "material" => &mut self.material,
+            "material.indenter" => self.material.indenter.get_or_insert_default(),
+            "material.half_space" => self.material.half_space.get_or_insert_default(),
+            "friction" => &mut self.friction,
+            NORMAL => &mut self.motion.normal,
+            TANGENTIAL => self.motion.tangential.get_or_insert_default(),
+            "wear" => self.wear.get_or_insert_default(),
+            "numerics" => &mut self.numerics,
+            "run" => &mut self.run,
+            _ => return None,
+        })
     }
 
-    /// Adds a table that may be left out; others are always there.
-    pub(super) fn open(&mut self, section: &str) {
-        match section {
-            "material.indenter" => _ = self.material.indenter.get_or_insert_default(),
-            "material.half_space" => _ = self.material.half_space.get_or_insert_default(),
-            TANGENTIAL => _ = self.motion.tangential.get_or_insert_default(),
-            "wear" => _ = self.wear.get_or_insert_default(),
-            _ => {}
-        }
-    }
-
-    /// Whether a key, or a table that may be left out, is given.
+    /// Whether a key or a table is given.
     pub(super) fn has(&self, path: &str) -> bool {
-        match path {
-            "material.indenter" => self.material.indenter.is_some(),
-            "material.half_space" => self.material.half_space.is_some(),
-            path => schema::find(path).is_some_and(|key| self.get(key).is_some()),
-        }
+        let value = |key| self.get(key);
+        self.section(path).is_some() || Key::find(path).and_then(value).is_some()
     }
 
-    /// The value of a key, if it is given.
-    pub fn get(&self, key: &Parameter) -> Option<Value> {
-        self.field(key)?.get()
+    /// Returns the value of a key, if it is given.
+    pub fn get(&self, key: Key) -> Option<Value> {
+        self.section(key.section())?.field(key.key())?.get()
     }
 
-    /// Gives a key a value; nothing else changes.
-    pub(super) fn put(&mut self, key: &Parameter, value: Value) {
-        if let Some(field) = self.field_mut(key) {
-            field.put(Some(value));
-        }
+    /// Gives a key a value, in place of what it excludes.
+    pub fn set(&mut self, key: Key, value: Value) {
+        key.displaces().for_each(|other| self.clear(other));
+        self.put(key, Some(value));
     }
 
     /// Takes the value of a key away.
-    pub(super) fn clear(&mut self, key: &Parameter) {
-        if self.field(key).is_some() {
-            self.field_mut(key)
-                .into_iter()
-                .for_each(|field| field.put(None));
+    pub(super) fn clear(&mut self, key: Key) {
+        if self.get(key).is_some() {
+            self.put(key, None);
         }
+    }
+
+    /// Replaces the value of a key; nothing else changes.
+    pub(super) fn put(&mut self, key: Key, value: Option<Value>) {
+        let section = self.open(key.section());
+        if let Some(field) = section.and_then(|section| section.field_mut(key.key())) {
+            field.put(value);
+        }
+    }
+
+    /// Returns the keys to set for another spec, in the order of the table. Keys that it only lacks are not named.
+    pub fn diff(&self, after: &Self) -> Vec<(Key, Value)> {
+        let changed = Key::all().filter_map(|key| {
+            let value = after.get(key)?;
+            (self.get(key).as_ref() != Some(&value)).then_some((key, value))
+        });
+        changed.collect()
+    }
+
+    /// Returns the first key that another one excludes, with the rule.
+    pub(super) fn conflict(&self) -> Option<(&'static str, String)> {
+        let given = |keys: &[&'static str]| keys.iter().copied().find(|key| self.has(key));
+        SCHEMA.exclusive.iter().find_map(|of| {
+            let (key, other) = (given(&of.keys)?, given(&of.others)?);
+            let rule = of.rule.replace("{}", other);
+            Some((key, format!("conflicts with {rule}")))
+        })
     }
 
     /// Writes out the defaults that may change between versions, so that a saved scenario keeps its meaning. Those that
     /// depend on the method stay open and keep following it; those that an accuracy chooses are found before the run.
     pub(super) fn fill(&mut self) {
-        let usual = Self::usual();
-        let normal = &mut self.motion.normal;
-        for motion in [normal].into_iter().chain(&mut self.motion.tangential) {
-            motion.control = motion.control.or(usual.motion.normal.control);
-        }
-        if let Some(wear) = &mut self.wear {
-            wear.law = wear.law.or(usual.wear.as_ref().and_then(|wear| wear.law));
-        }
         let k = |wear: &Wear| wear.per_work.coefficient.or(wear.coefficient_per_load);
-        let wears = self.wear.as_ref().is_some_and(|wear| k(wear).is_some());
-        let (numerics, usual) = (&mut self.numerics, &usual.numerics);
-        numerics.method = numerics.method.or(usual.method);
-        numerics.stability = numerics.stability.or(usual.stability);
-        if wears && numerics.is_open() {
-            numerics.accuracy = numerics.accuracy.or(Some(USUAL_ACCURACY));
+        let wears = self.wear.as_ref().and_then(k).is_some();
+        if wears && self.numerics.is_open() {
+            self.numerics.accuracy.get_or_insert(USUAL_ACCURACY);
         }
-        if numerics.accuracy.is_none() {
-            numerics.points = numerics.points.or(usual.points);
-            numerics.steps_per_cycle = numerics.steps_per_cycle.or(usual.steps_per_cycle);
-            numerics.integrator = numerics.integrator.or(usual.integrator);
+        let is_chosen = |key: Key| CHOSEN.contains(&key.path);
+        let has_accuracy = self.numerics.accuracy.is_some();
+        for key in Key::all().filter(|key| matches!(key.default, Usual::Written(_))) {
+            let is_due = self.has(key.section()) && !(has_accuracy && is_chosen(key));
+            if is_due && self.get(key).is_none() {
+                self.put(key, Self::usual().get(key));
+            }
         }
     }
 
-    /// The defaults of `keys.toml`.
+    /// Returns the defaults of `keys.toml`.
     pub(super) fn usual() -> &'static Self {
         static USUAL: LazyLock<Spec> = LazyLock::new(|| {
             let mut usual = Spec::default();
-            for known in schema::parameters() {
-                if let Some(value) = known.default.value() {
-                    let value = Value::read(&mut value.clone(), known, false);
-                    usual.put(known, value.expect("a default is a value of its key"));
-                }
+            for key in Key::all() {
+                let raw = key.default.value().cloned();
+                let value = raw.map(|mut raw| Value::read(&mut raw, key, false));
+                let value = value.map(|read| read.expect("a default is a value of its key"));
+                usual.put(key, value);
             }
             usual
         });
         &USUAL
     }
 
-    /// Writes the values that changes have given to their keys, however these were typed. Of several changes of one key
-    /// the last one has given it.
-    pub(super) fn write_changes(&self, changes: &mut [Change]) {
-        let mut given = self.clone();
-        for change in changes.iter_mut().rev() {
-            let Some(key) = schema::find(change.key()) else {
-                continue;
-            };
-            if let Some(value) = given.get(key) {
-                *change = Change::new(change.at_cycle, key.path, &value.literal());
-                given.clear(key);
-            }
-        }
-    }
-
-    /// As texts.
-    pub fn changes_to(&self, other: &Self) -> Vec<(&'static str, String)> {
-        let edits = self.diff(other).into_iter();
-        edits
-            .map(|(key, value)| (key.path, value.literal()))
-            .collect()
-    }
-
-    /// What leads from here to `other`, in the order of the schema. Keys that are only left out go with those that take
-    /// their place.
-    pub fn diff(&self, other: &Self) -> Edits {
-        let changed = schema::parameters().filter_map(|key| {
-            let value = other.get(key)?;
-            (self.get(key).as_ref() != Some(&value)).then_some((key, value))
-        });
-        changed.collect()
+    /// Returns what is given, or its default in `keys.toml`.
+    pub(super) fn or_usual<T>(&self, of: impl Fn(&Self) -> Option<T>) -> Option<T> {
+        of(self).or_else(|| of(Self::usual()))
     }
 }
 
@@ -485,9 +472,9 @@ impl Numerics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::schema::Kind;
+    use crate::scenario::key::Kind;
 
-    fn any(known: &Parameter) -> Value {
+    fn any(known: Key) -> Value {
         match known.kind {
             Kind::Number => Value::Number(0.5),
             Kind::Whole => Value::Whole(7),
@@ -500,10 +487,10 @@ mod tests {
 
     #[test]
     fn every_key_has_its_field() {
-        let is_file = |path| schema::SCHEMA.files.iter().any(|file| file.key == path);
-        for known in schema::parameters().filter(|known| known.section() != "changes") {
+        let is_file = |path| SCHEMA.files.iter().any(|file| file.key == path);
+        for known in Key::all().filter(|known| known.section() != "changes") {
             let mut spec = Spec::default();
-            spec.put(known, any(known));
+            spec.put(known, Some(any(known)));
             let expected = Some(any(known)).filter(|_| !is_file(known.path));
             assert_eq!(spec.get(known), expected, "{}", known.path);
             spec.clear(known);

@@ -8,7 +8,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::escape::echo;
-use super::schema::{Kind, Parameter};
+use super::key::{Kind, Parameter};
 
 /// A product of units: powers of metre, kilogram, second, radian and ten, and the remaining factor to SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use super::schema::{Kind, Parameter, parameters};
+use super::key::{Key, Kind};
 use super::spec::Spec;
 use super::value::Value;
 
 /// Writes keys in the order of the schema under their section headings; `line` gives each key's line, if any.
-pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
+pub(crate) fn sections(line: impl Fn(Key) -> Option<String>) -> String {
     let (mut text, mut open) = (String::new(), "");
-    for known in parameters() {
+    for known in Key::all() {
         let Some(line) = line(known) else { continue };
         if known.section() != open {
             open = known.section();
@@ -20,8 +20,8 @@ pub(crate) fn sections(line: impl Fn(&Parameter) -> Option<String>) -> String {
     text
 }
 
-/// Writes `table`, which has passed [`check::keys`](super::check::keys). What `follows` from it becomes a comment if the
-/// table does not give it; the comment ends with its `source`.
+/// Writes a whole scenario. What `follows` from it becomes a comment if it is not given; the comment ends with its
+/// `source`.
 pub(super) fn scenario(spec: &Spec, follows: &Spec, source: &str) -> String {
     let mut text = sections(|known| {
         let Some(value) = spec.get(known) else {
@@ -37,7 +37,7 @@ pub(super) fn scenario(spec: &Spec, follows: &Spec, source: &str) -> String {
     });
     for change in &spec.changes {
         let at_cycle = Value::Number(change.at_cycle).literal();
-        let set = Value::Text(change.set.clone()).literal();
+        let set = Value::Text(change.to_string()).literal();
         let _ = write!(text, "\n[[changes]]\nat_cycle = {at_cycle}\nset = {set}\n");
     }
     text.trim_start().to_owned()

@@ -11,10 +11,11 @@ use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
 use crate::reading::{Moment, Quantity, Subject};
+use crate::scenario::key::Key;
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::{Numerics, Spec};
-use crate::scenario::{Refusal, Scenario};
+use crate::scenario::{Refusal, Scenario, value};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Level, Outcome, Reached};
 use crate::studies::table::{Format, Report};
@@ -79,8 +80,9 @@ impl Candidate {
     pub fn assignments(&self) -> Vec<String> {
         let mut spec = Spec::default();
         self.set(&mut spec.numerics);
-        let keys = Spec::default().changes_to(&spec).into_iter();
-        let set = |(key, value): (_, String)| format!("--set {key}={}", value.trim_matches('"'));
+        let keys = Spec::default().diff(&spec).into_iter();
+        let set =
+            |(key, value): (Key, value::Value)| format!("--set {}={}", key.path, value.bare());
         keys.map(set).collect()
     }
 

@@ -10,8 +10,8 @@ use super::settings::Setting;
 use super::worker::files::{self, Copied};
 use super::worker::{Order, changes};
 use crate::charts::About;
+use crate::scenario::key::Kind;
 use crate::scenario::preset;
-use crate::scenario::schema::Kind;
 
 /// The action of a completion.
 type Deed = Box<dyn FnOnce(&mut Explorer)>;
@@ -54,12 +54,12 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
     let known = &frame.settings();
     let Some((key, value)) = typed.split_once('=') else {
         return keys(known.iter(), typed.trim_end(), |setting| {
-            let line = format!("set {}=", setting.parameter.path);
-            Completion::new(line, setting.parameter.meaning)
+            let line = format!("set {}=", setting.key.path);
+            Completion::new(line, setting.key.meaning)
         });
     };
     let (key, value) = (key.trim(), value.trim());
-    let found = known.iter().find(|setting| setting.parameter.path == key);
+    let found = known.iter().find(|setting| setting.key.path == key);
     let now = found.map_or_else(String::new, |setting| setting.shown(true));
     let set = |value: &str, help: String| {
         let (key, given) = (key.to_owned(), value.to_owned());
@@ -70,14 +70,14 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
     };
     let words = found.and_then(Setting::words).unwrap_or_default();
     let begun = words.iter().filter(|word| word.starts_with(value));
-    let meaning = |word: &str| found?.parameter.meaning_of(word);
+    let meaning = |word: &str| found?.key.meaning_of(word);
     let list: Vec<_> = begun
         .map(|word| set(word, meaning(word).unwrap_or_default().to_owned()))
         .collect();
     if !list.is_empty() {
         return list;
     }
-    let help = found.map(|setting| setting.parameter.described());
+    let help = found.map(|setting| setting.key.described());
     let now = found.map(|_| format!("now {now}")).unwrap_or_default();
     let mut typed = set(value, help.unwrap_or_default()).with_right(now);
     typed.act = typed.act.filter(|_| !value.is_empty());
@@ -86,10 +86,10 @@ pub fn set(typed: &str, frame: &Frame) -> Vec<Completion> {
 
 /// Completes `KEY`, or `KEY FROM..TO`.
 pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
-    let is_number = |of: &&Setting| matches!(of.parameter.kind, Kind::Number | Kind::Whole);
+    let is_number = |of: &&Setting| matches!(of.key.kind, Kind::Number | Kind::Whole);
     let settings = frame.settings();
     let numbers = settings.iter().filter(is_number);
-    let units = numbers.clone().map(|of| (of.parameter.path, of.unit));
+    let units = numbers.clone().map(|of| (of.key.path, of.unit));
     if let Some(range) = Range::parse(typed, &units.collect::<Vec<_>>()) {
         let help = format!("runs {POINTS} values on all cores and shows the curve");
         let sweep = Completion::new(format!("sweep {typed}"), help)
@@ -98,8 +98,8 @@ pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
     }
     let key = typed.split([' ', '=']).next().unwrap_or_default();
     keys(numbers, key, |setting| {
-        let line = format!("sweep {} ", setting.parameter.path);
-        Completion::new(line, format!("FROM..TO: {}", setting.parameter.meaning))
+        let line = format!("sweep {} ", setting.key.path);
+        Completion::new(line, format!("FROM..TO: {}", setting.key.meaning))
     })
 }
 
@@ -112,10 +112,10 @@ fn keys<'a>(
 ) -> Vec<Completion> {
     let after_dot = format!(".{text}");
     let mut fitting: Vec<_> = known
-        .filter(|setting| setting.parameter.path.contains(text))
+        .filter(|setting| setting.key.path.contains(text))
         .collect();
     fitting.sort_by_key(|setting| {
-        let path = setting.parameter.path;
+        let path = setting.key.path;
         !(path.starts_with(text) || path.contains(&after_dot))
     });
     let shown = |setting: &Setting| completion(setting).with_right(setting.shown(true));

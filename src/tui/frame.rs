@@ -71,7 +71,7 @@ impl Frame {
     /// Finds the setting of a key.
     pub fn setting(&self, key: &str) -> Option<Setting> {
         let mut settings = self.settings().into_iter();
-        settings.find(|setting| setting.parameter.path == key)
+        settings.find(|setting| setting.key.path == key)
     }
 
     /// Returns the largest von Mises and the largest principal stress in the half-space; `None` without contact, or

@@ -83,8 +83,8 @@ impl Source {
                 let mut others = run.changes().to_vec();
                 let run = run.with_changes(Vec::new());
                 let scenario = run.edited(chosen)?;
-                let replaced = run.spec().changes_to(scenario.spec());
-                others.retain(|change| replaced.iter().all(|(key, _)| change.key() != *key));
+                let replaced = run.spec().diff(scenario.spec());
+                others.retain(|change| replaced.iter().all(|(key, _)| change.key != *key));
                 Session::start(scenario.with_changes(others))?
             }
         };

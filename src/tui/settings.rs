@@ -1,18 +1,17 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
-use toml::Value;
-
 use crate::math::scan::shifted;
 use crate::plot::units::{plain, reading};
-use crate::scenario::schema::{Kind, Parameter, parameters};
+use crate::scenario::Scenario;
+use crate::scenario::key::{Key, Kind};
 use crate::scenario::units::{self, shown_in};
-use crate::scenario::{Scenario, values};
+use crate::scenario::value::Value;
 
 /// A key of the scenario as the explorer shows it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     /// The key, its range and its meaning.
-    pub parameter: &'static Parameter,
+    pub key: Key,
     /// The unit in this scenario.
     pub unit: &'static str,
     /// The value; `None` if the scenario leaves it to the program.
@@ -22,27 +21,23 @@ pub struct Setting {
 impl Setting {
     /// Returns every key that has a value or may be given one, in the order of a scenario file.
     pub fn all(scenario: &Scenario) -> Vec<Self> {
-        let (fixed, given) = (["", "run", "changes"], scenario.spec());
-        parameters()
-            .filter(|parameter| !fixed.contains(&parameter.section()))
+        let fixed = ["", "run", "changes"];
+        Key::all()
+            .filter(|key| !fixed.contains(&key.section()))
             // Long lists come from files, not from the keyboard.
-            .filter(|parameter| parameter.kind != Kind::Numbers)
-            .map(|parameter| Self {
-                parameter,
-                unit: units::unit_of(parameter, scenario.prescribes_force(parameter.path)),
-                value: given
-                    .get(parameter)
-                    .map(|value| value.literal().parse().expect("TOML")),
+            .filter(|key| key.kind != Kind::Numbers)
+            .map(|key| Self {
+                key,
+                unit: units::unit_of(&key, scenario.prescribes_force(key.path)),
+                value: scenario.spec().get(key),
             })
-            .filter(|setting| setting.value.is_some() || setting.parameter.section() == "numerics")
+            .filter(|setting| setting.value.is_some() || setting.key.section() == "numerics")
             .collect()
     }
 
     /// Returns the value as TOML, words without quotes.
     pub fn text(&self) -> Option<String> {
-        let value = self.value.as_ref()?;
-        let word = value.as_str().map(str::to_owned);
-        Some(word.unwrap_or_else(|| values::literal(value)))
+        Some(self.value.as_ref()?.bare())
     }
 
     /// Returns the value with its unit, as an engineer writes it: `230.77 GPa`.
@@ -56,8 +51,8 @@ impl Setting {
 
     /// Returns the number and the unit of a value that has a unit, as shown.
     fn reading(&self, ascii: bool) -> Option<(String, String)> {
-        let value = values::number(self.value.as_ref()?)?;
-        let has_unit = self.parameter.kind == Kind::Number && !self.unit.is_empty();
+        let value = self.value.as_ref()?.number()?;
+        let has_unit = self.key.kind == Kind::Number && !self.unit.is_empty();
         has_unit.then(|| reading(value, self.unit, ascii))
     }
 
@@ -73,38 +68,37 @@ impl Setting {
 
     /// Returns why the value cannot change during a run, in a sentence; `None` if it can.
     pub fn fixed(&self) -> Option<String> {
-        let because = self.parameter.fixed?;
+        let because = self.key.fixed?;
         Some(format!("fixed during a run: {because}"))
     }
 
     /// Returns the words to choose the value from, if it is a choice.
     pub fn words(&self) -> Option<Vec<&'static str>> {
-        self.parameter.kind.words()
+        self.key.kind.words()
     }
 
     /// Returns the next value up or down: the next word of a choice, or the next number with two digits; `None` at the
     /// last one.
     pub fn next(&self, up: bool) -> Option<String> {
-        let value = self.value.as_ref()?;
-        match self.parameter.kind {
-            Kind::Choice(_) => {
+        match self.value.as_ref()? {
+            Value::Word(word) => {
                 let places = if up { 1 } else { -1 };
-                Some(shifted(&self.words()?, value.as_str()?, places).to_owned())
+                Some(shifted(&self.words()?, *word, places).to_owned())
             }
-            Kind::Flag => Some((!value.as_bool()?).to_string()),
-            Kind::Whole => {
-                let next = next_number(values::number(value)?, up);
+            Value::Flag(flag) => Some((!flag).to_string()),
+            Value::Whole(whole) => {
+                let next = next_number(*whole as f64, up);
                 Some(if up { next.ceil() } else { next.floor() }.to_string())
             }
             // One step of the number as shown: 45 degrees are followed by 46.
-            Kind::Number => {
-                let shown = self.reading(true);
-                let bare = || (values::literal(value), String::new());
-                let (number, unit) = shown.unwrap_or_else(bare);
-                let next = plain(next_number(number.parse().ok()?, up));
-                Some(format!("{next} {unit}").trim_end().to_owned())
-            }
-            Kind::Text | Kind::Numbers => None,
+            Value::Number(bare) => match self.reading(true) {
+                Some((number, unit)) => {
+                    let next = plain(next_number(number.parse().ok()?, up));
+                    Some(format!("{next} {unit}"))
+                }
+                None => Some(plain(next_number(*bare, up))),
+            },
+            Value::Text(_) | Value::Numbers(_) => None,
         }
     }
 }
@@ -156,7 +150,7 @@ mod tests {
         let scenario = Scenario::load("li2019-fig3", &[]).expect("a preset");
         let settings = Setting::all(&scenario);
         let of = |path: &str| {
-            let found = settings.iter().find(|known| known.parameter.path == path);
+            let found = settings.iter().find(|known| known.key.path == path);
             found.unwrap_or_else(|| panic!("no {path}"))
         };
         assert_eq!(of("motion.normal.mean").shown(false), "1 µm");
@@ -173,9 +167,9 @@ mod tests {
         assert_eq!(modulus.shown(true), "230.77 GPa");
         // What is shown means the same when typed, and its unit is named beside the line.
         for setting in settings.iter().filter(|known| known.value.is_some()) {
-            let path = setting.parameter.path;
+            let path = setting.key.path;
             for shown in [true, false].map(|ascii| setting.shown(ascii)) {
-                let again = scenario.with(path, &shown);
+                let again = scenario.assigned(&[(path, &shown)]);
                 let again = again.unwrap_or_else(|error| panic!("{path} = {shown}: {error}"));
                 let number = |of: &Scenario| of.value(path)?.parse::<f64>().ok();
                 let [before, after] = [&scenario, &again].map(number);
@@ -198,15 +192,11 @@ mod tests {
             of("friction.coefficient").next(true).as_deref(),
             Some("0.11")
         );
-        assert!(
-            settings
-                .iter()
-                .all(|known| known.parameter.section() != "run")
-        );
+        assert!(settings.iter().all(|known| known.key.section() != "run"));
         assert!(
             !settings
                 .iter()
-                .any(|known| known.parameter.path == "indenter.angle")
+                .any(|known| known.key.path == "indenter.angle")
         );
     }
 }

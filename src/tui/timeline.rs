@@ -37,7 +37,8 @@ fn edit(frame: &Frame, room: usize) -> Option<String> {
     let mut latest_first = frame.changes.iter().rev();
     let change = latest_first.find(|change| change.at_cycle <= shown)?;
     // A whole number is shown as one.
-    let set = change.set.strip_suffix(".0").unwrap_or(&change.set);
+    let set = change.to_string();
+    let set = set.strip_suffix(".0").unwrap_or(&set);
     let whole = format!("at cycle {}: {set}", short(change.at_cycle));
     let key = set.split('=').next().unwrap_or_default();
     let ends = key.match_indices('.').map(|(at, _)| &set[at + 1..]);

@@ -1,15 +1,17 @@
 //! Changes during a run: wear is never lost, and the changes of one cycle are made together.
 
+use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::checkpoint;
-use mdr_tui::scenario::{Change, Scenario};
 
-use crate::common::{again, begin, change, holds, load, near, ran, refused, volume};
+use crate::common::{again, begin, change, holds, load, near, planned, ran, refused, volume};
 use crate::test_dir::{has, lacks};
 
 /// Fig. 3 of the paper with `changes`, KEY = VALUE at a cycle.
 fn figure(sets: &[&str], changes: &[(f64, &str, &str)]) -> Scenario {
-    let change = |&(at, key, value): &(f64, &str, &str)| Change::new(at, key, value);
-    let changes = changes.iter().map(change).collect();
+    let changes = changes
+        .iter()
+        .map(|&(at, key, value)| planned(at, key, value))
+        .collect();
     load("li2019-fig3", sets).with_changes(changes)
 }
 
@@ -52,7 +54,7 @@ fn a_domain_that_would_cut_wear_off_is_refused() {
         ("indenter.shape", "flat-punch"),
         ("indenter.radius", "5e-5"),
     ];
-    let told = session.change_all(&shape).expect_err("too small");
+    let told = session.assign(&shape).expect_err("too small");
     has(&told.to_string(), "cut off wear");
     let after = (volume(&session), session.simulation().state().clone());
     assert_eq!(after, before);
@@ -114,7 +116,7 @@ fn a_control_without_values_in_its_unit_is_refused() {
         ("motion.tangential.control", "force"),
         ("motion.tangential.amplitude", "0.5"),
     ];
-    session.change_all(&both).expect("newtons");
+    session.assign(&both).expect("newtons");
     // What stands there already needs no values.
     change(&mut session, "motion.normal.control", "displacement");
 }

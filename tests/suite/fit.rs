@@ -365,7 +365,7 @@ fn what_data_do_not_determine_is_said() {
     let scar = || vec![Measured::scar(&scar).expect("a scar")];
     // Archard's law does not use the exponent.
     let with_power = scenario(2e-9, 0.12)
-        .with("wear.stress_exponent", "1.5")
+        .assigned(&[("wear.stress_exponent", "1.5")])
         .expect("a key");
     let free = ["wear.coefficient", "wear.stress_exponent"].map(str::to_owned);
     let fit = Fit::new(with_power, scar(), &free, Options::default()).expect("a fit");

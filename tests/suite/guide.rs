@@ -9,7 +9,7 @@ use std::process::Command;
 
 use mdr_tui::guide::TOPICS;
 use mdr_tui::scenario::Scenario;
-use mdr_tui::scenario::schema::{Default, Kind, Parameter, parameters};
+use mdr_tui::scenario::key::{Default, Key, Kind, Parameter};
 use mdr_tui::tui::command::{COMMANDS, Row};
 use mdr_tui::tui::manual;
 
@@ -297,7 +297,7 @@ fn the_default_configuration_is_shown_as_it_is() {
 fn the_keys_of_a_scenario_are_those_of_the_schema() {
     let mut text = String::new();
     let mut section = None;
-    for parameter in parameters() {
+    for parameter in Key::all() {
         if section != Some(parameter.section()) {
             section = Some(parameter.section());
             let heading = match parameter.section() {
@@ -307,7 +307,7 @@ fn the_keys_of_a_scenario_are_those_of_the_schema() {
             };
             text += &format!("\n### {heading}\n\n| key | meaning | default |\n|---|---|---|\n");
         }
-        text += &row(parameter);
+        text += &row(&parameter);
     }
     text += "\n";
     hold(&root().join("src/guide/scenarios.md"), "schema", &text);

@@ -5,10 +5,10 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use mdr_tui::scenario::{Change, checkpoint};
+use mdr_tui::scenario::checkpoint;
 use serde::de::IgnoredAny;
 
-use crate::common::load;
+use crate::common::{load, planned};
 use crate::random::Random;
 use crate::test_dir::{TestDir, bits, end, has, kill, names, signal};
 
@@ -19,7 +19,7 @@ fn scenario() -> String {
         (7.25, "numerics.method", "product"),
         (11.5, "numerics.points", "71"),
     ];
-    let changes = changes.map(|(at, key, value)| Change::new(at, key, value));
+    let changes = changes.map(|(at, key, value)| planned(at, key, value));
     let scenario = load("li2019-fig3", &["numerics.points=60", "run.snapshot_at=[]"]);
     scenario.with_changes(changes.to_vec()).to_toml()
 }

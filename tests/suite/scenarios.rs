@@ -6,14 +6,14 @@ use std::path::Path;
 
 use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::session::Session;
-use mdr_tui::scenario::{Change, RunPlan, Scenario, preset};
+use mdr_tui::scenario::{RunPlan, Scenario, preset};
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::simulation::{Scheme, Simulation, Spacing};
 use mdr_tui::wear::{Form, Law};
 use proptest::prelude::*;
 use strum::VariantNames;
 
-use crate::common::{again, begin, change, load, near, ran, refused, try_load, volume};
+use crate::common::{again, begin, change, load, near, planned, ran, refused, try_load, volume};
 use crate::test_dir::{has, names};
 
 fn fixtures(kind: &str) -> Vec<(String, String)> {
@@ -72,7 +72,7 @@ fn every_preset_and_valid_fixture_presses_its_contact_and_reads_back() {
 #[test]
 fn an_accuracy_chooses_the_integrator_whatever_numbers_stood_there() {
     let fig3 = load("li2019-fig3", &[]);
-    let set = |assignments: &[(&str, &str)]| fig3.with_all(assignments).expect("a scenario");
+    let set = |assignments: &[(&str, &str)]| fig3.assigned(assignments).expect("a scenario");
     let integrator = "numerics.integrator";
     assert!(fig3.value(integrator).is_some());
     let accurate = ("numerics.accuracy", "1e-2");
@@ -91,7 +91,7 @@ fn another_shape_drops_the_size_of_the_one_before() {
     assert_eq!(scenario.setup().indenter.name(), "cone");
     assert_eq!(scenario.value("indenter.radius"), None);
     let both = [("indenter.shape", "cone"), ("indenter.angle", "0.02")];
-    assert_eq!(load("li2019-fig3", &[]).with_all(&both), Ok(scenario));
+    assert_eq!(load("li2019-fig3", &[]).assigned(&both), Ok(scenario));
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn the_radius_of_a_punch_is_none_of_curvature() {
         ("indenter.radius", "1e-4"),
     ];
     for both in [[shape, size], [size, shape]] {
-        let punch = wide.with_all(&both).expect("a punch");
+        let punch = wide.assigned(&both).expect("a punch");
         assert_eq!(punch.setup().indenter.rim(), Some(1e-4));
         assert_eq!(punch.setup().grid.radius(), 1e-4);
     }
@@ -114,11 +114,11 @@ fn the_radius_of_a_punch_is_none_of_curvature() {
         ("indenter.shape", "truncated-paraboloid"),
         ("indenter.tip_radius", "2e-5"),
     ];
-    let cut = load("li2019-fig3", &[]).with_all(&cut).expect("a flat tip");
+    let cut = load("li2019-fig3", &[]).assigned(&cut).expect("a flat tip");
     assert_eq!(cut.value("indenter.radius"), Some("0.01".into()));
     let edge = (2.0 * 0.01 * 1.1e-6 + 4e-10f64).sqrt();
     near("domain", cut.setup().grid.radius(), edge, 1e-14);
-    let whole = cut.with("indenter.shape", "paraboloid");
+    let whole = cut.assigned(&[("indenter.shape", "paraboloid")]);
     assert_eq!(whole, Ok(load("li2019-fig3", &[])));
 }
 
@@ -138,11 +138,11 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
             continue;
         }
         for method in AbelMethod::for_geometry(scenario.setup().geometry) {
-            let changed = scenario.with("numerics.method", method.name());
+            let changed = scenario.assigned(&[("numerics.method", method.name())]);
             let changed = changed.expect("a method");
             let setup = changed.setup();
             assert_eq!((setup.spacing, setup.scheme), choices(method), "{method}");
-            let read = again(&scenario).with("numerics.method", method.name());
+            let read = again(&scenario).assigned(&[("numerics.method", method.name())]);
             assert_eq!(read.as_ref(), Ok(&changed), "{}: {method}", preset.name);
             assert_eq!(read.expect("a method").to_toml(), changed.to_toml());
             let text = changed.to_toml();
@@ -163,7 +163,7 @@ fn grid_and_scheme_follow_the_method_unless_they_are_given() {
             ];
             let given = load("hertz", &[&given[0], &given[1]]);
             for method in AbelMethod::ALL {
-                let changed = again(&given).with("numerics.method", method.name());
+                let changed = again(&given).assigned(&[("numerics.method", method.name())]);
                 let changed = changed.expect("a method");
                 let setup = changed.setup();
                 assert_eq!((setup.spacing, setup.scheme), (spacing, scheme), "{method}");
@@ -194,10 +194,12 @@ fn a_run_that_changed_its_method_replays_to_the_same_bits() {
 #[test]
 fn a_key_changed_follows_the_same_rules() {
     let scenario = load("li2019-fig3", &[]);
-    let changed = scenario.with("numerics.method", "\"b\"").expect("a method");
+    let changed = scenario
+        .assigned(&[("numerics.method", "\"b\"")])
+        .expect("a method");
     assert_eq!(changed.setup().method.name(), "b");
     let method = scenario.setup().method.name();
-    let back = changed.with("numerics.method", method);
+    let back = changed.assigned(&[("numerics.method", method)]);
     assert_eq!(back, Ok(scenario.clone()));
     for (key, value, why) in [
         ("material.poisson", "0.7", "must be from 0 to 0.5"),
@@ -207,7 +209,7 @@ fn a_key_changed_follows_the_same_rules() {
             "unknown key points; did you mean numerics.points?",
         ),
     ] {
-        let error = scenario.with(key, value).expect_err("a refusal");
+        let error = scenario.assigned(&[(key, value)]).expect_err("a refusal");
         assert_eq!(error.to_string(), format!("{key} = {value}: {why}"));
     }
 }
@@ -215,7 +217,9 @@ fn a_key_changed_follows_the_same_rules() {
 #[test]
 fn the_law_can_be_switched_there_and_back() {
     let archard = load("li2019-fig3", &[]);
-    let power = archard.with("wear.law", "\"power\"").expect("a law");
+    let power = archard
+        .assigned(&[("wear.law", "\"power\"")])
+        .expect("a law");
     let law = power.setup().wear.expect("a law");
     let Form::Power(powers) = law.form() else {
         panic!("the power law");
@@ -230,10 +234,13 @@ fn the_law_can_be_switched_there_and_back() {
     let given = load("power-law", &["wear.reference_stress=1e8"]);
     for law in Law::VARIANTS {
         for scenario in [&archard, &given] {
-            let other = scenario.with("wear.law", law).expect("a law");
+            let other = scenario.assigned(&[("wear.law", law)]).expect("a law");
             assert_eq!(other.setup().wear.map(|law| law.name()), Some(*law));
             let before = scenario.setup().wear.expect("a law").name();
-            assert_eq!(other.with("wear.law", before).as_ref(), Ok(scenario));
+            assert_eq!(
+                other.assigned(&[("wear.law", before)]).as_ref(),
+                Ok(scenario)
+            );
         }
     }
 }
@@ -266,8 +273,8 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
         stated: None,
     };
     let changes = vec![
-        Change::new(1.0, "numerics.method", "\"b\""),
-        Change::new(2.75, "wear.law", "power"),
+        planned(1.0, "numerics.method", "\"b\""),
+        planned(2.75, "wear.law", "power"),
     ];
     let scenario = load("li2019-fig3", &[])
         .with_run(plan.clone())
@@ -291,7 +298,9 @@ fn a_run_written_out_keeps_its_plan_and_its_changes() {
 fn an_accuracy_is_no_number_of_cells_and_steps() {
     let asked = load("li2019-fig3", &["numerics.accuracy=1e-3"]);
     assert_eq!(again(&asked), asked);
-    let by_hand = asked.with("numerics.points", "50").expect("by hand");
+    let by_hand = asked
+        .assigned(&[("numerics.points", "50")])
+        .expect("by hand");
     assert_eq!(again(&by_hand), by_hand);
     // Without numbers there is no run, and during one it cannot change.
     let told = Session::start(asked).expect_err("no points and steps");
@@ -400,10 +409,10 @@ proptest! {
         assignments.extend(scheme.map(|scheme| ("numerics.scheme", Scheme::ALL[scheme].to_string())));
         let assignments: Vec<(&str, &str)> = assignments.iter().map(|(key, value)| (*key, value.as_str())).collect();
         let scenario = load(preset::ALL[preset].name, &[])
-            .with_all(&assignments)
+            .assigned(&assignments)
             .map_err(|error| TestCaseError::fail(error.to_string()))?
             .with_run(RunPlan { cycles, snapshot_at, ..RunPlan::default() })
-            .with_changes(vec![Change::new(at_cycle, "friction.coefficient", &number(phase.abs()))]);
+            .with_changes(vec![planned(at_cycle, "friction.coefficient", &number(phase.abs()))]);
         let text = scenario.to_toml();
         let read = Scenario::from_toml(&text, scenario.origin(), &[])
             .map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
@@ -411,7 +420,7 @@ proptest! {
         prop_assert_eq!(read.title(), scenario.title());
         prop_assert_eq!(read.to_toml(), text);
         let other = methods[other % methods.len()].name();
-        prop_assert_eq!(read.with("numerics.method", other), scenario.with("numerics.method", other));
+        prop_assert_eq!(read.assigned(&[("numerics.method", other)]), scenario.assigned(&[("numerics.method", other)]));
         prop_assert!(!scenario.title().contains(char::is_control));
     }
 

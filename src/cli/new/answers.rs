@@ -8,8 +8,9 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use toml::Value;
 
-use crate::scenario::schema;
-use crate::scenario::{Refusal, Scenario, units, values, write};
+use crate::scenario::key::{Key, join};
+use crate::scenario::value::literal;
+use crate::scenario::{Refusal, Scenario, units, write};
 
 /// The contents of `questions.toml`.
 #[derive(Deserialize)]
@@ -117,12 +118,12 @@ pub struct Quantity {
 /// Reads the value of a key; a bare number has the unit `unit`.
 fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
     let text = text.trim();
-    let known = schema::find(key).expect("a key of the table");
+    let known = Key::find(key).expect("a key of the table");
     let text = match text.parse::<f64>() {
         Ok(_) => format!("{text} {unit}").trim_end().to_owned(),
         Err(_) => text.to_owned(),
     };
-    let with_unit = units::quantity(&text, known, unit == "N");
+    let with_unit = units::quantity(&text, &known, unit == "N");
     let value = match (with_unit, text.parse::<f64>()) {
         (Some(value), _) => value?,
         (None, Ok(value)) if value.is_finite() => value,
@@ -163,7 +164,7 @@ impl Draft {
     /// Sets the keys of the body that a question is about.
     pub fn body(&mut self, question: &Question, body: &Body) {
         let mut set = |key: &str, value: Value, note: &str| {
-            self.set(&values::join(&question.key, key), value, note);
+            self.set(&join(&question.key, key), value, note);
         };
         match &body.elastic {
             None => set("rigid", true.into(), ""),
@@ -186,7 +187,7 @@ impl Draft {
     pub fn to_toml(&self) -> String {
         write::sections(|known| {
             let (value, note) = self.0.get(known.path)?;
-            let row = format!("{} = {}", known.key(), values::literal(value));
+            let row = format!("{} = {}", known.key(), literal(value));
             Some(if note.is_empty() {
                 row
             } else {

@@ -32,7 +32,7 @@ impl<'a> Job<'a> {
             None => new_directory(&scenario)?,
         };
         if scenario.run().cycles == Some(job.cycles) {
-            job.statements = scenario.statements();
+            job.errors = scenario.errors().unwrap_or_default();
         }
         if scenario.accuracy().is_some() {
             let (end, budget) = (
@@ -44,7 +44,7 @@ impl<'a> Job<'a> {
             });
             let found = found.with_context(|| printable(name))?;
             scenario = found.scenario;
-            job.statements = found.statements;
+            job.errors = found.errors;
         }
         job = job.identify(&scenario);
         let session = Session::start(scenario).with_context(|| printable(name))?;
@@ -107,7 +107,7 @@ impl<'a> Job<'a> {
         job: RunJob,
         directory: RunDirectory,
     ) -> Self {
-        session.state(job.statements.clone());
+        session.state(job.errors.clone());
         let home = Some(directory.clone());
         let safe = Safe {
             checkpoints: Autosave::new(home, own_directory::state(), options.checkpoint_every),

@@ -21,6 +21,7 @@ use crate::export::header::{self, number};
 use crate::export::run_directory::RunDirectory;
 use crate::export::{field, last_loop, state};
 use crate::panics::locked;
+use crate::reading::Errors;
 use crate::scenario::checkpoint;
 use crate::scenario::session::{Session, SessionError};
 
@@ -234,12 +235,12 @@ impl Job<'_> {
     /// Estimates the error at the end for the headers of the files, unless a search for an accuracy has already stated
     /// it.
     fn estimate(&mut self, go_on: &dyn Fn() -> bool) {
-        if !self.job.statements.is_empty() {
+        if self.job.errors != Errors::default() {
             return;
         }
         match accuracy::estimated(&self.session, go_on) {
-            Ok(statements) => {
-                self.session.state(statements);
+            Ok(errors) => {
+                self.session.state(errors);
                 self.update_snapshot_headers();
             }
             Err(word) => complain(&word),
@@ -249,8 +250,10 @@ impl Job<'_> {
     /// Copies the errors stated at the end into the snapshots' headers, as if the run's `scenario.toml` had been run
     /// again.
     fn update_snapshot_headers(&mut self) {
-        let line = |(key, value): &(String, String)| header::line(key, value);
-        let stated: String = self.session.statements().iter().map(line).collect();
+        let lines = self.session.errors().entries();
+        let stated: String = lines
+            .map(|(key, value)| header::line(key, &value))
+            .collect();
         for name in self.job.snapshots.iter().map(file_of) {
             let is_owed = self.owed.iter().any(|(owed, _)| *owed == name);
             let written = fs::read_to_string(self.directory.path().join(&name));

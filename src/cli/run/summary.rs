@@ -7,7 +7,7 @@ use anyhow::Result;
 
 use super::Job;
 use crate::export::header::{self, number};
-use crate::reading::{Column, Quantity, verdict};
+use crate::reading::{Quantity, verdict};
 use crate::scenario::scalars::Value;
 use crate::scenario::session::Session;
 use crate::scenario::{escape, printable};
@@ -63,20 +63,14 @@ impl Job<'_> {
         let residual = residual.map(|of| format!("{of:.1e}   (1 - V/(k E_d))"));
         lines.extend(residual.map(|residual| ("energy residual", residual)));
         let error = "estimated error";
-        let stated = self.session.statements().iter();
-        if volume > 0.0
-            && stated
-                .clone()
-                .all(|(key, _)| key != Column::WornDepthError.name())
-        {
+        let stated = self.session.errors();
+        if volume > 0.0 && stated.get(Quantity::WornDepth).is_none() {
             lines.push((error, "not run (--estimate-error measures it)".into()));
         }
-        for (key, value) in stated {
-            let mut quantities = Quantity::ALL.iter();
-            let of = quantities.find(|quantity| quantity.column().name() == key);
-            let name = |of: &Quantity| setup.geometry.term(of.name());
-            lines.extend(of.map(|of| (error, format!("{value}   of {}", name(of)))));
-        }
+        lines.extend(Quantity::ALL.iter().filter_map(|&of| {
+            let (value, name) = (stated.get(of)?, setup.geometry.term(of.name()));
+            Some((error, format!("{value:.1e}   of {name}")))
+        }));
         if let Some(verdict) = verdict(&self.session.checks()) {
             lines.push(("checks", verdict.trim_start_matches("checks ").to_owned()));
         }

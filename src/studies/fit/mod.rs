@@ -29,7 +29,7 @@ use anyhow::{Result, anyhow, ensure};
 
 use crate::reading::Column;
 use crate::scenario::session::SessionError;
-use crate::scenario::{MOST_CYCLES, Refusal, Scenario};
+use crate::scenario::{MOST_CYCLES, Refusal, Scenario, value};
 use crate::studies::measured::{Measured, check_radii};
 use crate::traces::Axes;
 use search::{Found, Search};
@@ -209,9 +209,11 @@ impl Fit {
 
     /// `scenario` with these values of the keys.
     fn at(&self, scenario: &Scenario, theta: &[f64]) -> Result<Scenario, SessionError> {
-        let keys = self.free.iter().zip(theta);
-        let values = keys.map(|(free, theta)| (free.key.as_str(), free.value(*theta)));
-        Ok(scenario.with_numbers(values)?)
+        Ok(scenario.edited(|spec| {
+            for (free, theta) in self.free.iter().zip(theta) {
+                spec.set(free.key, value::Value::Number(free.value(*theta)));
+            }
+        })?)
     }
 }
 

@@ -123,11 +123,11 @@ impl Fitted {
             if is_known && search.fit.scenario.accuracy().is_some() && numerical > Some(error) {
                 remarks.push(format!(
                     "{}: the numerical error exceeds the statistical one; a smaller numerics.accuracy lowers it",
-                    free.key
+                    free.key.path
                 ));
             }
             let numerical_error = numerical.map(|numerical| free.error(theta, numerical));
-            let (key, unit) = (free.key.clone(), free.unit);
+            let (key, unit) = (free.key.path.to_owned(), free.unit);
             if let Some(told) = intervals[i].and_then(|ends| limits(&key, unit, ends)) {
                 remarks.push(told);
             } else if at_bound {
@@ -142,7 +142,7 @@ impl Fitted {
                 ));
             }
             let others = keys.iter().enumerate().filter(|(j, _)| *j != i);
-            let others = others.map(|(j, other)| (other.key.clone(), correlation(i, j)));
+            let others = others.map(|(j, other)| (other.key.path.to_owned(), correlation(i, j)));
             for (other, correlation) in others.clone().take(i) {
                 if correlation.abs() > ALIKE {
                     alike.push(format!(

@@ -1,9 +1,9 @@
 //! The search for the minimum.
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSuccess};
 
-use crate::scenario::schema::{self, Kind, Range};
+use crate::scenario::key::{Key, Kind, Range};
 use crate::scenario::{Refusal, Scenario, units};
 
 /// Maximum range of a positive key, in e-folds.
@@ -22,8 +22,8 @@ const HOPELESS: f64 = 1e6;
 /// A fitted key.
 #[derive(Debug, Clone)]
 pub(super) struct Free {
-    /// The dotted path.
-    pub key: String,
+    /// The key.
+    pub key: Key,
     /// Its unit.
     pub unit: &'static str,
     /// Fitted by its logarithm.
@@ -41,11 +41,7 @@ impl Free {
     /// A key that is unknown, is no physical number, or has no value to start from.
     pub fn new(scenario: &Scenario, key: &str) -> Result<Self> {
         let refused = |rule: &str| Refusal::from(format!("{key} {rule}"));
-        let Some(parameter) = schema::find(key) else {
-            // The scenario's own words for a key that is unknown.
-            scenario.with(key, "1.0")?;
-            bail!(Refusal::new(key, "no such key"));
-        };
+        let parameter = Key::named(key, key)?;
         let rule = "is not a number that can be fitted";
         ensure!(parameter.kind == Kind::Number, refused(rule));
         let is_physical = !["run", "changes", "numerics"].contains(&parameter.section());
@@ -72,8 +68,8 @@ impl Free {
             (start, [least.max(reach[0]), most.min(reach[1])])
         };
         Ok(Self {
-            key: key.to_owned(),
-            unit: units::unit_of(parameter, scenario.prescribes_force(key)),
+            key: parameter,
+            unit: units::unit_of(&parameter, scenario.prescribes_force(key)),
             positive,
             start,
             bounds,
@@ -211,7 +207,7 @@ mod tests {
     #[test]
     fn a_range_is_kept_and_its_end_is_told() {
         let free = [Free {
-            key: "a".into(),
+            key: Key::find("wear.coefficient").expect("a key"),
             unit: "",
             positive: false,
             start: 0.3,

@@ -8,7 +8,8 @@ use super::level::{Level, at_steps};
 use super::outcome::{Difference, Outcome};
 use super::rung::run;
 use crate::scenario::session::{Session, SessionError};
-use crate::scenario::{Change, Scenario, Spec};
+use crate::scenario::value::Value;
+use crate::scenario::{Change, Scenario};
 use crate::simulation::Spacing;
 
 /// Minimum cells and steps for a useful twin.
@@ -73,17 +74,21 @@ fn twin_of(session: &Session, factor: f64) -> Result<Scenario, SessionError> {
         level.nodes = Some(setup.grid.clone());
     }
     let whole = |number: f64, least: f64| (number * factor).round().max(least);
-    let changes = session.changes().iter().map(|change| {
-        change.edited(|Spec { numerics, .. }| {
-            let points = |points| whole(points as f64, 8.0) as usize;
-            numerics.points = numerics.points.map(points);
-            let steps = |steps| whole(f64::from(steps), 4.0) as u32;
-            numerics.steps_per_cycle = numerics.steps_per_cycle.map(steps);
-            let tolerance = |before| at_steps(before, factor);
-            numerics.tolerance = numerics.tolerance.map(tolerance);
-        })
-    });
-    let changes: Vec<Change> = changes.collect();
+    let mut changes = session.changes().to_vec();
+    for Change { key, value, .. } in &mut changes {
+        match (key.path, value) {
+            ("numerics.points", Value::Whole(points)) => {
+                *points = whole(*points as f64, 8.0) as i64
+            }
+            ("numerics.steps_per_cycle", Value::Whole(steps)) => {
+                *steps = whole(*steps as f64, 4.0) as i64;
+            }
+            ("numerics.tolerance", Value::Number(tolerance)) => {
+                *tolerance = at_steps(*tolerance, factor);
+            }
+            _ => {}
+        }
+    }
     let scenario = level.scaled(factor, factor).of_scenario(loaded)?;
     Ok(scenario.with_changes(changes))
 }

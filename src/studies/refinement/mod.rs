@@ -16,5 +16,5 @@ pub use estimate::{estimate, twin};
 pub use ladder::{Reached, SearchError, Verdict, climb, run_to_accuracy};
 pub use level::Level;
 pub use outcome::{Difference, Outcome, difference_per_error};
-pub use resolve::{Resolved, resolve, resolve_soon, statements_of};
+pub use resolve::{Resolved, resolve, resolve_soon};
 pub use rung::{Rung, run};

@@ -8,7 +8,7 @@ use crate::math::abel::worn;
 use crate::math::grid::RadialGrid;
 use crate::math::quadrature::weighted;
 use crate::math::scan::{largest, rms};
-use crate::reading::Quantity;
+use crate::reading::{Errors, Quantity};
 use crate::scenario::session::Session;
 use crate::simulation::Simulation;
 
@@ -128,6 +128,11 @@ impl Difference {
     /// Returns the largest error of the quantities that an accuracy guarantees; NaN if one of them is NaN.
     pub fn promised(&self) -> f64 {
         self.worst(Quantity::is_promised)
+    }
+
+    /// Returns these errors for the files of a run; if nothing has worn, the errors of wear mean nothing.
+    pub fn stated(&self, has_worn: bool) -> Errors {
+        Errors::new(|of| (has_worn || !of.is_of_wear()).then(|| self[of]))
     }
 
     /// Returns the largest error of the quantities of wear.

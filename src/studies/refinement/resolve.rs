@@ -3,8 +3,7 @@
 use super::budget::Budget;
 use super::ladder::{Reached, SearchError, Verdict, run_to_accuracy};
 use super::level::Level;
-use super::outcome::Difference;
-use crate::reading::Quantity;
+use crate::reading::Errors;
 use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::Passage;
 use crate::scenario::{Scenario, USUAL_ACCURACY};
@@ -23,8 +22,8 @@ const WATCHED: f64 = 1e4;
 pub struct Resolved {
     /// The scenario, ready to run.
     pub scenario: Scenario,
-    /// Statements for the headers of its files: keys and values.
-    pub statements: Vec<(String, String)>,
+    /// The errors that its files state.
+    pub errors: Errors,
     /// One line if the accuracy is not met.
     pub warning: Option<String>,
     /// Estimated error of a scar, if it exceeds the requested accuracy.
@@ -38,7 +37,7 @@ impl Resolved {
     fn as_given(scenario: Scenario) -> Self {
         Self {
             scenario,
-            statements: Vec::new(),
+            errors: Errors::default(),
             warning: None,
             missed_by: None,
             ended: None,
@@ -76,15 +75,17 @@ fn search(
     };
     let cycles = cycles.or(scenario.run().cycles).unwrap_or(WITHOUT_END);
     let reached = run_to_accuracy(scenario, cycles, accuracy, budget, go_on)?;
-    let mut statements = vec![("accuracy".to_owned(), format!("{accuracy:e}"))];
     let has_worn = reached.verdict != Verdict::Unworn;
-    statements.extend(statements_of(&reached.error, has_worn));
     let warning = unmet(&reached, accuracy, budget);
     let is_missed = !matches!(reached.verdict, Verdict::Met | Verdict::Unworn);
-    statements.extend(warning.clone().map(|word| ("warning".to_owned(), word)));
+    let errors = Errors {
+        accuracy: Some(accuracy),
+        warning: warning.clone(),
+        ..reached.error.stated(has_worn)
+    };
     Ok(Resolved {
         scenario: reached.rung.session.loaded().clone(),
-        statements,
+        errors,
         warning,
         missed_by: is_missed.then(|| error_of(&reached)),
         ended: Some(reached.rung.session),
@@ -127,7 +128,10 @@ fn unverified(
         in_time(budget)
     );
     Ok(Resolved {
-        statements: vec![("warning".to_owned(), warning.clone())],
+        errors: Errors {
+            warning: Some(warning.clone()),
+            ..Errors::default()
+        },
         warning: Some(warning),
         missed_by: Some(f64::INFINITY),
         ..Resolved::as_given(level.of_scenario(scenario)?)
@@ -146,15 +150,6 @@ fn in_time(budget: Budget) -> String {
 fn is_watched(scenario: &Scenario) -> bool {
     let is_open = scenario.accuracy().is_some() && scenario.spec().numerics.integrator.is_none();
     is_open && scenario.run().cycles.is_none_or(|cycles| cycles < WATCHED)
-}
-
-/// Formats estimated errors for the headers of files; if nothing has worn, the errors of wear mean nothing.
-pub fn statements_of(error: &Difference, has_worn: bool) -> Vec<(String, String)> {
-    let stated = Quantity::ALL
-        .iter()
-        .filter(|of| has_worn || !of.is_of_wear());
-    let stated = stated.map(|&of| (of.column().name().to_owned(), format!("{:.1e}", error[of])));
-    stated.collect()
 }
 
 /// Explains why an accuracy was not met, if so.

@@ -4,9 +4,10 @@ use toml::Value;
 
 use super::design::Spacing;
 use crate::math::scale::Scale;
+use crate::scenario::Refusal;
+use crate::scenario::key::{Key, Kind};
 use crate::scenario::scalars::number;
-use crate::scenario::schema::{self, Kind};
-use crate::scenario::{Refusal, hints, printable, values};
+use crate::scenario::value;
 
 /// A key that a study varies.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +79,7 @@ impl StudyAxis {
 
     /// Returns the value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
-        values::number(&self.value(index))
+        value::number(&self.value(index))
     }
 
     /// Returns the place of a value on the axis, between the indices of its neighbours, on the axis's scale. `None`
@@ -104,7 +105,7 @@ impl StudyAxis {
     /// Returns the assignments for `value`: the key's own value, then the tied keys' values.
     pub fn assignments(&self, value: &Value) -> Vec<(&str, String)> {
         let own = (self.key.as_str(), text(value));
-        let number = values::number(value);
+        let number = value::number(value);
         let tied = self.tied.iter().filter_map(|(key, factor)| {
             Some((key.as_str(), text(&value_of(key, number? * factor))))
         });
@@ -123,17 +124,12 @@ pub(super) fn text(value: &Value) -> String {
 
 /// Refuses an unknown key.
 pub(super) fn known_key(key: &str, place: &str) -> Result<(), Refusal> {
-    if schema::find(key).is_some() && !key.starts_with("changes") {
-        return Ok(());
-    }
-    let hint = hints::hint(key);
-    let key = printable(key);
-    Err(format!("{place}: unknown key {key}; {hint}").into())
+    Key::named(key, place).map(|_| ())
 }
 
 /// Converts a number to a value of `key`: an integer if the key takes whole numbers.
 pub(super) fn value_of(key: &str, value: f64) -> Value {
-    match schema::find(key).map(|parameter| parameter.kind) {
+    match Key::find(key).map(|parameter| parameter.kind) {
         Some(Kind::Whole) => Value::Integer(value.round() as i64),
         _ => Value::Float(value),
     }

@@ -123,7 +123,7 @@ fn begun(
         Some(ended) if *stop == Stop::default() => ended,
         _ => Session::start(found.scenario)?,
     };
-    session.state(found.statements);
+    session.state(found.errors);
     let status = match (found.missed_by, scenario.accuracy()) {
         (Some(reached), Some(asked)) => format!("{INACCURATE}{reached:.1e} instead of {asked:e}"),
         _ => OK.to_owned(),

@@ -13,9 +13,10 @@ use super::study::{Stop, Study};
 use crate::math::scale::Scale;
 use crate::reading::Column;
 use crate::scenario::blocks::flatten;
+use crate::scenario::key::Key;
 use crate::scenario::scalars::{self, number};
 use crate::scenario::{Refusal, Scenario, printable, typed};
-use crate::scenario::{preset, schema, units, values};
+use crate::scenario::{preset, units, value};
 
 /// The columns of a study that names none.
 const COLUMNS: [Column; 4] = [
@@ -223,7 +224,7 @@ fn numbers(
     keeps: fn(f64) -> bool,
 ) -> Result<Vec<(String, f64)>> {
     let values = flat(place, table)?.into_iter();
-    let values = values.map(|(key, value)| match values::number(&value) {
+    let values = values.map(|(key, value)| match value::number(&value) {
         Some(number) if keeps(number) => Ok((key, number)),
         _ => refuse(&format!("{place}.{key}"), value, rule),
     });
@@ -254,8 +255,8 @@ fn read_axis(
     // Texts may be numbers with units.
     for value in &mut list {
         let text = value.as_str().unwrap_or_default();
-        let quantity = |known| units::quantity(text, known, study.is_force(&key));
-        match schema::find(&key).and_then(quantity) {
+        let quantity = |known: Key| units::quantity(text, &known, study.is_force(&key));
+        match Key::find(&key).and_then(quantity) {
             Some(Ok(number)) => *value = Value::Float(number),
             Some(Err(rule)) => return refuse(&named, value, rule),
             None => {}
@@ -309,7 +310,7 @@ fn between(
         ([from, to, number], None) => (from, to, number.as_integer()),
         (_, None) => return refuse("must be [from, to, number]"),
     };
-    let (Some(from), Some(to)) = (values::number(from), values::number(to)) else {
+    let (Some(from), Some(to)) = (value::number(from), value::number(to)) else {
         return refuse("must begin with two finite numbers");
     };
     if spread == Scale::Log && from.min(to) <= 0.0 {
@@ -327,7 +328,7 @@ fn between(
 
 fn read_tied_keys(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
     if let Values::Listed(values) = values {
-        let are_numbers = values.iter().all(|value| values::number(value).is_some());
+        let are_numbers = values.iter().all(|value| value::number(value).is_some());
         let why = format!("{place}: needs an axis of numbers");
         ensure(table.is_empty() || are_numbers, why)?;
     }

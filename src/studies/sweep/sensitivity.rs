@@ -101,7 +101,7 @@ fn around(
     for (key, _, value) in keys {
         for place in PLACES {
             let value = number(value * (STEP * place).exp());
-            let scenario = fixed.with(key, &value);
+            let scenario = fixed.assigned(&[(key, &value)]);
             scenarios.push(scenario.map_err(|error| Refusal::new("sensitivity", error))?);
         }
     }

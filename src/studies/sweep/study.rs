@@ -9,9 +9,10 @@ use super::Design;
 use super::axis::{self, StudyAxis, known_key};
 use crate::reading::Column;
 use crate::scenario::escape::cell;
-use crate::scenario::values::{self, literal};
+use crate::scenario::key::{Key, join, split};
+use crate::scenario::value::literal;
 use crate::scenario::{Refusal, Scenario, printable};
-use crate::scenario::{draft, schema, units};
+use crate::scenario::{change, units};
 
 /// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
@@ -138,7 +139,7 @@ impl Study {
             _ => axis.assignments(&axis.value(place)),
         });
         let all: Vec<(&str, String)> = set.chain(axes).collect();
-        let scenario = self.base.with_all(&all)?;
+        let scenario = self.base.assigned(&all)?;
         if scenario.run().cycles.is_none() {
             let (name, key) = (self.base.origin(), "run.cycles");
             let meaning = "number of cycles per point; [set] \"run.cycles\" = 100 gives it";
@@ -150,12 +151,12 @@ impl Study {
     /// Returns the unit of an axis.
     pub fn unit(&self, axis: &StudyAxis) -> &'static str {
         let is_force = self.is_force(&axis.key);
-        schema::find(&axis.key).map_or("", |known| units::unit_of(known, is_force))
+        Key::find(&axis.key).map_or("", |known| units::unit_of(&known, is_force))
     }
 
     /// Whether the motion of `key` prescribes a force, by the settings for all points or by the base.
     pub(super) fn is_force(&self, key: &str) -> bool {
-        let control = self.set.get(&values::join(values::split(key).0, "control"));
+        let control = self.set.get(&join(split(key).0, "control"));
         match control {
             Some(control) => control.as_str() == Some("force"),
             None => self.base.prescribes_force(key),
@@ -169,7 +170,7 @@ impl Study {
     /// If the text is not an assignment, the key is unknown, or it is the key of an axis.
     pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
         let place = format!("--set {}", printable(set));
-        let (key, value) = draft::split(set, &place)?;
+        let (key, value) = change::split(set, &place)?;
         known_key(key, &place)?;
         let varied =
             |axis: &StudyAxis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);

@@ -2,7 +2,8 @@
 
 use crate::math::scale::Scale;
 use crate::reading::Column;
-use crate::scenario::{Refusal, Scenario, schema, units};
+use crate::scenario::key::Key;
+use crate::scenario::{Refusal, Scenario, units};
 use crate::studies::sweep::{Study, StudyAxis};
 
 /// Number of points.
@@ -51,10 +52,10 @@ impl Range {
             (Some((path, unit)), ..) | (None, Some((path, unit)), None) => (*path, *unit),
             _ => (key, ""),
         };
-        let known = schema::find(key);
+        let known = Key::find(key);
         let number = |text: &str| -> Option<f64> {
             let text = text.trim().trim_start_matches('.');
-            let with_unit = || units::quantity(text, known?, unit == "N")?.ok();
+            let with_unit = || units::quantity(text, &*known?, unit == "N")?.ok();
             let end = text.parse().ok().or_else(with_unit);
             end.filter(|end: &f64| end.is_finite())
         };

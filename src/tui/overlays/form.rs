@@ -4,10 +4,10 @@ use ratatui::layout::Constraint::{Fill, Length};
 use ratatui::layout::Layout;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use toml::Value;
 
 use super::Overlay;
 use crate::plot::theme::{Role, Theme};
+use crate::scenario::value::Value;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{self, Command};
 use crate::tui::explorer::Explorer;
@@ -56,7 +56,7 @@ impl Form {
     /// Returns the settings that pass the filter.
     fn fitting<'a>(&self, settings: &'a [Setting]) -> Vec<&'a Setting> {
         let fits = |of: &&Setting| {
-            let known = of.parameter;
+            let known = of.key;
             self.filter
                 .fits(&[known.path, known.meaning, known.effect].join(" "))
         };
@@ -183,7 +183,7 @@ impl Form {
         let rows = [Fill(1), Length(told.min(inside.area.height))];
         let [above, below] = Layout::vertical(rows).areas(inside.area);
         let room = if is_narrow { BRIEF } else { KEYS };
-        let key = |setting: &Setting| key(setting.parameter.path, room);
+        let key = |setting: &Setting| key(setting.key.path, room);
         let mut lines: Vec<Line> = settings
             .iter()
             .map(|of| value(key(of), of, &theme))
@@ -251,18 +251,18 @@ fn describe(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'s
         (Some(text), _) => Span::styled(theme.printable(text), theme.style(Role::Notice)),
         (None, Some(because)) => Span::styled(because, quiet),
         (None, None) => {
-            let (kind, allowed) = (setting.parameter.kind, setting.parameter.allowed());
+            let (kind, allowed) = (setting.key.kind, setting.key.allowed());
             Span::styled(format!("must be {}{allowed}", kind.wanted()), quiet)
         }
     };
     vec![
-        Line::raw(setting.parameter.meaning),
+        Line::raw(setting.key.meaning),
         Line::from(told),
-        Line::styled(setting.parameter.effect, quiet),
+        Line::styled(setting.key.effect, quiet),
     ]
 }
 
 fn change(setting: &Setting, value: String, explorer: &mut Explorer) {
-    let key = setting.parameter.path;
+    let key = setting.key.path;
     explorer.order(Order::ChangeBeside(changes::set(key, value)));
 }

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span, Text};
 
 use crate::guide::Topic;
 use crate::plot::theme::Role;
-use crate::scenario::nearest::nearest;
+use crate::scenario::hint::nearest;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{Act, COMMANDS, Command, Row};
 use crate::tui::completion::{self, Completion};
@@ -94,7 +94,7 @@ impl Palette {
         let now = words.position(|word| now.as_deref() == Some(word));
         Self {
             at: now.unwrap_or(0),
-            ..Self::begun(&format!("set {}=", setting.parameter.path))
+            ..Self::begun(&format!("set {}=", setting.key.path))
         }
     }
 

@@ -29,7 +29,7 @@ const COARSEST: usize = 8;
 pub(in crate::tui) fn set(key: impl Into<String>, value: impl Into<String>) -> Change {
     let (key, value) = (key.into(), value.into());
     Box::new(move |run| {
-        run.change_all(&assignments(&key, &value))?;
+        run.assign(&assignments(&key, &value))?;
         Ok(at_cycle(run, &format!("{key} = {value}")))
     })
 }
@@ -70,7 +70,7 @@ pub(in crate::tui) fn refine(places: isize) -> Change {
 /// Edits the scenario of a run, and says what has changed.
 fn edit(run: &mut Session, edit: impl FnOnce(&mut Spec)) -> Result<String, SessionError> {
     let edits = run.edit(edit)?.into_iter();
-    let keys = edits.map(|(key, value)| format!("{key} = {}", value.trim_matches('"')));
+    let keys = edits.map(|(key, value)| format!("{} = {}", key.path, value.bare()));
     Ok(at_cycle(run, &keys.collect::<Vec<_>>().join(", ")))
 }
 

@@ -74,7 +74,7 @@ impl Worker {
                     return;
                 }
             }
-            let changed = change.map(|change| run.session.change(change.key(), change.value()));
+            let changed = change.map(|change| run.session.make(vec![change.clone()]));
             if self.screen.or_notice(changed.unwrap_or(Ok(()))).is_none() {
                 return;
             }

@@ -21,7 +21,7 @@ use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::plot::Marker;
 use mdr_tui::plot::theme::{Look, Theme};
 use mdr_tui::scenario::session::Session;
-use mdr_tui::scenario::{Scenario, preset};
+use mdr_tui::scenario::{Change, Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 use mdr_tui::studies::refinement::resolve_soon;
@@ -320,13 +320,13 @@ pub fn ran(scenario: Scenario, cycles: f64) -> Session {
 /// Changes a key of a session, which must take it.
 #[track_caller]
 pub fn change(session: &mut Session, key: &str, value: &str) {
-    session.change(key, value).expect("a change");
+    session.assign(&[(key, value)]).expect("a change");
 }
 
 /// What is said of a change that a session refuses.
 #[track_caller]
 pub fn refused(session: &mut Session, key: &str, value: &str) -> String {
-    let refusal = session.change(key, value);
+    let refusal = session.assign(&[(key, value)]);
     refusal.expect_err("a refusal").to_string()
 }
 
@@ -453,4 +453,9 @@ impl Explorer {
             }
         }
     }
+}
+
+/// A change of `key` to `value`, TOML or a bare word.
+pub fn planned(at_cycle: f64, key: &str, value: &str) -> Change {
+    Change::parse(at_cycle, &format!("{key} = {value}")).expect("a change")
 }

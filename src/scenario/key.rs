@@ -1,17 +1,23 @@
-//! Describes the keys of a scenario, and looks them up.
+//! The keys of a scenario.
 //!
-//! `keys.toml` describes each key once. That table serves the reader, the errors and their hints, `--set`, the form of
+//! `keys.toml` describes each key once. To add a key: its block there, and a field of that name in [`spec`](super::spec);
+//! what is made of it, in `setup`. The table serves the reader, the errors and their hints, `--set`, the form of
 //! the explorer, completion, written scenarios, the axes of figures and the documentation.
 
+use std::fmt;
+use std::ops::Deref;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
 
 pub use super::kind::{Default, Kind, Range, Word};
-use super::values::split;
 use crate::math::abel::AbelMethod;
 
-/// One key of a scenario.
+/// A key of a scenario.
+#[derive(Clone, Copy)]
+pub struct Key(&'static Parameter);
+
+/// What the table says of a key.
 #[derive(Debug, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Parameter {
@@ -139,41 +145,81 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
     toml::from_str(include_str!("keys.toml")).expect("the table of keys is whole")
 });
 
-/// Iterates over all keys, in the order of written scenarios.
-pub fn parameters() -> impl Iterator<Item = &'static Parameter> + Clone {
-    SCHEMA.keys.iter()
+impl Key {
+    /// Iterates over all keys, in the order of written scenarios.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        SCHEMA.keys.iter().map(Self)
+    }
+
+    /// Finds the key with this dotted path.
+    pub fn find(path: &str) -> Option<Self> {
+        Self::all().find(|key| key.path == path)
+    }
+
+    /// Returns a key that must exist.
+    pub(super) fn known(path: &str) -> Self {
+        Self::find(path).expect("a key of the table")
+    }
+
+    /// Iterates over the keys that an assignment to this one replaces or makes stale.
+    pub(super) fn displaces(self) -> impl Iterator<Item = Self> {
+        let twins = SCHEMA.exclusive.iter().filter(|of| of.are_twins);
+        let sides = twins.flat_map(|of| [(&of.keys, &of.others), (&of.others, &of.keys)]);
+        let sides = sides.filter(move |(keys, _)| keys.contains(&self.path));
+        let stale = SCHEMA.stale.iter();
+        let stale = stale.filter(move |of| of.keys.contains(&self.path));
+        let replaced = sides.flat_map(|(_, others)| others);
+        replaced
+            .chain(stale.map(|of| &of.dropped))
+            .map(|path| Self::known(path))
+    }
 }
 
-/// Returns the description of a key that must exist.
-pub(super) fn known(path: &str) -> &'static Parameter {
-    find(path).expect("a key of the table")
+impl Deref for Key {
+    type Target = Parameter;
+
+    fn deref(&self) -> &Parameter {
+        self.0
+    }
 }
 
-/// Finds the parameter with this dotted path.
-pub fn find(path: &str) -> Option<&'static Parameter> {
-    parameters().find(|parameter| parameter.path == path)
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        self.path == other.path
+    }
 }
 
-/// Whether `path` is a table that contains parameters, directly or in sub-tables.
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.path)
+    }
+}
+
+impl fmt::Debug for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// Whether `path` is a table that contains keys, directly or in sub-tables.
 pub(super) fn is_section(path: &str) -> bool {
-    parameters().any(|parameter| {
-        let rest = parameter.path.strip_prefix(path);
+    Key::all().any(|key| {
+        let rest = key.path.strip_prefix(path);
         rest.is_some_and(|rest| rest.starts_with('.'))
     })
 }
 
-/// The keys that an assignment to `path` replaces or makes stale.
-pub(super) fn replaced_by(path: &str) -> impl Iterator<Item = &'static str> {
-    let twins = SCHEMA.exclusive.iter().filter(|of| of.are_twins);
-    let sides = twins.flat_map(|of| [(&of.keys, &of.others), (&of.others, &of.keys)]);
-    let replaced = sides.filter(move |(keys, _)| keys.contains(&path));
-    let stale = SCHEMA
-        .stale
-        .iter()
-        .filter(move |of| of.keys.contains(&path));
-    let replaced = replaced.flat_map(|(_, others)| others.iter().copied());
-    let all: Vec<&str> = replaced.chain(stale.map(|of| of.dropped)).collect();
-    all.into_iter()
+/// Returns the dotted path of a key in the table at `path`.
+pub(crate) fn join(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_owned(),
+        path => format!("{path}.{key}"),
+    }
+}
+
+/// Splits a dotted path into its table and its key.
+pub(crate) fn split(path: &str) -> (&str, &str) {
+    path.rsplit_once('.').unwrap_or(("", path))
 }
 
 #[cfg(test)]
@@ -187,13 +233,11 @@ mod tests {
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
-        let shapes = known("indenter.shape").kind.words().expect("words");
-        for (i, parameter) in parameters().enumerate() {
+        let shapes = Key::known("indenter.shape").kind.words().expect("words");
+        for (i, parameter) in Key::all().enumerate() {
             assert!(!parameter.meaning.is_empty(), "{}", parameter.path);
             assert!(
-                parameters()
-                    .take(i)
-                    .all(|other| other.path != parameter.path),
+                Key::all().take(i).all(|other| other.path != parameter.path),
                 "{} stands twice",
                 parameter.path
             );
@@ -206,7 +250,7 @@ mod tests {
 
     #[test]
     fn defaults_are_values_of_their_own_key() {
-        for parameter in parameters() {
+        for parameter in Key::all() {
             if let Some(value) = parameter.default.value() {
                 let value =
                     crate::scenario::value::Value::read(&mut value.clone(), parameter, false);
@@ -217,7 +261,7 @@ mod tests {
 
     #[test]
     fn every_word_of_every_choice_has_a_meaning() {
-        for parameter in parameters() {
+        for parameter in Key::all() {
             if let Kind::Choice(words) = parameter.kind {
                 for Word { word, .. } in words {
                     let meaning = parameter.meaning_of(word).unwrap_or_default();
@@ -237,18 +281,18 @@ mod tests {
             ("numerics.stability", Stability::VARIANTS),
             ("numerics.integrator", Integrator::NAMES),
         ] {
-            let known = find(path).expect("a key");
+            let known = Key::find(path).expect("a key");
             assert_eq!(known.kind.words().as_deref(), Some(names), "{path}");
         }
-        let points = find("numerics.points").expect("a key").range;
+        let points = Key::find("numerics.points").expect("a key").range;
         assert_eq!(points, Range::Within(MIN_CELLS as f64, MAX_CELLS as f64));
-        let cycles = find("run.cycles").expect("a key").range;
+        let cycles = Key::find("run.cycles").expect("a key").range;
         assert_eq!(cycles, Range::Within(0.0, MOST_CYCLES));
-        let snapshots = find("run.snapshot_at").expect("a key").most;
+        let snapshots = Key::find("run.snapshot_at").expect("a key").most;
         assert_eq!(snapshots, Some(MOST_SNAPSHOTS));
         // Both directions of the motion have the same keys, except for the rig and the gauge.
         let of = |section: &'static str| {
-            let keys = parameters().filter(move |known| known.section() == section);
+            let keys = Key::all().filter(move |known| known.section() == section);
             keys.filter(|known| !["rig_stiffness", "gauge_length"].contains(&known.key()))
         };
         for (normal, tangential) in of("motion.normal").zip(of("motion.tangential")) {
@@ -258,7 +302,7 @@ mod tests {
             assert_eq!(normal.range, tangential.range);
         }
         assert_eq!(
-            find("motion.normal.mean").map(|known| known.unit),
+            Key::find("motion.normal.mean").map(|known| known.unit),
             Some(PRESCRIBED)
         );
     }

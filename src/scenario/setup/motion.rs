@@ -1,0 +1,124 @@
+//! Builds the motion from the keys of a scenario: both directions, and the rig.
+
+use std::f64::consts::TAU;
+
+use super::{Faults, NORMAL, Spec, TANGENTIAL};
+use crate::scenario::key::join;
+use crate::scenario::spec::{self, Direction, Wave};
+use crate::simulation::drive::{Control, Drive, Oscillation};
+use crate::simulation::waveform::{Tabled, Waveform};
+
+/// Maximum number of periods of the normal motion per cycle.
+const HIGHEST_RATIO: f64 = 1000.0;
+
+impl Direction {
+    /// Returns the angular frequency, rad/s, if it or the frequency is given.
+    fn in_rad_per_s(&self) -> Option<f64> {
+        let hertz = self.frequency.map(|hertz| TAU * hertz);
+        self.angular_frequency.or(hertz)
+    }
+}
+
+/// Builds both directions of the motion, with the rig.
+pub(super) fn drive(spec: &Spec, faults: &mut Faults) -> Option<Drive> {
+    let (normal, tangential) = (&spec.motion.normal, spec.motion.tangential.as_ref());
+    let usual = &Spec::usual().motion;
+    let drive = control(spec, faults, NORMAL, [normal, &usual.normal], tangential);
+    let sideways = tangential.zip(usual.tangential.as_ref());
+    let sideways = sideways
+        .map(|(given, usual)| control(spec, faults, TANGENTIAL, [given, usual], Some(normal)));
+    let drive = drive?;
+    if drive.oscillation().highest() <= 0.0 {
+        let rule = "never touches; mean + amplitude must be greater than 0";
+        return faults.refuse(spec, "motion.normal.mean", rule);
+    }
+    let sideways = match sideways {
+        Some(made) => Some(made?),
+        None => None,
+    };
+    let frequency = |control: &Control| control.oscillation().angular_frequency();
+    let cycle = sideways.as_ref().map(frequency);
+    if cycle.is_some_and(|cycle| frequency(&drive) > HIGHEST_RATIO * cycle) {
+        let rule = format!(
+            "must be at most {HIGHEST_RATIO} times motion.tangential.angular_frequency, \
+             whose period is the cycle"
+        );
+        let given = match normal.frequency {
+            Some(_) => "motion.normal.frequency",
+            None => "motion.normal.angular_frequency",
+        };
+        return faults.refuse(spec, given, rule);
+    }
+    let drive = Drive::new(drive, sideways);
+    match tangential.and_then(|given| given.rig_stiffness) {
+        Some(stiffness) => faults.accept(spec, TANGENTIAL, drive.with_rig(stiffness)),
+        None => Some(drive),
+    }
+}
+
+/// Builds the motion of waveform = "table"; a table alone implies that waveform.
+fn tabled_motion(
+    spec: &Spec,
+    faults: &mut Faults,
+    section: &str,
+    given: &Direction,
+) -> Option<Option<Tabled>> {
+    let is_given = given.times.is_some() || given.values.is_some();
+    match given.waveform {
+        Some(Wave::Table) => {}
+        None if is_given => {}
+        Some(_) if is_given => {
+            let rule = "conflicts with this waveform; give waveform = \"table\"";
+            return faults.refuse(spec, &join(section, "times"), rule);
+        }
+        _ => return Some(None),
+    }
+    let times = faults.need_list(section, "times", &given.times);
+    let values = faults.need_list(section, "values", &given.values);
+    let table = Waveform::table(times?, values?);
+    faults.accept(spec, section, table).map(Some)
+}
+
+/// Builds one direction of the motion, `given` with its defaults. A direction at rest takes the frequency of the
+/// `other` one, so that both share one period. A table provides its own mean, amplitude and frequency unless the
+/// scenario gives them.
+fn control(
+    spec: &Spec,
+    faults: &mut Faults,
+    section: &str,
+    [given, usual]: [&Direction; 2],
+    other: Option<&Direction>,
+) -> Option<Control> {
+    let path = |key: &str| join(section, key);
+    let tabled = tabled_motion(spec, faults, section, given)?;
+    let tabled = tabled.as_ref();
+    let of_table = |of: fn(&Tabled) -> f64| tabled.map(of);
+    let mean = given.mean.or(of_table(|table| table.mean));
+    let mean = faults.need(&path("mean"), mean.or(usual.mean));
+    let amplitude = given.amplitude.or(of_table(|table| table.amplitude));
+    let amplitude = faults.need(&path("amplitude"), amplitude.or(usual.amplitude));
+    let of_table = of_table(|table| table.angular_frequency);
+    let frequency = match given.in_rad_per_s().or(of_table) {
+        None if amplitude == Some(0.0) => {
+            Some(other.and_then(Direction::in_rad_per_s).unwrap_or(1.0))
+        }
+        None if faults.covers(&path("frequency")) => None,
+        frequency => faults.need(&path("angular_frequency"), frequency),
+    };
+    let waveform = match given.waveform {
+        Some(Wave::Triangle) => Waveform::triangle(),
+        Some(Wave::Trapezoid) => {
+            let hold = faults.need(&path("hold"), given.hold)?;
+            faults.accept(spec, section, Waveform::trapezoid(hold))?
+        }
+        _ => tabled.map_or(Waveform::Sine, |table| table.waveform.clone()),
+    };
+    let phase = faults.need(&path("phase"), given.phase.or(usual.phase));
+    let oscillation = Oscillation::new(mean?, amplitude?, frequency?, phase?);
+    let oscillation = faults.accept(spec, section, oscillation)?;
+    let oscillation = oscillation.with_waveform(waveform);
+    Some(match given.control {
+        Some(spec::Control::Force) => Control::Force(oscillation),
+        _ => Control::Displacement(oscillation),
+    })
+}

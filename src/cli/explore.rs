@@ -10,7 +10,7 @@ use serde::de::IgnoredAny;
 use super::args::{ColorChoice, Explore};
 use super::config::Config;
 use super::{accuracy, complain, given, mistyped_command, without_waiting};
-use crate::export::own_directory;
+use crate::export::{autosave, own_directory};
 use crate::scenario::session::Session;
 use crate::scenario::{Refusal, checkpoint, printable};
 use crate::studies::refinement;
@@ -34,7 +34,11 @@ pub fn explore(options: &Explore, map: Option<LiveStudy>) -> Result<()> {
     let directory = Path::new(&options.scenario);
     let name = printable(&options.scenario.to_string_lossy());
     let run = match &options.resume {
-        Some(file) => checkpoint::read::<IgnoredAny>(file)?.session.into(),
+        Some(file) => {
+            let kept = checkpoint::read::<IgnoredAny>(file)?;
+            autosave::forget_crash(file);
+            kept.session.into()
+        }
         None if directory.is_dir() => {
             let rule = "continues as it was saved, so --set changes nothing; give its \
                 scenario.toml to start anew";

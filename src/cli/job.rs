@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::args::{CycleAsGiven, HistoryChoice, Run, cycles};
 use crate::export::history::History;
 use crate::reading::Errors;
+use crate::export::provenance::{self, Provenance};
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 
@@ -19,7 +20,7 @@ const MOST_ROWS: f64 = 1e7;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunJob {
-    /// Identifies the run: equal for runs of the same scenario and options. See [`RunJob::identify`].
+    /// Identifies the run: the same for runs of the same scenario and options. See [`RunJob::identify`].
     pub id: String,
     /// Where the run ends, cycles.
     pub cycles: f64,
@@ -27,9 +28,8 @@ pub struct RunJob {
     every_step: bool,
     /// Cycles at which the state is written, in increasing order, including those beyond the end.
     pub snapshots: Vec<CycleAsGiven>,
-    /// The [checksums](rows_sum) of the snapshots taken so far; `None` for snapshots due before the run took over from
-    /// the explorer, which were not written.
-    taken: Vec<Option<u32>>,
+    /// The number of snapshots taken so far, or due before the run took over from the explorer.
+    taken: usize,
     /// The rows so far.
     pub history: History,
     /// Whether the stresses inside the bodies are written at the end.
@@ -40,7 +40,7 @@ pub struct RunJob {
     pub estimates: bool,
     /// The errors that its files state.
     pub errors: Errors,
-    /// The directory of the run's files, if the checkpoint is stored elsewhere.
+    /// The folder of the run, for a checkpoint that does not lie in it.
     pub home: Option<PathBuf>,
 }
 
@@ -87,7 +87,7 @@ impl RunJob {
                 let planned_end = session.loaded().run().cycles.filter(|end| *end > now);
                 Self {
                     cycles: end(cycles.or(planned_end), name)?,
-                    taken: vec![None; snapshots.iter().filter(|at| at.cycle() < now).count()],
+                    taken: snapshots.iter().filter(|at| at.cycle() < now).count(),
                     snapshots,
                     ..Self::default()
                 }
@@ -134,7 +134,7 @@ impl RunJob {
         for snapshot in &self.snapshots {
             snapshot.0.parse::<CycleAsGiven>()?;
         }
-        if self.taken.len() > self.snapshots.len() {
+        if self.taken > self.snapshots.len() {
             return Err("more snapshots are done than there are".into());
         }
         self.history.check()
@@ -142,18 +142,29 @@ impl RunJob {
 
     /// Returns the next snapshot before `cycle`.
     pub fn next_snapshot(&self, cycle: f64) -> Option<&CycleAsGiven> {
-        let next = self.snapshots.get(self.taken.len())?;
+        let next = self.snapshots.get(self.taken)?;
         (next.cycle() < cycle && next.cycle() <= self.cycles).then_some(next)
     }
 
-    /// Marks the next snapshot as taken, with its table.
-    pub fn snapshot_is_done(&mut self, table: &str) {
-        self.taken.push(Some(rows_sum(table.as_bytes())));
+    /// Marks the next snapshot as taken.
+    pub fn snapshot_is_done(&mut self) {
+        self.taken += 1;
     }
 
-    /// Returns the snapshots taken so far, with the checksums of their rows.
-    pub fn taken(&self) -> impl Iterator<Item = (&CycleAsGiven, Option<u32>)> {
-        self.snapshots.iter().zip(self.taken.iter().copied())
+    /// Returns the names of the snapshots' files.
+    pub fn snapshot_files(&self) -> impl Iterator<Item = String> {
+        self.snapshots.iter().map(file_of)
+    }
+
+    /// Returns the identity of the run, and the names of the tables that it writes.
+    pub fn provenance(&self) -> Provenance {
+        let tables = ["history.csv", "state.csv", "loop.csv", provenance::FILE];
+        let field = self.field.then_some("field.csv");
+        let tables = tables.into_iter().chain(field).map(str::to_owned);
+        Provenance {
+            run: self.id.clone(),
+            files: tables.chain(self.snapshot_files()).collect(),
+        }
     }
 
     /// Returns the snapshots for the `scenario.toml`.
@@ -175,28 +186,23 @@ impl RunJob {
         }
     }
 
-    /// Stores the directory of the run's files in checkpoints.
-    pub fn set_home(&mut self, directory: &Path) {
-        let real = directory.canonicalize().ok();
+    /// Stores the folder of the run in checkpoints.
+    pub fn set_home(&mut self, folder: &Path) {
+        let real = folder.canonicalize().ok();
         // A checkpoint holds only text.
         self.home = real.filter(|home| home.to_str().is_some());
     }
 
     /// Returns to the progress that the job had when `earlier` was copied from it.
     pub fn rewind(&mut self, earlier: &Self) {
-        self.taken.truncate(earlier.taken.len());
+        self.taken = earlier.taken;
         self.history.rewind(&earlier.history);
     }
 }
 
-/// Returns the checksum of a table's rows, without its header, which may change when the run states its errors at the
-/// end.
-pub fn rows_sum(table: &[u8]) -> u32 {
-    let mut sum = crc32fast::Hasher::new();
-    let rows = table.split_inclusive(|&byte| byte == b'\n');
-    let rows = rows.filter(|line| !line.starts_with(b"#"));
-    rows.for_each(|row| sum.update(row));
-    sum.finalize()
+/// Returns the name of a snapshot's file.
+pub fn file_of(snapshot: &CycleAsGiven) -> String {
+    format!("state-{}.csv", snapshot.0)
 }
 
 /// Returns the end of a run, which must be given.

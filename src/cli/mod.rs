@@ -36,7 +36,6 @@ mod job;
 mod new;
 mod presets;
 mod progress;
-pub(crate) mod provenance;
 mod results;
 mod run;
 mod small_multiples;
@@ -90,6 +89,10 @@ pub fn main() -> ExitCode {
 
 fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     crate::failpoint::hit("command");
+    let command = &arguments.command;
+    if let Some(Command::Figure(_) | Command::Fit(_) | Command::Verify(_)) = command {
+        stop::end_at_signal()?;
+    }
     match arguments.command {
         None => explore::explore(&arguments.explore, None)?,
         Some(Command::New(options)) => new::new(&options)?,

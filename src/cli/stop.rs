@@ -12,7 +12,8 @@ use signal_hook::consts::{
 use signal_hook::flag;
 use signal_hook::iterator::Signals;
 
-use super::FAILED;
+use super::{FAILED, complain};
+use crate::export::claim;
 
 /// Signals that ask a program to end. Queueing systems send SIGUSR1 or SIGUSR2 shortly before the time limit; the
 /// system sends SIGXCPU.
@@ -26,11 +27,14 @@ const TYPED: [i32; 2] = [SIGINT, SIGQUIT];
 /// Maximum time for stopping and saving after the first signal.
 const GRACE: Duration = Duration::from_secs(2);
 
+const NO_SIGNALS: &str = "cannot listen for signals";
+
 /// Whether everything is saved and only output remains.
 static DONE: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
 /// Makes any further signal end the process at once, since the reader of its output may have stopped reading.
 pub fn nothing_is_left_to_save() {
+    claim::release_all();
     DONE.store(true, Ordering::SeqCst);
 }
 
@@ -38,24 +42,19 @@ pub fn nothing_is_left_to_save() {
 /// send several; but Ctrl-C ends the process at once if it has not stopped within [`GRACE`].
 pub fn signal() -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
-    let heard = ENDING.into_iter();
-    // Under `nohup` a run outlives its terminal, as intended.
-    let heard: Vec<i32> = heard
-        .filter(|&signal| signal != SIGHUP || !is_ignored(SIGHUP))
-        .collect();
-    let no_signals = "cannot listen for signals";
-    for signal in &heard {
-        let at_once = flag::register_conditional_shutdown(*signal, FAILED.into(), DONE.clone());
-        at_once.context(no_signals)?;
-        flag::register(*signal, Arc::clone(&stop)).context(no_signals)?;
+    for signal in heard() {
+        let at_once = flag::register_conditional_shutdown(signal, FAILED.into(), DONE.clone());
+        at_once.context(NO_SIGNALS)?;
+        flag::register(signal, Arc::clone(&stop)).context(NO_SIGNALS)?;
     }
-    let mut typed = Signals::new(TYPED).context(no_signals)?;
+    let mut typed = Signals::new(TYPED).context(NO_SIGNALS)?;
     let is_stopping = Arc::clone(&stop);
     let watch = move || {
         let mut first = None;
         for _ in typed.forever() {
             let first = *first.get_or_insert_with(Instant::now);
             if is_stopping.load(Ordering::Relaxed) && first.elapsed() > GRACE {
+                claim::release_all();
                 std::process::exit(FAILED.into());
             }
         }
@@ -63,6 +62,26 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
     // If the system cannot start a thread, the first signal still works.
     let _ = thread::Builder::new().spawn(watch);
     Ok(stop)
+}
+
+/// Has the first signal end the process, which has nothing to save but leaves no lock files behind.
+pub fn end_at_signal() -> Result<()> {
+    let mut signals = Signals::new(heard()).context(NO_SIGNALS)?;
+    let watch = move || {
+        if signals.forever().next().is_some() {
+            claim::release_all();
+            complain("interrupted");
+            std::process::exit(FAILED.into());
+        }
+    };
+    thread::Builder::new().spawn(watch).context(NO_SIGNALS)?;
+    Ok(())
+}
+
+/// Returns the signals that end the process. Under `nohup` a run outlives its terminal, as intended.
+fn heard() -> impl Iterator<Item = i32> {
+    let is_heard = |signal: &i32| *signal != SIGHUP || !is_ignored(SIGHUP);
+    ENDING.into_iter().filter(is_heard)
 }
 
 /// Returns a function that says to continue until `stop` is set.

@@ -1,12 +1,14 @@
 //! Checkpoints on a timer: one file, replaced as a whole each time, and a copy in memory.
 
+use std::cmp::Reverse;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant};
 
+use super::claim::was_killed;
 use super::file::{INTERNAL, WriteError, sweep};
-use super::run_directory::{RUN_CHECKPOINT, RunDirectory};
+use super::run_folder::{RUN_CHECKPOINT, RunFolder};
 use super::target::Target;
 use crate::scenario::session::Session;
 
@@ -16,27 +18,20 @@ const COPY_INTERVAL: Duration = Duration::from_millis(100);
 /// The ending of a checkpoint's name.
 const ENDING: &str = "checkpoint";
 
-/// Maximum number of the explorer's checkpoints; the oldest are removed.
-const KEPT: usize = 20;
-
-/// Maximum number of names tried for a new checkpoint.
-const MOST_AT_ONCE: u64 = 1000;
-
-/// The largest number in a checkpoint's name. Names with larger numbers were not made by this program.
-const LARGEST_NUMBER: u64 = 1_000_000_000_000;
+/// Maximum number of checkpoints left by explorers that have ended; the oldest are removed.
+const MOST_LEFT: usize = 20;
 
 /// Temporary files older than this are considered abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
-/// Keeps the newest state of a session on disk: in the file of its run or, if that fails, in a new file in a directory.
+/// Keeps the newest state of a session on disk: in the folder of its run, or in a file of this process in a directory if
+/// there is no such folder, or nothing can be written there.
 #[derive(Debug)]
 pub struct Autosave {
-    /// The run's own directory.
-    home: Option<RunDirectory>,
-    /// Where free places are.
+    folder: Option<RunFolder>,
     directory: Option<PathBuf>,
-    /// The fallback file, in use since `home` failed or if there is no `home`.
-    elsewhere: Option<Target>,
+    /// The file in the directory, since it is needed.
+    file: Option<Target>,
     /// The interval; 0 saves only on request.
     every: Duration,
     last: Instant,
@@ -46,13 +41,12 @@ pub struct Autosave {
 }
 
 impl Autosave {
-    /// Saves to `home`; falls back to a new file in `directory`. Once per interval `every`, or only on request if that
-    /// is 0.
-    pub fn new(home: Option<RunDirectory>, directory: Option<PathBuf>, every: Duration) -> Self {
+    /// Saves once per interval `every`, or only on request if that is 0.
+    pub fn new(folder: Option<RunFolder>, directory: Option<PathBuf>, every: Duration) -> Self {
         Self {
-            home,
+            folder,
             directory,
-            elsewhere: None,
+            file: None,
             every,
             last: Instant::now(),
             kept: None,
@@ -80,19 +74,19 @@ impl Autosave {
     /// fallback. The next checkpoint is due one interval later, even if this one fails.
     pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
         let (mut saved, mut failure) = (None, None);
-        if let Some(home) = &self.home {
-            match home.write(RUN_CHECKPOINT, checkpoint) {
-                Ok(()) => saved = Some(home.checkpoint()),
+        if let Some(folder) = &self.folder {
+            match folder.write(RUN_CHECKPOINT, checkpoint) {
+                Ok(()) => saved = Some(folder.checkpoint()),
                 Err(error) => failure = Some(error.to_string()),
             }
         }
         if saved.is_none() {
-            match self.save_elsewhere(&session.loaded().stem(), checkpoint) {
-                Ok(place) => saved = place,
+            match self.save_in_directory(&session.loaded().stem(), checkpoint) {
+                Ok(path) => saved = path,
                 Err(error) => failure = failure.or(Some(error.to_string())),
             }
-        } else if let Some(elsewhere) = self.elsewhere.take() {
-            let _ = fs::remove_file(elsewhere.path());
+        } else if let Some(file) = self.file.take() {
+            let _ = fs::remove_file(file.path());
         }
         self.last = Instant::now();
         let outcome = match &saved {
@@ -107,26 +101,26 @@ impl Autosave {
         Some(format!("{failure}; {outcome}"))
     }
 
-    /// Writes the checkpoint into the fallback file; `None` without a directory.
-    fn save_elsewhere(
+    /// Writes the checkpoint into the file of this process; `None` without a directory.
+    fn save_in_directory(
         &mut self,
         stem: &str,
         checkpoint: &[u8],
     ) -> Result<Option<PathBuf>, WriteError> {
-        let place = match (self.elsewhere.take(), &self.directory) {
-            (Some(place), _) => place,
+        let file = match (self.file.take(), &self.directory) {
+            (Some(file), _) => file,
             (None, Some(directory)) => claim_new_file(directory, stem)?,
             (None, None) => return Ok(None),
         };
-        let path = place.path().to_owned();
-        // If writing fails, an older checkpoint in this place is better than nothing.
-        self.elsewhere.insert(place).write(checkpoint)?;
+        let path = file.path().to_owned();
+        // If writing fails, an older checkpoint in this file is better than nothing.
+        self.file.insert(file).write(checkpoint)?;
         Ok(Some(path))
     }
 
-    /// Continues with another session; keeps the checkpoint of the previous one.
-    pub fn begin_session(&mut self) {
-        (self.elsewhere, self.kept) = (None, None);
+    /// Gives the file up at the end of the session.
+    pub fn end(&mut self) {
+        self.file = None;
     }
 
     /// Returns the newest checkpoint that still exists, and its cycle.
@@ -171,28 +165,20 @@ impl<T> Recent<T> {
 }
 
 /// Claims a new file for a session on a scenario called `stem`, numbered above all checkpoints in the directory.
-/// Creates the directory, and removes old checkpoints of finished sessions from it.
+/// Creates the directory, and removes the oldest checkpoints of explorers that have ended.
 fn claim_new_file(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     let failed = WriteError::io(directory);
     fs::create_dir_all(directory).map_err(failed)?;
     sweep(directory, INTERNAL, STALE);
-    let mut others = checkpoints(directory).map_err(failed)?;
-    others.sort();
-    let highest = others.iter().map(|(_, number, _)| *number).max();
-    let mut excess = (others.len() + 1).saturating_sub(KEPT);
-    for (_, number, path) in others {
-        // What can be claimed belongs to no running session. The highest number stays, so that the next one is new.
-        if excess > 0
-            && Some(number) != highest
-            && let Ok(claimed) = Target::claim_existing(&path)
-        {
-            // A file that cannot be removed does no harm.
-            let _ = fs::remove_file(claimed.path());
-            excess -= 1;
-        }
+    let all = checkpoints(directory).map_err(failed)?;
+    let number = |path: &PathBuf| path.file_stem()?.to_str()?.rsplit_once('-')?.1.parse().ok();
+    let highest: u32 = all.iter().filter_map(number).max().unwrap_or(0);
+    let has_ended = |path: &&PathBuf| was_killed(path).is_none();
+    for path in all.iter().filter(has_ended).skip(MOST_LEFT - 1) {
+        // A file that cannot be removed does no harm.
+        let _ = fs::remove_file(path);
     }
-    let first = highest.unwrap_or(0) + 1;
-    for number in first..first + MOST_AT_ONCE {
+    for number in u64::from(highest) + 1.. {
         let path = directory.join(format!("{stem}-{number}.{ENDING}"));
         match Target::claim(&path, false) {
             // Another explorer has it, or had it a moment ago.
@@ -203,25 +189,34 @@ fn claim_new_file(directory: &Path, stem: &str) -> Result<Target, WriteError> {
     Err(failed(io::ErrorKind::AlreadyExists.into()))
 }
 
-/// Lists the checkpoints in a directory: time of writing, number at the end of the name (0 without one), and path.
-fn checkpoints(directory: &Path) -> io::Result<Vec<(SystemTime, u64, PathBuf)>> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(directory)? {
-        let path = entry?.path();
-        let is_one = path.extension().is_some_and(|ending| ending == ENDING);
-        // Skips files that have disappeared in the meantime.
-        if let (true, Ok(about)) = (is_one, fs::metadata(&path)) {
-            let stem = path.file_stem().map(|stem| stem.to_string_lossy());
-            let number = stem.and_then(|stem| stem.rsplit_once('-')?.1.parse().ok());
-            let number = number.filter(|&number| number <= LARGEST_NUMBER);
-            found.push((about.modified()?, number.unwrap_or(0), path));
-        }
-    }
+/// Returns the checkpoints in a directory, the newest first.
+fn checkpoints(directory: &Path) -> io::Result<Vec<PathBuf>> {
+    let paths = fs::read_dir(directory)?.map(|entry| Ok(entry?.path()));
+    let mut found: Vec<PathBuf> = paths.collect::<io::Result<_>>()?;
+    found.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
+    // Those that have disappeared in the meantime come last.
+    let written = |path: &PathBuf| path.metadata().and_then(|about| about.modified()).ok();
+    found.sort_by_cached_key(|path| Reverse(written(path)));
     Ok(found)
+}
+
+/// Returns the newest checkpoint in a directory whose process was killed.
+pub fn left_by_a_crash(directory: &Path) -> Option<PathBuf> {
+    let mut all = checkpoints(directory).unwrap_or_default().into_iter();
+    all.find(|path| was_killed(path) == Some(true))
+}
+
+/// Removes the mark of a killed process from its checkpoint, since the session goes on.
+pub fn forget_crash(path: &Path) {
+    if was_killed(path) == Some(true) {
+        drop(Target::claim_existing(path));
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::time::SystemTime;
+
     use super::*;
     use crate::scenario::Scenario;
 
@@ -241,8 +236,8 @@ mod tests {
             places.push(come_and_go(&directory, "hertz"));
         }
         let left = checkpoints(&directory).expect("a directory");
-        assert_eq!(left.len(), KEPT);
-        assert!(left.iter().any(|(.., path)| Some(path) == places.last()));
+        assert_eq!(left.len(), MOST_LEFT);
+        assert!(left.iter().any(|path| Some(path) == places.last()));
         fs::write(directory.join("notes.txt"), b"mine").expect("a file");
         come_and_go(&directory, "cone");
         assert!(directory.join("notes.txt").exists());
@@ -270,7 +265,7 @@ mod tests {
         // After its session has ended, its file can be removed like any other.
         let path = paused.path().to_owned();
         drop(paused);
-        for _ in 0..KEPT + 2 {
+        for _ in 0..MOST_LEFT + 2 {
             come_and_go(base.path(), "hertz");
         }
         assert!(!path.exists());
@@ -279,7 +274,7 @@ mod tests {
     #[test]
     fn any_name_beside_it_or_of_its_scenario_leaves_room_for_another() {
         let base = tempfile::tempdir().expect("a directory");
-        for number in [u64::MAX, LARGEST_NUMBER + 1] {
+        for number in [u64::MAX, u64::from(u32::MAX)] {
             let path = base.path().join(format!("x-{number}.{ENDING}"));
             fs::write(path, b"theirs").expect("a file");
         }
@@ -305,11 +300,14 @@ mod tests {
             let file = fs::File::create(base.path().join(name)).expect("a file");
             file.set_modified(at).expect("a time");
         }
-        for _ in 0..2 * KEPT {
+        for _ in 0..2 * MOST_LEFT {
             let place = come_and_go(base.path(), "hertz");
             assert!(place.exists());
         }
-        assert_eq!(checkpoints(base.path()).expect("a directory").len(), KEPT);
+        assert_eq!(
+            checkpoints(base.path()).expect("a directory").len(),
+            MOST_LEFT
+        );
         assert!(!base.path().join("past-7.checkpoint").exists());
         // One that could belong to a living process stays.
         assert!(base.path().join(".mdr-tui-future.tmp").exists());
@@ -318,7 +316,7 @@ mod tests {
     #[test]
     fn a_checkpoint_is_due_when_its_time_has_come() {
         let base = tempfile::tempdir().expect("a directory");
-        let run = RunDirectory::claim(base.path(), false).expect("a directory");
+        let run = RunFolder::create(base.path(), false).expect("a directory");
         let path = run.checkpoint();
         let every = |every| Autosave::new(Some(run.clone()), None, every);
         assert!(!every(Duration::ZERO).is_due());
@@ -338,7 +336,7 @@ mod tests {
     fn what_cannot_be_saved_at_home_goes_elsewhere_and_comes_back_and_is_told_once() {
         let base = tempfile::tempdir().expect("a directory");
         let [place, away, state] = ["run", "away", "state"].map(|name| base.path().join(name));
-        let run = RunDirectory::claim(&place, false).expect("a directory");
+        let run = RunFolder::create(&place, false).expect("a directory");
         let home = run.checkpoint();
         let mut autosave = Autosave::new(Some(run), Some(state), Duration::ZERO);
         let scenario = Scenario::load("hertz", &[]).expect("a preset");
@@ -350,7 +348,7 @@ mod tests {
         let elsewhere = autosave.kept().expect("a checkpoint").0.to_owned();
         assert_eq!(fs::read(&elsewhere).expect("the file"), b"two");
         // In its place another run begins.
-        let other = RunDirectory::claim(&place, false).expect("a directory");
+        let other = RunFolder::create(&place, false).expect("a directory");
         other.write(RUN_CHECKPOINT, b"theirs").expect("a file");
         assert_eq!(autosave.save(&session, b"two"), None);
         assert_eq!(fs::read(&home).expect("its file"), b"theirs");

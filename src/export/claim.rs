@@ -5,7 +5,9 @@
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::time::Duration;
 
 use nix::errno::Errno;
@@ -14,6 +16,7 @@ use nix::unistd::Pid;
 
 use super::file::{WriteError, directory_of};
 use super::safe_open;
+use crate::panics::locked;
 use crate::scenario::printable;
 
 /// The name of the lock file in a directory.
@@ -25,20 +28,74 @@ const LONGEST: usize = 200;
 /// Without locks: how long a lock file may be empty before its maker is considered dead.
 const UNWRITTEN: Duration = Duration::from_secs(10);
 
+/// The lock files of this process, for [`release_all`].
+static HELD: Mutex<Vec<LockFile>> = Mutex::new(Vec::new());
+
 /// A directory or file that belongs to this process until the claim is dropped.
 #[derive(Debug)]
 pub struct Claim {
-    path: PathBuf,
-    /// Whether to remove the directory, too, if it is still empty.
-    pub(super) is_new: bool,
+    lock: LockFile,
     /// Locked while it is open.
-    file: File,
+    _file: File,
+}
+
+/// A lock file that this process has made or taken over.
+#[derive(Debug, Clone, PartialEq)]
+struct LockFile {
+    path: PathBuf,
+    /// Device and inode.
+    identity: (u64, u64),
+    /// Whether its directory is to be removed with it if nothing else is in there.
+    is_new: bool,
+}
+
+impl LockFile {
+    /// Whether it is still at its path.
+    fn is_there(&self) -> bool {
+        let about = self.path.symlink_metadata();
+        about.is_ok_and(|about| (about.dev(), about.ino()) == self.identity)
+    }
+
+    fn remove(&self) {
+        if self.is_there() {
+            let _ = fs::remove_file(&self.path);
+            if self.is_new {
+                let _ = fs::remove_dir(directory_of(&self.path));
+            }
+        }
+    }
+}
+
+/// Removes all lock files of this process, which writes nothing from now on.
+pub fn release_all() {
+    locked(&HELD).drain(..).for_each(|lock| lock.remove());
+}
+
+/// Returns the lock file of the file at `path`.
+fn lock_of(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    directory_of(path).join(match name.len() {
+        0..=LONGEST => format!(".mdr-tui-{name}.lock"),
+        _ => format!(".mdr-tui-{:08x}.lock", crc32fast::hash(name.as_bytes())),
+    })
+}
+
+/// Whether the process that has claimed the file at `path` was killed; `None` if none has claimed it.
+pub fn was_killed(path: &Path) -> Option<bool> {
+    let mut file = safe_open::open(&lock_of(path), false).ok()?;
+    Some(match try_lock(&file) {
+        Ok(()) => true,
+        Err(TryLockError::WouldBlock) => false,
+        Err(TryLockError::Error(_)) => {
+            Owner::read(&mut file).is_some_and(|owner| !owner.may_live())
+        }
+    })
 }
 
 /// A process and the machine that it runs on.
 #[derive(Debug)]
 struct Owner {
-    process: u32,
+    process: i32,
     host: String,
 }
 
@@ -46,7 +103,7 @@ impl Owner {
     fn this_process() -> Self {
         let host = nix::unistd::gethostname().unwrap_or_default();
         Self {
-            process: std::process::id(),
+            process: Pid::this().as_raw(),
             host: host.to_string_lossy().replace(char::is_whitespace, "-"),
         }
     }
@@ -57,10 +114,14 @@ impl Owner {
         file.rewind().ok()?;
         file.take(1000).read_to_string(&mut text).ok()?;
         let (process, host) = text.trim_end().split_once(' ')?;
-        Some(Self {
-            process: process.parse().ok()?,
-            host: host.to_owned(),
-        })
+        let (process, host) = (process.parse().ok()?, host.to_owned());
+        Some(Self { process, host })
+    }
+
+    fn write(&self, file: &mut File) -> io::Result<()> {
+        file.set_len(0)?;
+        file.rewind()?;
+        writeln!(file, "{} {}", self.process, self.host)
     }
 
     fn is_here(&self) -> bool {
@@ -69,71 +130,76 @@ impl Owner {
 
     /// Whether the process may still be alive. It cannot be checked on another machine.
     fn may_live(&self) -> bool {
-        let process = i32::try_from(self.process).map(Pid::from_raw);
-        !self.is_here() || process.is_ok_and(|process| kill(process, None) != Err(Errno::ESRCH))
+        !self.is_here() || kill(Pid::from_raw(self.process), None) != Err(Errno::ESRCH)
     }
 
     /// Names the process, in brackets.
     fn describe(&self) -> String {
         let (process, host) = (self.process, printable(&self.host));
-        let hint = if self.is_here() {
-            ""
-        } else {
-            "; if it is gone, remove the lock file"
-        };
+        let is_elsewhere = !self.is_here();
+        let hint = is_elsewhere.then_some("; if it is gone, remove the lock file");
+        let hint = hint.unwrap_or_default();
         format!(" (process {process} on {host}{hint})")
     }
 }
 
 impl Claim {
-    /// Claims `directory`, which must exist, for this process.
+    /// Claims `directory`, which must exist, for this process. If `is_new`, the directory is removed with the claim
+    /// unless something was written into it.
     ///
     /// # Errors
     ///
     /// If another living process has claimed it, or no file can be created in it.
-    pub fn of_directory(directory: &Path) -> Result<Self, WriteError> {
+    pub fn of_directory(directory: &Path, is_new: bool) -> Result<Self, WriteError> {
         let words = ["another run is writing there", "choose another directory"];
-        Self::with_lock(directory.join(LOCK), directory, words)
+        Self::with_lock(directory.join(LOCK), is_new, directory, words)
     }
 
-    /// Claims the file at `path`, whether it exists or not, for this process.
+    /// Claims the file at `path`, whether it exists or not, for this process; `is_new` is about its directory.
     ///
     /// # Errors
     ///
     /// As [`of_directory`](Self::of_directory).
-    pub fn of_file(path: &Path) -> Result<Self, WriteError> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let name = match name.len() {
-            0..=LONGEST => format!(".mdr-tui-{name}.lock"),
-            _ => format!(".mdr-tui-{:08x}.lock", crc32fast::hash(name.as_bytes())),
-        };
+    pub fn of_file(path: &Path, is_new: bool) -> Result<Self, WriteError> {
         let words = [
             "another mdr-tui is writing this file",
             "choose another name",
         ];
-        Self::with_lock(directory_of(path).join(name), path, words)
+        Self::with_lock(lock_of(path), is_new, path, words)
     }
 
-    /// Claims what is at `path` with the file `lock`. If another process has it, the error says so in `words`, with
-    /// what to do instead.
-    fn with_lock(lock: PathBuf, path: &Path, words: [&str; 2]) -> Result<Self, WriteError> {
-        match Self::locked(&lock) {
-            Ok(Ok(file)) => Ok(Self {
-                path: lock,
-                is_new: false,
-                file,
-            }),
+    /// Claims what is at `claimed` with a lock file at `path`. If another process has it, the error says so in `words`,
+    /// with what to do instead.
+    fn with_lock(
+        path: PathBuf,
+        is_new: bool,
+        claimed: &Path,
+        words: [&str; 2],
+    ) -> Result<Self, WriteError> {
+        let file = match lock(&path) {
+            Ok(Ok(file)) => file,
             Ok(Err(owner)) => {
                 let owner = owner.as_ref().map_or_else(String::new, Owner::describe);
                 let rule = format!("{}{owner}; wait for it to end or {}", words[0], words[1]);
-                Err(WriteError::refused(path, rule))
+                return Err(WriteError::refused(claimed, rule));
             }
-            // If the lock cannot be created, no file can be created there.
-            Err(cause) => match lock.symlink_metadata() {
-                Ok(_) => Err(WriteError::io(&lock)(cause)),
-                Err(_) => Err(WriteError::io(path)(cause)),
-            },
-        }
+            Err(cause) => {
+                // If the lock cannot be created, no file can be created there.
+                let is_there = path.symlink_metadata().is_ok();
+                return Err(WriteError::io(if is_there { &path } else { claimed })(
+                    cause,
+                ));
+            }
+        };
+        let about = file.metadata().map_err(WriteError::io(claimed))?;
+        let identity = (about.dev(), about.ino());
+        let lock = LockFile {
+            path,
+            identity,
+            is_new,
+        };
+        locked(&HELD).push(lock.clone());
+        Ok(Self { lock, _file: file })
     }
 
     /// Checks that what was claimed was neither moved nor removed: its place may belong to another process by now.
@@ -142,79 +208,72 @@ impl Claim {
     ///
     /// If the lock file is no longer at its place.
     pub fn check(&self) -> Result<(), WriteError> {
-        if is_at(&self.file, &self.path) {
-            Ok(())
-        } else {
-            let rule =
-                "was moved, removed or cleared meanwhile, and may belong to another run by now";
-            Err(WriteError::refused(directory_of(&self.path), rule))
+        if self.lock.is_there() {
+            return Ok(());
         }
-    }
-
-    /// The file, locked and with this process in it, or who has it.
-    fn locked(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
-        loop {
-            let (mut file, is_made_here) = match safe_open::open(path, true) {
-                Ok(file) => (file, true),
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                    match safe_open::open(path, false) {
-                        Ok(file) => (file, false),
-                        // Another user's file can be locked, too, but not removed.
-                        Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
-                            (safe_open::read(path)?, false)
-                        }
-                        // The previous owner has just removed it.
-                        Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-                        Err(error) => return Err(error),
-                    }
-                }
-                Err(error) => return Err(error),
-            };
-            let has_lock = match try_lock(&file) {
-                Ok(()) => true,
-                Err(TryLockError::WouldBlock) => return Ok(Err(Owner::read(&mut file))),
-                Err(TryLockError::Error(_)) => false,
-            };
-            if has_lock && !is_at(&file, path) {
-                continue;
-            }
-            if !has_lock && !is_made_here {
-                let owner = Owner::read(&mut file);
-                let may_live = match &owner {
-                    Some(owner) => owner.may_live(),
-                    None => is_young(&file),
-                };
-                if may_live {
-                    return Ok(Err(owner));
-                }
-                remove_stale(&file, path)?;
-                continue;
-            }
-            let Owner { process, host } = Owner::this_process();
-            let written = file
-                .set_len(0)
-                .and_then(|()| file.rewind())
-                .and_then(|()| writeln!(file, "{process} {host}"));
-            // On a full disk the lock alone is enough.
-            if let (false, Err(error)) = (has_lock, written) {
-                let _ = fs::remove_file(path);
-                return Err(error);
-            }
-            return Ok(Ok(file));
-        }
+        let rule = "was moved, removed or cleared meanwhile, and may belong to another run by now";
+        Err(WriteError::refused(directory_of(&self.lock.path), rule))
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
+        locked(&HELD).retain(|held| *held != self.lock);
         // The file is still locked, so no other process can have claimed it.
-        if is_at(&self.file, &self.path) {
-            let _ = fs::remove_file(&self.path);
-            if self.is_new {
-                let _ = fs::remove_dir(directory_of(&self.path));
+        self.lock.remove();
+    }
+}
+
+/// Returns the file, locked and with this process in it, or who has it.
+fn lock(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
+    loop {
+        let Some((mut file, is_made_here)) = open(path)? else {
+            continue;
+        };
+        match try_lock(&file) {
+            // The previous owner has just removed it.
+            Ok(()) if !is_at(&file, path) => {}
+            Ok(()) => {
+                // On a full disk the lock alone is enough.
+                let _ = Owner::this_process().write(&mut file);
+                return Ok(Ok(file));
+            }
+            Err(TryLockError::WouldBlock) => return Ok(Err(Owner::read(&mut file))),
+            Err(TryLockError::Error(_)) if is_made_here => {
+                let written = Owner::this_process().write(&mut file);
+                if written.is_err() {
+                    let _ = fs::remove_file(path);
+                }
+                return written.map(|()| Ok(file));
+            }
+            Err(TryLockError::Error(_)) => {
+                let owner = Owner::read(&mut file);
+                if owner
+                    .as_ref()
+                    .map_or_else(|| is_young(&file), Owner::may_live)
+                {
+                    return Ok(Err(owner));
+                }
+                remove_stale(&file, path)?;
             }
         }
     }
+}
+
+/// Opens the lock file, and says whether it was made here; `None` if its owner has just removed it.
+fn open(path: &Path) -> io::Result<Option<(File, bool)>> {
+    use io::ErrorKind::{AlreadyExists, NotFound, PermissionDenied};
+    match safe_open::open(path, true) {
+        Err(error) if error.kind() == AlreadyExists => {}
+        made => return made.map(|file| Some((file, true))),
+    }
+    match safe_open::open(path, false) {
+        // Another user's file can be locked, too, but not removed.
+        Err(error) if error.kind() == PermissionDenied => safe_open::read(path),
+        Err(error) if error.kind() == NotFound => return Ok(None),
+        opened => opened,
+    }
+    .map(|file| Some((file, false)))
 }
 
 /// Locks a file until it is closed, if the file system supports locks.
@@ -247,11 +306,9 @@ fn remove_stale(file: &File, path: &Path) -> io::Result<()> {
 
 /// Whether the open file is still the one at this path.
 fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let (Ok(one), Ok(other)) = (file.metadata(), path.symlink_metadata()) else {
-        return false;
-    };
-    (one.dev(), one.ino()) == (other.dev(), other.ino())
+    let about = [file.metadata(), path.symlink_metadata()].map(|about| about.ok());
+    let [one, other] = about.map(|about| about.map(|about| (about.dev(), about.ino())));
+    one.is_some() && one == other
 }
 
 #[cfg(test)]
@@ -261,8 +318,8 @@ mod tests {
     #[test]
     fn a_directory_belongs_to_one_and_a_stale_lock_to_nobody() {
         let base = tempfile::tempdir().expect("a directory");
-        let first = Claim::of_directory(base.path()).expect("a free directory");
-        let refused = Claim::of_directory(base.path()).expect_err("it is taken");
+        let first = Claim::of_directory(base.path(), false).expect("a free directory");
+        let refused = Claim::of_directory(base.path(), false).expect_err("it is taken");
         let owner = format!("(process {} on ", std::process::id());
         assert!(refused.to_string().contains(&owner), "{refused}");
         drop(first);
@@ -270,7 +327,7 @@ mod tests {
         // What a killed process leaves behind.
         for stale in ["1 elsewhere\n", "999999999 here\n", "", "no number"] {
             std::fs::write(base.path().join(LOCK), stale).expect("a file");
-            drop(Claim::of_directory(base.path()).expect("a stale lock"));
+            drop(Claim::of_directory(base.path(), false).expect("a stale lock"));
         }
     }
 
@@ -279,12 +336,11 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let place = base.path().join("x");
         fs::create_dir(&place).expect("a directory");
-        let mut claim = Claim::of_directory(&place).expect("a free directory");
-        claim.is_new = true;
+        let claim = Claim::of_directory(&place, true).expect("a free directory");
         claim.check().expect("its place");
         fs::remove_dir_all(&place).expect("a directory");
         fs::create_dir(&place).expect("another one");
-        let other = Claim::of_directory(&place).expect("a free directory");
+        let other = Claim::of_directory(&place, false).expect("a free directory");
         assert!(claim.check().is_err());
         drop(claim);
         other.check().expect("its place");
@@ -302,7 +358,7 @@ mod tests {
             for _ in 0..8 {
                 scope.spawn(|| {
                     for _ in 0..200 {
-                        if let Ok(claim) = Claim::of_directory(base.path()) {
+                        if let Ok(claim) = Claim::of_directory(base.path(), false) {
                             assert_eq!(inside.fetch_add(1, SeqCst), 0, "two have it");
                             taken.fetch_add(1, SeqCst);
                             inside.fetch_sub(1, SeqCst);
@@ -321,7 +377,7 @@ mod tests {
         let (lock, mine) = (base.path().join(LOCK), base.path().join("mine"));
         fs::write(&mine, "mine").expect("a file");
         std::os::unix::fs::symlink(&mine, &lock).expect("a link");
-        let refused = || match Claim::of_directory(base.path()) {
+        let refused = || match Claim::of_directory(base.path(), false) {
             Err(WriteError::Io { path, cause }) => {
                 assert_eq!(path, lock);
                 assert!(cause.to_string().contains("not a regular file"), "{cause}");
@@ -339,9 +395,9 @@ mod tests {
     fn a_file_of_any_name_is_claimed_by_itself() {
         let base = tempfile::tempdir().expect("a directory");
         let paths = ["a.csv", "b.csv", &"x".repeat(255)].map(|name| base.path().join(name));
-        let claims = [0, 1, 2].map(|k| Claim::of_file(&paths[k]).expect("a claim"));
+        let claims = [0, 1, 2].map(|k| Claim::of_file(&paths[k], false).expect("a claim"));
         for path in &paths {
-            let again = Claim::of_file(path).expect_err("it is taken");
+            let again = Claim::of_file(path, false).expect_err("it is taken");
             assert!(again.to_string().contains("(process "), "{again}");
         }
         drop(claims);

@@ -23,9 +23,8 @@ const CHUNK: usize = 64 << 10;
 pub struct History {
     /// The newest rows, not yet in the file.
     rows: String,
-    /// The length of this history's part of the file, in bytes, and its CRC-32.
+    /// The length of this history's part of the file, in bytes.
     written: u64,
-    checksum: u32,
     last_cycle: Option<f64>,
     /// Columns after the ones that every history has.
     further: Vec<Column>,
@@ -94,7 +93,6 @@ impl History {
         match earlier.length().checked_sub(self.written) {
             Some(kept) => self.rows.truncate(kept as usize),
             None => {
-                self.checksum = earlier.checksum_with_rows();
                 self.written = earlier.length();
                 self.rows.clear();
             }
@@ -126,51 +124,37 @@ impl History {
         file.write_all(self.rows.as_bytes())?;
         // From now on a checkpoint may rely on these rows.
         file.sync_data()?;
-        self.checksum = self.checksum_with_rows();
         self.written += self.rows.len() as u64;
         // Frees the buffer, which may have grown large while the disk was full.
         self.rows = String::new();
         Ok(())
     }
 
-    /// Returns the checksum of the file including the buffered rows.
-    fn checksum_with_rows(&self) -> u32 {
-        let mut sum = crc32fast::Hasher::new_with_initial_len(self.checksum, self.written);
-        sum.update(self.rows.as_bytes());
-        sum.finalize()
-    }
-
-    /// Whether any rows are in the file.
-    pub fn has_file(&self) -> bool {
-        self.written > 0
-    }
-
-    /// Drops the rows in the file; the history then begins with the rows in memory.
-    pub fn forget_file(&mut self) {
-        (self.written, self.checksum) = (0, 0);
+    /// Drops the rows that are not in memory unless they are in the file at `path`; returns whether any are lost.
+    pub fn loses_rows(&mut self, path: Option<&Path>) -> bool {
+        let length = |path: &Path| safe_open::read(path)?.metadata().map(|about| about.len());
+        let length = path.and_then(|path| length(path).ok()).unwrap_or(0);
+        let is_lost = length < self.written;
+        if is_lost {
+            self.written = 0;
+        }
+        is_lost
     }
 
     /// Copies this history's rows from the file at `from`.
-    ///
-    /// # Errors
-    ///
-    /// The system's error, or `InvalidData` if the file does not hold this history's rows.
-    pub fn copy_rows(&self, from: &Path, to: &mut dyn Write) -> io::Result<()> {
+    fn copy_rows(&self, from: &Path, to: &mut dyn Write) -> io::Result<()> {
         let mut rows = safe_open::read(from)?.take(self.written);
-        let mut sum = crc32fast::Hasher::new();
         let mut chunk = vec![0; CHUNK];
         loop {
             let length = rows.read(&mut chunk)?;
-            let read = &chunk[..length];
-            if length == 0 {
-                let is_whole = rows.limit() == 0 && sum.finalize() == self.checksum;
-                return if is_whole { Ok(()) } else { Err(foreign()) };
+            match &chunk[..length] {
+                [] if rows.limit() == 0 => return Ok(()),
+                read if is_of_cells(read) && !read.is_empty() => to.write_all(read)?,
+                _ => {
+                    let why = "does not hold the rows of this run";
+                    return Err(io::Error::new(io::ErrorKind::InvalidData, why));
+                }
             }
-            if !is_of_cells(read) {
-                return Err(foreign());
-            }
-            sum.update(read);
-            to.write_all(read)?;
         }
     }
 
@@ -195,7 +179,7 @@ impl History {
     pub fn write(&self, session: &Session, rows: &Path, out: &mut dyn Write) -> io::Result<()> {
         let columns: Vec<Column> = self.columns().collect();
         out.write_all(head(session, &columns).as_bytes())?;
-        if self.has_file() {
+        if self.written > 0 {
             self.copy_rows(rows, out)?;
         }
         out.write_all(self.rows.as_bytes())?;
@@ -210,11 +194,6 @@ impl History {
 fn is_of_cells(text: &[u8]) -> bool {
     let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"+-.,\n".contains(byte);
     text.iter().all(plain)
-}
-
-/// Error for a file with rows of another run.
-fn foreign() -> io::Error {
-    io::Error::new(io::ErrorKind::InvalidData, "holds rows of another run")
 }
 
 /// The fields of a moment, in the order of the columns.

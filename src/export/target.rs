@@ -51,44 +51,41 @@ impl Target {
     ///
     /// If it is not a regular file, or another process is writing it.
     pub fn claim_existing(path: &Path) -> Result<Self, WriteError> {
-        let mut target = Self {
-            path: path.to_owned(),
-            claim: None,
-        };
-        if path == Path::new(STDOUT) {
-            return Ok(target);
-        }
-        let refused = |rule| Err(WriteError::refused(path, rule));
-        refuse_dash(path)?;
-        if path.file_name().is_none() || path.is_dir() {
-            return refused("is not a file name");
-        }
-        if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
-            return refused(IRREGULAR);
-        }
-        if !directory_of(path).is_dir() {
-            return refused("its directory does not exist");
-        }
-        target.claim = Some(Claim::of_file(path)?);
-        sweep(directory_of(path), &temporary_of(path), Duration::ZERO);
-        Ok(target)
+        Self::claim_in(false, path)
     }
 
-    /// Like [`hold`](Self::claim_existing), but creates the directory if necessary. It is removed again if nothing is written
-    /// into it.
+    /// Like [`claim_existing`](Self::claim_existing), but creates the directory if necessary. It is removed again if
+    /// nothing is written into it.
     ///
     /// # Errors
     ///
-    /// As [`hold`](Self::claim_existing), and if the directory cannot be created.
-    pub fn hold_in_new_directory(path: &Path) -> Result<Self, WriteError> {
+    /// As [`claim_existing`](Self::claim_existing), and if the directory cannot be created.
+    pub fn claim_in_new_directory(path: &Path) -> Result<Self, WriteError> {
         let directory = directory_of(path);
         let is_new = !directory.exists();
         fs::create_dir_all(directory).map_err(WriteError::io(directory))?;
-        let mut target = Self::claim_existing(path)?;
-        if let Some(claim) = &mut target.claim {
-            claim.is_new = is_new;
+        Self::claim_in(is_new, path)
+    }
+
+    fn claim_in(is_new: bool, path: &Path) -> Result<Self, WriteError> {
+        let refused = |rule| Err(WriteError::refused(path, rule));
+        let mut claim = None;
+        if path != Path::new(STDOUT) {
+            refuse_dash(path)?;
+            if path.file_name().is_none() || path.is_dir() {
+                return refused("is not a file name");
+            }
+            if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
+                return refused(IRREGULAR);
+            }
+            if !directory_of(path).is_dir() {
+                return refused("its directory does not exist");
+            }
+            claim = Some(Claim::of_file(path, is_new)?);
+            sweep(directory_of(path), &temporary_of(path), Duration::ZERO);
         }
-        Ok(target)
+        let path = path.to_owned();
+        Ok(Self { path, claim })
     }
 
     /// Refuses an existing file unless `force` is set.

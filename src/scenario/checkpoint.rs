@@ -3,14 +3,13 @@
 //! ```text
 //! mdr-tui checkpoint 8
 //! 20517 bytes, CRC-32 9ae0daaf
-//! run 5f0c2a91, written by mdr-tui 0.1.0 at cycle 42.5
+//! written by mdr-tui 0.1.0 at cycle 42.5
 //! <CBOR>
 //! ```
 //!
 //! Three readable lines, then the scenario as loaded, its changes and the saved run in CBOR (RFC 8949), which keeps
 //! every bit of an f64, including infinities and −0. Fields are stored by name, so that added fields can be recognised.
-//! Length and checksum of the contents reveal a damaged file. A checkpoint of `mdr-tui run` also names its run, to
-//! detect that another run has used the directory in between; see [`Stamp`].
+//! Length and checksum of the contents reveal a damaged file.
 
 use std::borrow::Cow;
 use std::io::{self, BufRead, BufReader, Read};
@@ -64,47 +63,8 @@ struct Body<'a, E> {
     job: Option<E>,
 }
 
-/// The third line of a run's checkpoint: which run it belongs to, and how far that has come.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stamp {
-    /// Identifier of the run.
-    pub run: String,
-    /// Cycles since its start.
-    pub cycle: f64,
-}
-
-impl Stamp {
-    /// Start of a third line that names a run.
-    const RUN: &str = "run ";
-
-    /// Reads the third line of the checkpoint at `path`; `None` for other files, and for a checkpoint without a run.
-    pub fn read(path: &Path) -> Option<Self> {
-        let mut from = BufReader::new(bounded_read::open(path).ok()?.take(3 * LONGEST_LINE));
-        let mut lines = [const { String::new() }; 3];
-        for line in &mut lines {
-            from.read_line(line).ok()?;
-        }
-        let [magic, _, line] = &lines;
-        let (run, written) = line.strip_prefix(Self::RUN)?.split_once(", written by ")?;
-        let (_, cycle) = written.trim_end().rsplit_once(" at cycle ")?;
-        magic.starts_with(MAGIC).then_some(Self {
-            run: run.to_owned(),
-            cycle: cycle.parse().ok()?,
-        })
-    }
-}
-
-/// Encodes a checkpoint of `session`.
+/// Encodes a checkpoint of `session`, with the `job` of the run that it belongs to.
 pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
-    written(session, "", job)
-}
-
-/// Encodes a checkpoint of `session` with the `job` of the run identified by `run`.
-pub fn encode_run<E: Serialize>(session: &Session, run: &str, job: &E) -> Vec<u8> {
-    written(session, &format!("{}{run}, ", Stamp::RUN), Some(job))
-}
-
-fn written<E: Serialize>(session: &Session, run: &str, job: Option<&E>) -> Vec<u8> {
     let saved = session.simulation().save();
     let cycle = saved.cycle();
     let body = Body {
@@ -120,7 +80,7 @@ fn written<E: Serialize>(session: &Session, run: &str, job: Option<&E>) -> Vec<u
         job,
     };
     let version = env!("CARGO_PKG_VERSION");
-    let mut contents = format!("{run}written by mdr-tui {version} at cycle {cycle}\n").into_bytes();
+    let mut contents = format!("written by mdr-tui {version} at cycle {cycle}\n").into_bytes();
     ciborium::into_writer(&body, &mut contents).expect("CBOR holds any value, and memory takes it");
     sealed(&contents)
 }

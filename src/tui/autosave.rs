@@ -64,13 +64,12 @@ impl ScreenAutosave {
         }
     }
 
-    /// Switches to another session; keeps the file of this one.
+    /// Saves this session and switches to another one, whose checkpoints replace its own from the first step on.
     pub fn begin_session(&mut self, from: &Session, to: &Session) {
         if self.is_finished {
             return;
         }
         self.save(from);
-        self.autosave.begin_session();
         self.kept = mark(to);
         self.copy = Recent::new(to.clone());
     }
@@ -83,6 +82,7 @@ impl ScreenAutosave {
         }
         let copy = self.copy.get().clone();
         self.save(session.unwrap_or(&copy));
+        self.autosave.end();
         let place = self.autosave.kept().map(|(path, cycle)| {
             let (cycle, path) = (number(cycle), shell_path(path));
             format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")

@@ -67,6 +67,8 @@ pub mod trend;
 mod undo;
 pub mod worker;
 
+use crate::export::autosave::left_by_a_crash;
+use crate::export::file::shell_path;
 use crate::panics::catch;
 use crate::plot::theme::Theme;
 use app::App;
@@ -132,8 +134,14 @@ pub fn run(options: Options) -> Result<Farewell> {
     let looks_in = keep_in
         .clone()
         .filter(|_| !options.present && options.map.is_none());
-    let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
     let running = options.running && is_live;
+    let killed = keep_in.as_deref().filter(|_| running);
+    if let Some(path) = killed.and_then(left_by_a_crash) {
+        let path = shell_path(&path);
+        let word = format!("a session was killed; mdr-tui --resume {path} continues it");
+        let _ = events.send(Event::Notice(line::one_line(&word)));
+    }
+    let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
     let worker = Worker::new(options.run, events.clone(), interval, running);
     let mut worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(options.theme, orders.clone(), Arc::new(worker.frame()));

@@ -8,7 +8,7 @@ use serde::de::IgnoredAny;
 use super::trend::{Recorded, Trend};
 use crate::export::file::WriteError;
 use crate::export::header::{field as written, number, table};
-use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
+use crate::export::run_folder::{RUN_CHECKPOINT, RunFolder};
 use crate::export::{history, last_loop, state};
 use crate::reading::Column;
 use crate::scenario::columns::Columns;
@@ -28,7 +28,7 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     let session = noted.as_ref().unwrap_or(&run.session);
     let cycle = number(session.simulation().cycle());
     let stem = session.loaded().stem();
-    let directory = RunDirectory::claim_new(&format!("{stem}-cycle-{cycle}"))?;
+    let directory = RunFolder::create_named(&format!("{stem}-cycle-{cycle}"))?;
     let scenario = session.as_run(Vec::new()).to_toml();
     let mut files = vec![
         ("scenario.toml", scenario.into_bytes()),

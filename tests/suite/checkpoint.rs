@@ -293,14 +293,14 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
     let body = whole.splitn(2, |&byte| byte == b'\n').nth(1);
     let body = body.expect("a body");
     let later = [b"mdr-tui checkpoint 9\n", body].concat();
-    let due = "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 7";
+    let due = "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 8";
     assert_eq!(refusal(&later), due);
     let rude = [b"mdr-tui checkpoint \x1b[31m1\n", body].concat();
     assert!(refusal(&rude).contains("is a checkpoint of version"));
     for bytes in [&b""[..], b"title = \"x\"\n", &[0; 4096], b"\xff\xfe"] {
         assert!(refusal(bytes).contains(FOREIGN));
     }
-    let huge = b"mdr-tui checkpoint 7\n99999999999999 bytes, CRC-32 00000000\nx";
+    let huge = b"mdr-tui checkpoint 8\n99999999999999 bytes, CRC-32 00000000\nx";
     has(&refusal(huge), "larger than 4 GiB");
 }
 

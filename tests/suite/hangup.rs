@@ -331,6 +331,30 @@ fn an_explorer_that_is_killed_loses_an_interval_at_most() {
     }
 }
 
+/// The next explorer names the session, has a file of its own, and asks no more once the session has gone on.
+#[test]
+fn an_explorer_that_was_killed_is_told_of_until_it_goes_on() {
+    let home = home();
+    let told = "a session was killed; mdr-tui --resume ";
+    let mut terminal = under_way(&home, &["--checkpoint-every", "0.01"], 200);
+    let path = patiently("no checkpoint", || kept(&home));
+    terminal.signal("KILL");
+    terminal.wait_for_end();
+    let left = fs::read(&path).expect("a checkpoint");
+    let mut terminal = Terminal::start(at_home(&home, &["--checkpoint-every", "0.01"]), 200, 24);
+    terminal.wait_for(told);
+    terminal.wait_until("explorer under way", is_under_way);
+    terminal.quit();
+    assert!(left == fs::read(&path).expect("a checkpoint"));
+    let again = path.to_str().expect("a path");
+    let mut terminal = Terminal::start(at_home(&home, &["--resume", again]), 200, 24);
+    terminal.wait_for("paused");
+    terminal.quit();
+    let mut terminal = under_way(&home, &[], 200);
+    assert!(!terminal.text().contains(told));
+    terminal.quit();
+}
+
 #[test]
 fn without_a_shell_ctrl_z_says_so_and_nothing_stops() {
     let home = home();

@@ -292,7 +292,7 @@ fn pipes_and_huge_files_are_refused_at_once() {
     assert_eq!(one, other);
     dir.refuse_line("run hertz --cycles 0 --out -", "is not a name for files");
     // A checkpoint is not read into memory before it is known to be one.
-    let head = "mdr-tui checkpoint 7\n4000000000 bytes, CRC-32 00000000\n";
+    let head = "mdr-tui checkpoint 8\n4000000000 bytes, CRC-32 00000000\n";
     dir.write("big.checkpoint", head.as_bytes());
     let big = std::fs::File::options()
         .write(true)

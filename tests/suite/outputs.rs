@@ -152,6 +152,34 @@ fn a_folder_of_many_users_is_nobody_s_alone() {
     has(&said.err, " closed/x.csv: cannot write: Permission denied");
 }
 
+#[test]
+fn force_removes_what_the_earlier_run_has_written_and_nothing_else() {
+    let dir = TestDir::new();
+    let line = "run li2019-fig3 --set numerics.points=20 --quiet --cycles 2";
+    dir.done(&format!("{line} --snapshot-at 1,1.5 --field --out x"));
+    dir.done(&format!("{line} --snapshot-at 0.5 --out other"));
+    // Another run's table, one in the place of the run's, and a figure's data.
+    fs::copy(dir.path("other/state-0.5.csv"), dir.path("x/state-0.5.csv")).expect("a copy");
+    dir.write("x/state-1.5.csv", b"r_m,f_m\n0,0\n");
+    dir.done("figure x -o x/state.svg --panel profile --quiet");
+    let mine = [
+        "state-0.5.csv",
+        "state-1.5.csv",
+        "state.svg",
+        "state-drawn.csv",
+    ];
+    let before = mine.map(|name| dir.read(&format!("x/{name}")));
+    dir.done(&format!("{line} --out x --force"));
+    assert_eq!(mine.map(|name| dir.read(&format!("x/{name}"))), before);
+    let left = names(&dir.path("x"));
+    assert!(!left.contains(&"state-1.csv".into()) && !left.contains(&"field.csv".into()));
+    dir.done(&format!("{line} --out whole"));
+    for name in names(&dir.path("whole")) {
+        let [one, other] = ["x", "whole"].map(|of| dir.read(&format!("{of}/{name}")));
+        assert!(one == other, "{name}");
+    }
+}
+
 /// Calls of the system by which files come to be as they are.
 const CALLS: &str =
     "openat write pwrite64 fsync rename renameat renameat2 unlink flock ftruncate lseek";

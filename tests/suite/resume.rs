@@ -57,13 +57,18 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
         let hint = format!("resume with: mdr-tui run --resume {checkpoint}");
         dir.refuse_line(&format!("run mine.toml --cycles 1 --out {out}"), &hint);
 
-        // Elsewhere, and then where it was; the checkpoint goes only with the latter.
-        dir.done(&format!(
-            "run --resume {checkpoint} --out moved-{round} --quiet"
-        ));
-        dir.alike("whole", &format!("moved-{round}"));
-        dir.done(&format!("run --resume {checkpoint} --quiet"));
-        dir.alike("whole", &out);
+        // Where it lies; the folder may have been moved.
+        let elsewhere = format!("run --resume {checkpoint} --out elsewhere");
+        dir.refuse_line(&elsewhere, "is resumed in the folder where it lies");
+        if round == 0 {
+            fs::rename(dir.path(&out), dir.path("moved")).expect("a directory");
+            dir.done("run --resume moved/run.checkpoint --quiet");
+            dir.alike("whole", "moved");
+            assert!(!dir.path(&out).exists());
+        } else {
+            dir.done(&format!("run --resume {checkpoint} --out {out} --quiet"));
+            dir.alike("whole", &out);
+        }
     }
 }
 
@@ -91,32 +96,30 @@ fn a_copy_of_a_checkpoint_leaves_the_run_that_took_its_place_alone() {
     fs::copy(dir.path("x/run.checkpoint"), dir.path("copy")).expect("a copy");
     fs::rename(dir.path("x"), dir.path("kept")).expect("a directory");
     interrupted(&dir, "x", "--set friction.coefficient=0.3");
-    let before = dir.inventory();
-    dir.refuse_line("run --resume copy", "another run has used it since");
-    dir.refuse_line("run --resume copy --out x", "another run has used it since");
+    dir.refuse_line("run --resume copy", "x: holds an interrupted run");
+    dir.refuse_line("run --resume copy --out x", "x: holds an interrupted run");
     // Neither its rows nor its snapshots are taken for those of the copy.
-    dir.refuse_line(
-        "run --resume copy --out y",
-        "is not what this run has written",
-    );
+    let said = dir.line("run --resume copy --cycles 20 --out y --quiet");
+    said.fails(0, "the history so far no longer exists");
+    assert!(!names(&dir.path("y")).contains(&"state-1.csv".into()));
+    let first = dir.table("y/history.csv").column("cycle")[0];
+    assert!(first >= 1.0, "{first}");
+    // Not even in its folder.
+    fs::copy(dir.path("copy"), dir.path("x/run.checkpoint")).expect("a copy");
+    let other = "another run has used this folder since";
+    dir.refuse_line("run --resume x/run.checkpoint", other);
     // Even where the checkpoint is gone.
     fs::remove_file(dir.path("x/run.checkpoint")).expect("a file");
     dir.refuse_line("run --resume copy", "not empty");
-    fs::remove_file(dir.path("x/state-1.csv")).expect("a file");
-    dir.refuse_line("run --resume copy --out y", "x/state-8.csv: is not what");
-    fs::remove_file(dir.path("x/state-8.csv")).expect("a file");
-    dir.refuse_line(
-        "run --resume copy --out y",
-        "x/.mdr-tui-history: is not what",
-    );
-    assert!(dir.inventory().len() == before.len() - 3);
     // With its own files back, the run goes on, to the same numbers.
     fs::rename(dir.path("x"), dir.path("other")).expect("a directory");
     fs::rename(dir.path("kept"), dir.path("x")).expect("a directory");
-    dir.done("run --resume copy --cycles 20 --out y --quiet");
+    dir.done("run --resume copy --cycles 20 --out z --quiet");
     let line = "run li2019-fig3 --cycles 20 --set numerics.points=30 --snapshot-at 1,8 --history every-step";
     dir.done(&format!("{line} --out whole --quiet"));
-    dir.alike("whole", "y");
+    dir.alike("whole", "z");
+    dir.done("run --resume x/run.checkpoint --cycles 20 --quiet");
+    dir.alike("whole", "x");
 }
 
 #[test]

@@ -108,6 +108,24 @@ fn a_sweep_stops_at_the_signals_of_queues_and_starts_no_idle_threads() {
 }
 
 #[test]
+fn a_figure_and_a_fit_that_are_interrupted_leave_no_lock_behind() {
+    let dir = TestDir::new();
+    dir.done("run li2019-fig3 --cycles 2 --set numerics.points=20 --out x --quiet");
+    let long = "li2019-fig3 --set numerics.points=3000 --cycles 1000";
+    let figure = format!("figure {long} -o f.svg");
+    let fit = format!("fit {long} --scar x/state.csv --free wear.coefficient --out f.svg");
+    for (line, sign) in [(&figure, "INT"), (&figure, "TERM"), (&fit, "INT")] {
+        let mut child = dir.start(line, &[]);
+        dir.wait_for(&mut child, ".mdr-tui-f.svg.lock");
+        let start = Instant::now();
+        signal(&child, sign);
+        end(child).fails(1, "interrupted");
+        assert!(start.elapsed() < SOON);
+        assert_eq!(names(&dir.path("")), ["x"]);
+    }
+}
+
+#[test]
 fn a_file_that_has_grown_to_its_limit_is_an_error_in_one_line() {
     let dir = TestDir::new();
     let said = dir.shell("ulimit -f 8; exec $BIN run hertz --cycles 1 --out x --quiet");

@@ -67,7 +67,8 @@ fn a_run_under_way_is_refused_to_others_even_by_force_and_a_killed_one_is_not() 
     }
     assert!(matches!(alive.try_wait(), Ok(None)), "it was disturbed");
     // A copy elsewhere disturbs nobody.
-    dir.done("run --resume x/run.checkpoint --cycles 3000 --out y --quiet");
+    fs::copy(dir.path("x/run.checkpoint"), dir.path("copy")).expect("a copy");
+    dir.done("run --resume copy --cycles 3000 --out y --quiet");
     kill(alive);
     // What it has left behind is stale.
     dir.done("run cone --cycles 1 --out x --force --quiet");

@@ -31,7 +31,7 @@ use values::{budget, interval, listed};
 #[derive(Debug, Parser)]
 #[command(
     name = "mdr-tui",
-    version = super::provenance::VERSION,
+    version = crate::export::provenance::VERSION,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     disable_help_subcommand = true,
@@ -178,7 +178,7 @@ pub struct Run {
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,
-    /// Continue an interrupted run, or a session of the explorer, from its checkpoint.
+    /// Continue an interrupted run in its folder, or a session of the explorer, from its checkpoint.
     #[arg(
         long,
         value_name = "FILE",
@@ -202,8 +202,8 @@ pub struct Run {
     /// steady cycle, in the plane of motion.
     #[arg(long)]
     pub field: bool,
-    /// Directory for the files; default: a new one named after the scenario, or with --resume the
-    /// directory of the run.
+    /// Directory for the files; default: a new one named after the scenario. A run is resumed in its own folder,
+    /// which may have been moved.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write into a directory that is not empty.

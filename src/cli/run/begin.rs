@@ -4,21 +4,21 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
-use super::past::Past;
 use super::{Job, Safe};
 use crate::cli::args::Run;
 use crate::cli::job::RunJob;
-use crate::cli::{accuracy, given};
-use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::{WriteError, directory_of};
+use crate::cli::{accuracy, complain, given};
+use crate::export::autosave::{self, Autosave, Recent};
+use crate::export::file::{WriteError, directory_of, shell_path};
+use crate::export::header::number;
 use crate::export::own_directory;
-use crate::export::run_directory::{RUN_CHECKPOINT, RunDirectory};
+use crate::export::run_folder::{RUN_CHECKPOINT, RUN_ROWS, RunFolder};
 use crate::panics::locked;
-use crate::scenario::checkpoint::{self, Stamp};
+use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
-use crate::scenario::{Scenario, printable};
+use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::refinement::{self, Budget};
 
 impl<'a> Job<'a> {
@@ -27,9 +27,9 @@ impl<'a> Job<'a> {
         let mut scenario = given::scenario(name, &options.changes.set)?;
         let name = &*scenario.origin().to_owned();
         let mut job = RunJob::new(options, &scenario, name)?;
-        let directory = match &options.out {
-            Some(path) => RunDirectory::claim(path, options.force)?,
-            None => new_directory(&scenario)?,
+        let folder = match &options.out {
+            Some(path) => RunFolder::create(path, options.force)?,
+            None => new_folder(&scenario)?,
         };
         if scenario.run().cycles == Some(job.cycles) {
             job.errors = scenario.errors().unwrap_or_default();
@@ -50,51 +50,47 @@ impl<'a> Job<'a> {
         let session = Session::start(scenario).with_context(|| printable(name))?;
         // Clears the old files only now, when there is something to replace them.
         if options.force {
-            directory.clear(|_| false)?;
+            folder.clear()?;
         }
-        job.set_home(directory.path());
-        Ok(Self::new(options, name.to_owned(), session, job, directory))
+        Ok(Self::new(options, name.to_owned(), session, job, folder))
     }
 
-    /// Resumes a run in its own directory, or in another one, to which the files written so far are copied.
+    /// Resumes a run in the folder that its checkpoint lies in. A checkpoint without a folder continues in the one that
+    /// it names, or in another one.
     pub(super) fn resume(options: &'a Run, file: &Path) -> Result<Self> {
         let name = printable(&file.display().to_string());
         let out = options.out.as_deref();
-        let is_out = |home: &Path| out.is_none_or(|out| is_same(home, out));
-        let is_of_a_run = file.is_file() && file.ends_with(RUN_CHECKPOINT);
-        let beside = is_of_a_run.then(|| directory_of(file));
-        // Only the first process that claims the directory may resume it.
-        let claimed = beside.filter(|home| is_out(home));
-        let claimed = claimed.map(RunDirectory::reopen).transpose()?;
+        let is_of_a_folder = file.is_file() && file.ends_with(RUN_CHECKPOINT);
+        let lies_in = is_of_a_folder.then(|| directory_of(file));
+        let in_place = lies_in.filter(|lies_in| out.is_none_or(|out| is_same(lies_in, out)));
+        // Claims it before reading, because only the first process that does so may resume the run.
+        let in_place = in_place.map(RunFolder::open).transpose()?;
         let kept = checkpoint::read::<RunJob>(file)?;
         let session = kept.session;
         let mut job = RunJob::resumed(kept.job, &session, options.cycles, &name)?;
         job.field |= options.field;
         job.estimates |= options.estimate_error;
-        let home = beside.or(job.home.as_deref()).map(Path::to_owned);
-        let past = Past::find(&job, home.as_deref())?;
-        let is_returning = claimed.is_none();
-        let inside = home.as_deref();
-        let inside = inside.filter(|home| is_out(home) && home.is_dir());
-        let directory = match (claimed, inside, out) {
-            (Some(directory), ..) => directory,
-            (None, Some(home), _) => {
-                let (run, cycle) = (job.id.clone(), session.simulation().cycle());
-                let is_own = |name: &str| past.is_own(name);
-                RunDirectory::return_to(home, &Stamp { run, cycle }, is_own, options.force)?
+        let run = lies_in.and_then(RunFolder::run_in);
+        let is_own = run.as_ref() == Some(&job.id);
+        let folder = match in_place {
+            Some(folder) => {
+                let rule =
+                    "another run has used this folder since; continue in another one with --out";
+                let is_ours = run.is_none() || is_own || options.force;
+                ensure!(is_ours, Refusal::new(folder.path().display(), rule));
+                let is_ours = run.is_none() || is_own;
+                keep_rows(&mut job, is_ours.then_some(folder.path()));
+                folder
             }
-            (None, None, Some(out)) => RunDirectory::claim(out, options.force)?,
-            (None, None, None) => new_directory(session.loaded())?,
+            None => {
+                let rule = "is resumed in the folder where it lies, without --out; to have it elsewhere, move that first";
+                ensure!(!is_own, Refusal::new(&name, rule));
+                without_a_folder(options, &session, &mut job)?
+            }
         };
-        past.refuse_foreign(options.force)?;
-        let is_at_home = home.as_deref();
-        let is_at_home = is_at_home.is_some_and(|home| is_same(home, directory.path()));
-        if is_returning && options.force {
-            directory.clear(|name| is_at_home && past.is_own(name))?;
-        }
-        job.set_home(directory.path());
-        past.copy_into(&mut job, &directory, is_at_home)?;
-        let resumed = Self::new(options, name, session, job, directory);
+        // The session goes on here, so nobody needs to be told of it any more.
+        autosave::forget_crash(file);
+        let resumed = Self::new(options, name, session, job, folder);
         let cycle = resumed.session.simulation().cycle();
         locked(&resumed.safe).checkpoints.remember(file, cycle);
         Ok(resumed)
@@ -104,11 +100,13 @@ impl<'a> Job<'a> {
         options: &'a Run,
         name: String,
         mut session: Session,
-        job: RunJob,
-        directory: RunDirectory,
+        mut job: RunJob,
+        folder: RunFolder,
     ) -> Self {
         session.state(job.errors.clone());
-        let home = Some(directory.clone());
+        job.set_home(folder.path());
+        folder.begin(&job.provenance());
+        let home = Some(folder.clone());
         let safe = Safe {
             checkpoints: Autosave::new(home, own_directory::state(), options.checkpoint_every),
             copy: Recent::new((session.clone(), job.clone())),
@@ -117,7 +115,7 @@ impl<'a> Job<'a> {
             options,
             name,
             safe: Arc::new(Mutex::new(safe)),
-            directory,
+            folder,
             session,
             job,
             unwritten: None,
@@ -126,13 +124,73 @@ impl<'a> Job<'a> {
     }
 }
 
+/// Claims the folder in which a checkpoint that lies in none continues: the one that it names, or `--out`, into which
+/// the files written so far are copied.
+fn without_a_folder(options: &Run, session: &Session, job: &mut RunJob) -> Result<RunFolder> {
+    let (out, force) = (options.out.as_deref(), options.force);
+    let named = job.home.take();
+    let home = named.as_deref().filter(|home| home.is_dir());
+    let is_own = home.and_then(RunFolder::run_in).as_ref() == Some(&job.id);
+    let at_home = home.filter(|home| out.is_none_or(|out| is_same(home, out)));
+    let folder = match at_home.or(out) {
+        Some(home) if is_own && at_home.is_some() => {
+            let folder = RunFolder::open(home)?;
+            if !force {
+                refuse_going_back(&folder, session)?;
+            }
+            folder
+        }
+        Some(path) => {
+            let folder = RunFolder::create(path, force)?;
+            if force {
+                folder.clear()?;
+            }
+            folder
+        }
+        None => new_folder(session.loaded())?,
+    };
+    if let (true, None, Some(home)) = (is_own, at_home, home) {
+        let rows = [RUN_ROWS.to_owned()];
+        folder.copy_from(home, job.snapshot_files().chain(rows))?;
+    }
+    keep_rows(job, is_own.then_some(folder.path()));
+    Ok(folder)
+}
+
+/// Continues without the rows of the history in the file if they are not in `folder`, and says so.
+fn keep_rows(job: &mut RunJob, folder: Option<&Path>) {
+    let rows = folder.map(|folder| folder.join(RUN_ROWS));
+    if job.history.loses_rows(rows.as_deref()) {
+        complain("the history so far no longer exists; the rows begin at the checkpoint");
+    }
+}
+
+/// Refuses to undo what the run has done in its folder since the checkpoint of `session`.
+fn refuse_going_back(folder: &RunFolder, session: &Session) -> Result<()> {
+    let (path, checkpoint) = (folder.path(), folder.checkpoint());
+    if checkpoint.symlink_metadata().is_err() {
+        return Ok(folder.refuse_results()?);
+    }
+    let there = checkpoint::read::<RunJob>(&checkpoint)?.session;
+    let there = there.simulation().cycle();
+    let rule = format!(
+        "the run has come further there, to cycle {}; resume with: mdr-tui run --resume {}, or choose another directory \
+         with --out (--force goes back)",
+        number(there),
+        shell_path(&checkpoint)
+    );
+    let is_newer = session.simulation().cycle() >= there;
+    ensure!(is_newer, Refusal::new(path.display(), rule));
+    Ok(())
+}
+
 /// Whether two paths lead to the same directory.
 fn is_same(one: &Path, other: &Path) -> bool {
     let [one, other] = [one, other].map(|path| path.canonicalize().ok());
     one.is_some() && one == other
 }
 
-/// Claims a new directory named after the scenario.
-fn new_directory(scenario: &Scenario) -> Result<RunDirectory, WriteError> {
-    RunDirectory::claim_new(&format!("{}-run", scenario.stem()))
+/// Claims a new folder named after the scenario.
+fn new_folder(scenario: &Scenario) -> Result<RunFolder, WriteError> {
+    RunFolder::create_named(&format!("{}-run", scenario.stem()))
 }

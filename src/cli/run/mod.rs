@@ -12,21 +12,20 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, anyhow};
 
 use super::args::{CycleAsGiven, Run};
-use super::job::RunJob;
+use super::job::{RunJob, file_of};
 use super::progress::Progress;
-use super::{FAILED, UNFINISHED, accuracy, complain, provenance, stop};
+use super::{FAILED, UNFINISHED, accuracy, complain, stop};
 use crate::export::autosave::{Autosave, Recent};
 use crate::export::file::{WriteError, shell_path};
 use crate::export::header::{self, number};
-use crate::export::run_directory::RunDirectory;
-use crate::export::{field, last_loop, state};
+use crate::export::run_folder::RunFolder;
+use crate::export::{claim, field, last_loop, provenance, state};
 use crate::panics::locked;
 use crate::reading::Errors;
 use crate::scenario::checkpoint;
 use crate::scenario::session::{Session, SessionError};
 
 mod begin;
-mod past;
 mod summary;
 
 use summary::remarks;
@@ -92,10 +91,10 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
     if matches!(outcome, Ok(None) | Err(_)) {
-        job.directory.close()?;
+        job.folder.close()?;
     }
     stop::nothing_is_left_to_save();
-    let directory = job.directory.path().display();
+    let folder = job.folder.path().display();
     match outcome {
         Ok(None) => {
             if options.json {
@@ -111,7 +110,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
             let can_resume = !is_bug && locked(&job.safe).checkpoints.kept().is_some();
             Ok(ExitCode::from(if can_resume { UNFINISHED } else { FAILED }))
         }
-        Err(error) => Err(error.context(format!("{} (saved in {directory})", job.name))),
+        Err(error) => Err(error.context(format!("{} (saved in {folder})", job.name))),
     }
 }
 
@@ -130,7 +129,7 @@ impl Guard {
             is_over: Arc::default(),
             safe: Arc::default(),
         };
-        // A weak reference: this thread never ends, and would keep the directory claimed.
+        // A weak reference: this thread never ends, and would keep the folder claimed.
         let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::downgrade(&guard.safe));
         let watch = move || {
             while !stop.load(Ordering::Relaxed) {
@@ -140,7 +139,9 @@ impl Guard {
             if !is_over.swap(true, Ordering::SeqCst) {
                 let safe = safe.upgrade();
                 let safe = safe.as_ref().and_then(|safe| safe.get());
-                std::process::exit(end_at_once(safe).into());
+                let code = end_at_once(safe);
+                claim::release_all();
+                std::process::exit(code.into());
             }
         };
         // If the system cannot start a thread, runs end only between steps.
@@ -197,7 +198,7 @@ impl Safe {
     }
 
     fn save_silently(&mut self, session: &Session, job: &RunJob) -> Option<String> {
-        let checkpoint = checkpoint::encode_run(session, &job.id, job);
+        let checkpoint = checkpoint::encode(session, Some(job));
         self.checkpoints.save(session, &checkpoint)
     }
 
@@ -223,7 +224,7 @@ struct Job<'a> {
     name: String,
     session: Session,
     job: RunJob,
-    directory: RunDirectory,
+    folder: RunFolder,
     safe: Arc<Mutex<Safe>>,
     /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
@@ -254,9 +255,9 @@ impl Job<'_> {
         let stated: String = lines
             .map(|(key, value)| header::line(key, &value))
             .collect();
-        for name in self.job.snapshots.iter().map(file_of) {
+        for name in self.job.snapshot_files() {
             let is_owed = self.owed.iter().any(|(owed, _)| *owed == name);
-            let written = fs::read_to_string(self.directory.path().join(&name));
+            let written = fs::read_to_string(self.folder.path().join(&name));
             if let (false, Ok(table)) = (is_owed, written) {
                 self.owed.push((name, table));
             }
@@ -286,7 +287,7 @@ impl Job<'_> {
         match ended {
             Err(SessionError::Interrupted) => {
                 let cycle = number(self.session.simulation().cycle());
-                let place = self.directory.path().display();
+                let place = self.folder.path().display();
                 let why = why_stop().unwrap_or("interrupted");
                 Ok(Some(format!("{why} at cycle {cycle}; saved in {place}")))
             }
@@ -329,7 +330,7 @@ impl Job<'_> {
         let is_time = |at: Instant| at.elapsed() >= ANOTHER_TRY;
         if self.job.history.is_full() && self.unwritten.is_none_or(is_time) {
             // Rows that cannot be written stay in memory.
-            let rows = self.directory.check().map(|()| self.directory.rows());
+            let rows = self.folder.check().map(|()| self.folder.rows());
             let is_written = rows.is_ok_and(|rows| self.job.history.spill(&rows).is_ok());
             self.unwritten = (!is_written).then(Instant::now);
         }
@@ -358,8 +359,8 @@ impl Job<'_> {
     fn take_snapshots(&mut self, session: &Session, end: f64) -> Result<()> {
         while let Some(snapshot) = self.job.next_snapshot(end) {
             let (name, table) = (file_of(snapshot), table_at(snapshot, session)?);
-            self.job.snapshot_is_done(&table);
-            if let Err(error) = self.directory.write(&name, &table) {
+            self.job.snapshot_is_done();
+            if let Err(error) = self.folder.write(&name, &table) {
                 let hint = "the run continues and tries again at its end";
                 complain(&format!("{error}; {hint}"));
                 self.owed.push((name, table));
@@ -371,9 +372,9 @@ impl Job<'_> {
     /// Writes as many of the final files as possible.
     fn write_end(&mut self) -> Result<(), WriteError> {
         let (session, job) = (&self.session, &self.job);
-        let rows = self.directory.rows();
+        let rows = self.folder.rows();
         let history = |out: &mut dyn io::Write| job.history.write(session, &rows, out);
-        let mut outcome = self.directory.write_with("history.csv", history);
+        let mut outcome = self.folder.write_with("history.csv", history);
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
         let last_loop = is_done.then(|| last_loop::file(session)).flatten();
@@ -382,7 +383,7 @@ impl Job<'_> {
         let files = [
             ("scenario.toml", Some(scenario)),
             ("state.csv", Some(state::table(session))),
-            (provenance::FILE, Some(provenance::text(&job.id))),
+            (provenance::FILE, Some(job.provenance().text())),
             ("loop.csv", last_loop),
             ("field.csv", field),
         ];
@@ -390,7 +391,7 @@ impl Job<'_> {
         let made = files.iter();
         let made = made.filter_map(|(name, text)| Some((*name, text.as_ref()?)));
         for (name, text) in owed.chain(made) {
-            outcome = outcome.and(self.directory.write(name, text));
+            outcome = outcome.and(self.folder.write(name, text));
         }
         outcome
     }
@@ -405,9 +406,4 @@ fn table_at(snapshot: &CycleAsGiven, session: &Session) -> Result<String> {
     let mut glimpse = session.clone();
     glimpse.advance_to(snapshot.cycle())?;
     Ok(state::table(&glimpse))
-}
-
-/// Returns the name of a snapshot's file.
-fn file_of(snapshot: &CycleAsGiven) -> String {
-    format!("state-{}.csv", snapshot.0)
 }

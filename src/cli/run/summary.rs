@@ -34,7 +34,7 @@ impl Job<'_> {
         });
         let values = self.job.history.values(&self.session).into_iter();
         let values = values.map(|(column, value)| (column.name().to_owned(), value));
-        let directory = self.directory.path().display().to_string();
+        let directory = self.folder.path().display().to_string();
         let directory = [("directory".to_owned(), directory.into())];
         let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();
         let summary = escape::json(&summary, false)?;
@@ -79,7 +79,7 @@ impl Job<'_> {
             let parts = format!("{parts} sub-steps in {steps} steps   (numerics.stability)");
             lines.push(("stiff wear", parts));
         }
-        let directory = self.directory.path().display().to_string();
+        let directory = self.folder.path().display().to_string();
         lines.push(("files in", printable(&directory)));
         let mut out = io::stdout().lock();
         let title = self.session.scenario().title();

@@ -8,7 +8,7 @@ use std::{env, fs};
 use anyhow::{Context, Result, bail};
 
 use crate::cli::args::Sweep;
-use crate::cli::complain;
+use crate::cli::{complain, stop};
 use crate::export::target::Target;
 use crate::scenario::{Refusal, printable};
 use crate::studies::sweep::ledger::Ledger;
@@ -21,6 +21,7 @@ const NAMED: usize = 3;
 /// Reads every table of the directory and writes the merged one.
 pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     let shown = printable(&directory.display().to_string());
+    stop::end_at_signal()?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let mut files = tables(directory).map_err(|error| Refusal::new(&shown, error))?;
     let out = options.out.as_ref().and_then(|out| out.canonicalize().ok());

@@ -37,7 +37,7 @@ impl Output {
     /// Creates the file, or continues it, and claims it. An existing file is replaced only when its rows have been
     /// copied, so that new ones can be appended.
     pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
-        let target = Target::hold_in_new_directory(path)?;
+        let target = Target::claim_in_new_directory(path)?;
         let mut arithmetic: Arithmetic = [header::arithmetic().to_owned()].into();
         let mut rows = None;
         if target.exists() && !options.force {

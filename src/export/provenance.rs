@@ -8,41 +8,61 @@ use std::fs;
 use std::path::Path;
 use std::time::UNIX_EPOCH;
 
-use crate::export::file::shell_word;
-use crate::export::header;
+use serde::Deserialize;
+use toml::Value;
+
+use super::file::shell_word;
+use super::header;
 use crate::scenario::bounded_read;
 use crate::scenario::value::literal;
 
 /// The name of the file.
 pub const FILE: &str = "provenance.toml";
 
-/// The largest such file to be read, in bytes.
-const LARGEST: u64 = 1 << 16;
+/// The largest such file to be read, in bytes: the names of ten thousand snapshots.
+const LARGEST: u64 = 1 << 20;
 
 /// The version, with the commit if known.
 pub const VERSION: &str = env!("MDR_TUI_VERSION");
 
-/// Describes this process, its machine and the identity of its `run`.
-pub fn text(run: &str) -> String {
-    let about = "# mdr-tui: how the files beside this one were made; they do not depend on it\n";
-    let known = [
-        ("version", VERSION.to_owned()),
-        ("command", command()),
-        ("run", run.to_owned()),
-        ("date", date(now())),
-        ("system", format!("{OS} {ARCH}")),
-        ("processor", processor().unwrap_or_else(|| "unknown".into())),
-        ("arithmetic", header::arithmetic().to_owned()),
-    ];
-    let lines = known.map(|(key, known)| format!("{key} = {}\n", literal(&known.into())));
-    about.to_owned() + &lines.concat()
+/// What the file says of the run whose folder it lies in.
+#[derive(Debug, Deserialize)]
+pub struct Provenance {
+    /// The identity of the run.
+    pub run: String,
+    /// The names of the files that the run writes.
+    #[serde(default)]
+    pub files: Vec<String>,
 }
 
-/// Returns the identity of the run that last wrote its files in `directory`, if recorded.
-pub fn run_of(directory: &Path) -> Option<String> {
-    let text = bounded_read::text(&directory.join(FILE), LARGEST).ok()?;
-    let known: toml::Table = toml::from_str(&text).ok()?;
-    Some(known.get("run")?.as_str()?.to_owned())
+impl Provenance {
+    /// Reads the file in a directory, if there is one.
+    pub fn read(directory: &Path) -> Option<Self> {
+        let text = bounded_read::text(&directory.join(FILE), LARGEST).ok()?;
+        toml::from_str(&text).ok()
+    }
+
+    /// Returns the contents of the file: the run, this process and its machine.
+    pub fn text(&self) -> String {
+        let about =
+            "# mdr-tui: how the files beside this one were made; they do not depend on it\n";
+        let files: Vec<Value> = self.files.iter().cloned().map(Value::from).collect();
+        let known: [(&str, Value); 8] = [
+            ("version", VERSION.into()),
+            ("command", command().into()),
+            ("run", self.run.as_str().into()),
+            ("files", files.into()),
+            ("date", date(now()).into()),
+            ("system", format!("{OS} {ARCH}").into()),
+            (
+                "processor",
+                processor().unwrap_or_else(|| "unknown".into()).into(),
+            ),
+            ("arithmetic", header::arithmetic().into()),
+        ];
+        let lines = known.map(|(key, known)| format!("{key} = {}\n", literal(&known)));
+        about.to_owned() + &lines.concat()
+    }
 }
 
 /// Returns the command line, quoted for a shell.

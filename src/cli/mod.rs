@@ -14,6 +14,7 @@ use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use clap_complete::CompleteEnv;
 
+use crate::export::claim;
 use crate::export::file::WriteError;
 use crate::scenario::hint::nearest;
 use crate::scenario::session::SessionError;
@@ -68,7 +69,9 @@ pub fn main() -> ExitCode {
     crate::panics::capture();
     // Ignores SIGXFSZ, so that a file at its size limit is an error like a full disk.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
-    let Ok(outcome) = catch_unwind(AssertUnwindSafe(|| dispatch(arguments))) else {
+    let outcome = catch_unwind(AssertUnwindSafe(|| dispatch(arguments)));
+    claim::release_all();
+    let Ok(outcome) = outcome else {
         let word = crate::panics::take_message().unwrap_or_default();
         complain(&format!("bug in mdr-tui: {word}"));
         return ExitCode::from(FAILED);

@@ -24,6 +24,9 @@ pub const ENDING: [i32; 9] = [
 /// Signals that a user can send from the keyboard.
 const TYPED: [i32; 2] = [SIGINT, SIGQUIT];
 
+/// Polling interval for signals.
+const GLANCE: Duration = Duration::from_millis(20);
+
 /// Maximum time for stopping and saving after the first signal.
 const GRACE: Duration = Duration::from_secs(2);
 
@@ -42,7 +45,9 @@ pub fn nothing_is_left_to_save() {
 /// send several; but Ctrl-C ends the process at once if it has not stopped within [`GRACE`].
 pub fn signal() -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
-    for signal in heard() {
+    let heard = ENDING.into_iter();
+    // Under `nohup` a run outlives its terminal, as intended.
+    for signal in heard.filter(|&signal| signal != SIGHUP || !is_ignored(SIGHUP)) {
         let at_once = flag::register_conditional_shutdown(signal, FAILED.into(), DONE.clone());
         at_once.context(NO_SIGNALS)?;
         flag::register(signal, Arc::clone(&stop)).context(NO_SIGNALS)?;
@@ -54,8 +59,7 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
         for _ in typed.forever() {
             let first = *first.get_or_insert_with(Instant::now);
             if is_stopping.load(Ordering::Relaxed) && first.elapsed() > GRACE {
-                claim::release_all();
-                std::process::exit(FAILED.into());
+                exit(FAILED);
             }
         }
     };
@@ -64,24 +68,33 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
     Ok(stop)
 }
 
-/// Has the first signal end the process, which has nothing to save but leaves no lock files behind.
-pub fn end_at_signal() -> Result<()> {
-    let mut signals = Signals::new(heard()).context(NO_SIGNALS)?;
+/// Calls `end` in a thread of its own when `stop` is set and the time `grace` has passed.
+pub fn after(stop: &Arc<AtomicBool>, grace: Duration, end: impl FnOnce() + Send + 'static) {
+    let stop = Arc::clone(stop);
     let watch = move || {
-        if signals.forever().next().is_some() {
-            claim::release_all();
-            complain("interrupted");
-            std::process::exit(FAILED.into());
+        while !stop.load(Ordering::Relaxed) {
+            thread::sleep(GLANCE);
         }
+        thread::sleep(grace);
+        end();
     };
-    thread::Builder::new().spawn(watch).context(NO_SIGNALS)?;
+    // If the system cannot start a thread, a command ends only where it looks at `stop`.
+    let _ = thread::Builder::new().spawn(watch);
+}
+
+/// Has the first signal end a command that has nothing to save.
+pub fn end_at_signal() -> Result<()> {
+    after(&signal()?, Duration::ZERO, || {
+        complain("interrupted");
+        exit(FAILED);
+    });
     Ok(())
 }
 
-/// Returns the signals that end the process. Under `nohup` a run outlives its terminal, as intended.
-fn heard() -> impl Iterator<Item = i32> {
-    let is_heard = |signal: &i32| *signal != SIGHUP || !is_ignored(SIGHUP);
-    ENDING.into_iter().filter(is_heard)
+/// Ends the process, which leaves no lock files behind.
+pub fn exit(code: u8) -> ! {
+    claim::release_all();
+    std::process::exit(code.into());
 }
 
 /// Returns a function that says to continue until `stop` is set.

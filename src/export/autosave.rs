@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::claim::was_killed;
-use super::file::{INTERNAL, WriteError, sweep};
+use super::file::{INTERNAL, WriteError, shell_path, sweep};
+use super::header::number;
 use super::run_folder::{RUN_CHECKPOINT, RunFolder};
 use super::target::Target;
+use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 
 /// Maximum age of the copy in memory that survives a bug.
@@ -24,10 +26,39 @@ const MOST_LEFT: usize = 20;
 /// Temporary files older than this are considered abandoned.
 const STALE: Duration = Duration::from_secs(3600);
 
+/// What is saved: a session, and the data of the program that drives it.
+pub trait Work: Clone {
+    /// Returns the session.
+    fn session(&self) -> &Session;
+
+    /// Returns the checkpoint.
+    fn checkpoint(&self) -> Vec<u8>;
+}
+
+impl Work for Session {
+    fn session(&self) -> &Session {
+        self
+    }
+
+    fn checkpoint(&self) -> Vec<u8> {
+        checkpoint::encode(self, None::<&()>)
+    }
+}
+
+/// Distinguishes the states of a session: steps, cycle, and number of changes.
+pub type Mark = (u64, f64, usize);
+
+/// Returns the mark of the present state of `session`.
+pub fn mark(session: &Session) -> Mark {
+    let simulation = session.simulation();
+    let changes = session.changes().len();
+    (simulation.steps(), simulation.cycle(), changes)
+}
+
 /// Keeps the newest state of a session on disk: in the folder of its run, or in a file of this process in a directory if
 /// there is no such folder, or nothing can be written there.
 #[derive(Debug)]
-pub struct Autosave {
+pub struct Autosave<T> {
     folder: Option<RunFolder>,
     directory: Option<PathBuf>,
     /// The file in the directory, since it is needed.
@@ -35,22 +66,36 @@ pub struct Autosave {
     /// The interval; 0 saves only on request.
     every: Duration,
     last: Instant,
+    /// The state last saved, or with which an explorer began.
+    saved: Option<Mark>,
+    /// The session a moment ago, which survives a bug, and when that was.
+    copy: (T, Instant),
     /// The newest checkpoint, and its cycle.
     kept: Option<(PathBuf, f64)>,
     failure: Option<String>,
+    /// Whether nothing more is saved: the session has ended, or there is no place.
+    is_finished: bool,
 }
 
-impl Autosave {
-    /// Saves once per interval `every`, or only on request if that is 0.
-    pub fn new(folder: Option<RunFolder>, directory: Option<PathBuf>, every: Duration) -> Self {
+impl<T: Work> Autosave<T> {
+    /// Saves once per interval `every` while something changes, or only on request if that is 0.
+    pub fn new(
+        folder: Option<RunFolder>,
+        directory: Option<PathBuf>,
+        every: Duration,
+        start: T,
+    ) -> Self {
         Self {
-            folder,
-            directory,
-            file: None,
-            every,
+            is_finished: folder.is_none() && directory.is_none(),
+            saved: folder.is_none().then(|| mark(start.session())),
+            copy: (start, Instant::now()),
             last: Instant::now(),
+            file: None,
             kept: None,
             failure: None,
+            folder,
+            directory,
+            every,
         }
     }
 
@@ -59,29 +104,42 @@ impl Autosave {
         self.kept = Some((path.to_owned(), cycle));
     }
 
-    /// Time until the next checkpoint is due; `None` if only on request.
-    pub fn time_until_due(&self) -> Option<Duration> {
+    /// Returns the time until a checkpoint is due; `None` if there is nothing new, or only on request.
+    pub fn time_until_due(&self, session: &Session) -> Option<Duration> {
+        let is_new = !self.is_finished && self.saved != Some(mark(session));
         let left = self.every.saturating_sub(self.last.elapsed());
-        (!self.every.is_zero()).then_some(left)
+        (is_new && !self.every.is_zero()).then_some(left)
     }
 
-    /// Whether the next checkpoint is due.
-    pub fn is_due(&self) -> bool {
-        self.time_until_due() == Some(Duration::ZERO)
+    /// Keeps the copy in memory up to date, and saves if due; returns a message as [`save`](Self::save).
+    pub fn update(&mut self, session: &Session, work: impl Fn() -> T) -> Option<String> {
+        if self.is_finished {
+            return None;
+        }
+        if self.copy.1.elapsed() >= COPY_INTERVAL {
+            self.copy = (work(), Instant::now());
+        }
+        let is_due = self.time_until_due(session) == Some(Duration::ZERO);
+        is_due.then(|| self.save(&work())).flatten()
     }
 
-    /// Writes `checkpoint`, the state of `session`. Returns a message when saving begins to fail or moves to the
-    /// fallback. The next checkpoint is due one interval later, even if this one fails.
-    pub fn save(&mut self, session: &Session, checkpoint: &[u8]) -> Option<String> {
+    /// Saves a state unless it is saved already. Returns a message when saving begins to fail or moves to the directory.
+    /// The next checkpoint is due one interval later, even if this one fails.
+    pub fn save(&mut self, work: &T) -> Option<String> {
+        let session = work.session();
+        if self.saved == Some(mark(session)) {
+            return None;
+        }
+        let checkpoint = work.checkpoint();
         let (mut saved, mut failure) = (None, None);
         if let Some(folder) = &self.folder {
-            match folder.write(RUN_CHECKPOINT, checkpoint) {
+            match folder.write(RUN_CHECKPOINT, &checkpoint) {
                 Ok(()) => saved = Some(folder.checkpoint()),
                 Err(error) => failure = Some(error.to_string()),
             }
         }
         if saved.is_none() {
-            match self.save_in_directory(&session.loaded().stem(), checkpoint) {
+            match self.save_in_directory(&session.loaded().stem(), &checkpoint) {
                 Ok(path) => saved = path,
                 Err(error) => failure = failure.or(Some(error.to_string())),
             }
@@ -95,6 +153,9 @@ impl Autosave {
         };
         if let Some(path) = saved {
             self.kept = Some((path, session.simulation().cycle()));
+        }
+        if failure.is_none() {
+            self.saved = Some(mark(session));
         }
         let had_failed = std::mem::replace(&mut self.failure, failure).is_some();
         let failure = self.failure.as_ref().filter(|_| !had_failed)?;
@@ -118,49 +179,59 @@ impl Autosave {
         Ok(Some(path))
     }
 
-    /// Gives the file up at the end of the session.
-    pub fn end(&mut self) {
+    /// Saves this session and switches to another one, whose checkpoints replace its own from the first step on.
+    pub fn begin_session(&mut self, from: &T, to: &T) {
+        if !self.is_finished {
+            self.save(from);
+            self.saved = Some(mark(to.session()));
+            self.copy = (to.clone(), Instant::now());
+        }
+    }
+
+    /// Saves the last state, or the copy after a bug, and gives the file up; returns the message for the user of an
+    /// explorer. Only the first call has an effect.
+    pub fn finish(&mut self, work: Option<&T>) -> Option<String> {
+        if std::mem::replace(&mut self.is_finished, true) {
+            return None;
+        }
+        let copy = self.copy().clone();
+        self.save(work.unwrap_or(&copy));
         self.file = None;
+        let place = self.kept().map(|(path, cycle)| {
+            let (cycle, path) = (number(cycle), shell_path(path));
+            format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")
+        });
+        match (&self.failure, place) {
+            (None, place) => place,
+            (Some(failure), Some(place)) => Some(format!("{failure}; {place}")),
+            (Some(failure), None) => Some(format!("nothing was saved: {failure}")),
+        }
+    }
+
+    /// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
+    pub fn how_to_resume(&self, now: f64) -> String {
+        let Some((path, cycle)) = self.kept() else {
+            return "there is no checkpoint".into();
+        };
+        let path = shell_path(path);
+        if cycle == now {
+            return format!("resume with: mdr-tui run --resume {path}");
+        }
+        let (cycle, now) = (number(cycle), number(now));
+        format!(
+            "resume from cycle {cycle} with: mdr-tui run --resume {path} (cycles up to {now} could not be saved)"
+        )
+    }
+
+    /// Returns the session a moment ago.
+    pub fn copy(&self) -> &T {
+        &self.copy.0
     }
 
     /// Returns the newest checkpoint that still exists, and its cycle.
     pub fn kept(&self) -> Option<(&Path, f64)> {
         let (path, cycle) = self.kept.as_ref()?;
         path.exists().then_some((path, *cycle))
-    }
-
-    /// Returns why the last checkpoint could not be saved in its proper place.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
-    }
-}
-
-/// A copy of computed data that survives a bug; at most `COPY_INTERVAL` old if refreshed at every step.
-#[derive(Debug)]
-pub struct Recent<T> {
-    copy: T,
-    at: Instant,
-}
-
-impl<T> Recent<T> {
-    /// Makes the first copy.
-    pub fn new(copy: T) -> Self {
-        Self {
-            copy,
-            at: Instant::now(),
-        }
-    }
-
-    /// Returns the copy.
-    pub fn get(&self) -> &T {
-        &self.copy
-    }
-
-    /// Replaces the copy with the result of `make` if it is too old.
-    pub fn refresh(&mut self, make: impl FnOnce() -> T) {
-        if self.at.elapsed() >= COPY_INTERVAL {
-            *self = Self::new(make());
-        }
     }
 }
 
@@ -219,6 +290,11 @@ mod tests {
 
     use super::*;
     use crate::scenario::Scenario;
+
+    fn hertz() -> Session {
+        let scenario = Scenario::load("hertz", &[]).expect("a preset");
+        Session::start(scenario).expect("a contact")
+    }
 
     /// Makes the checkpoint of a short session and returns its path.
     fn come_and_go(directory: &Path, stem: &str) -> PathBuf {
@@ -318,18 +394,61 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let run = RunFolder::create(base.path(), false).expect("a directory");
         let path = run.checkpoint();
-        let every = |every| Autosave::new(Some(run.clone()), None, every);
-        assert!(!every(Duration::ZERO).is_due());
-        assert!(!every(Duration::from_secs(60)).is_due());
+        let mut session = hertz();
+        let every = |every| Autosave::new(Some(run.clone()), None, every, session.clone());
+        let due = |of: &Autosave<Session>| of.time_until_due(&hertz());
+        assert_eq!(due(&every(Duration::ZERO)), None);
+        assert!(due(&every(Duration::from_secs(60))) > Some(Duration::from_secs(50)));
         let mut always = every(Duration::from_nanos(1));
-        assert!(always.is_due());
-        let scenario = Scenario::load("hertz", &[]).expect("a preset");
-        let session = Session::start(scenario).expect("a contact");
-        for bytes in [b"one", b"two"] {
-            assert_eq!(always.save(&session, bytes), None);
+        assert_eq!(due(&always), Some(Duration::ZERO));
+        for cycle in [0.0, 0.25] {
+            session.advance_to(cycle).expect("a quarter");
+            assert_eq!(always.update(&session, || session.clone()), None);
+            assert!(fs::read(&path).expect("the file") == session.checkpoint());
+            assert_eq!(always.kept(), Some((path.as_path(), cycle)));
+            assert_eq!(always.time_until_due(&session), None);
         }
-        assert_eq!(fs::read(&path).expect("the file"), b"two");
-        assert_eq!(always.kept(), Some((path.as_path(), 0.0)));
+    }
+
+    /// An explorer has one file, in which each of its sessions replaces the one before it.
+    #[test]
+    fn an_explorer_has_one_file_and_one_that_was_killed_is_found() {
+        let base = tempfile::tempdir().expect("a directory");
+        let home = base.path().join("state");
+        let mut session = hertz();
+        let begin = || Autosave::new(None, Some(home.clone()), Duration::ZERO, hertz());
+        let (mut first, mut second) = (begin(), begin());
+        assert_eq!(first.finish(None), None);
+        first = begin();
+        session.advance_to(0.25).expect("a quarter");
+        let mut next = Session::start(Scenario::load("cone", &[]).expect("it")).expect("a contact");
+        first.begin_session(&session, &next);
+        assert_eq!(second.save(&session), None);
+        let count = || checkpoints(&home).expect("a directory").len();
+        assert_eq!((count(), left_by_a_crash(&home)), (2, None));
+        next.advance_to(0.5).expect("a half");
+        first.save(&next);
+        let [first_file, second_file] =
+            [&first, &second].map(|of| of.kept().expect("it").0.to_owned());
+        assert!(fs::read(&first_file).expect("its file") == next.checkpoint());
+        assert!(fs::read(&second_file).expect("its file") == session.checkpoint());
+        let word = first.finish(Some(&next)).expect("a word");
+        assert!(
+            word.starts_with("saved at cycle 0.5; resume with: mdr-tui --resume "),
+            "{word}"
+        );
+        assert_eq!((count(), left_by_a_crash(&home)), (2, None));
+        // A lock file without a lock.
+        let name = first_file.file_name().expect("a name").to_string_lossy();
+        let lock = home.join(format!(".mdr-tui-{name}.lock"));
+        fs::write(&lock, "1 elsewhere\n").expect("a file");
+        assert_eq!(left_by_a_crash(&home).as_ref(), Some(&first_file));
+        for _ in 0..2 * MOST_LEFT {
+            come_and_go(&home, "hertz");
+        }
+        assert_eq!(left_by_a_crash(&home).as_ref(), Some(&first_file));
+        forget_crash(&first_file);
+        assert_eq!(left_by_a_crash(&home), None);
     }
 
     #[test]
@@ -338,24 +457,23 @@ mod tests {
         let [place, away, state] = ["run", "away", "state"].map(|name| base.path().join(name));
         let run = RunFolder::create(&place, false).expect("a directory");
         let home = run.checkpoint();
-        let mut autosave = Autosave::new(Some(run), Some(state), Duration::ZERO);
-        let scenario = Scenario::load("hertz", &[]).expect("a preset");
-        let session = Session::start(scenario).expect("a contact");
+        let session = hertz();
+        let mut autosave = Autosave::new(Some(run), Some(state), Duration::ZERO, session.clone());
         fs::rename(&place, &away).expect("a move");
-        let word = autosave.save(&session, b"one").expect("a word");
+        let word = autosave.save(&session).expect("a word");
         assert!(word.contains("; checkpoints go to "), "{word}");
-        assert_eq!(autosave.save(&session, b"two"), None);
+        assert_eq!(autosave.save(&session), None);
         let elsewhere = autosave.kept().expect("a checkpoint").0.to_owned();
-        assert_eq!(fs::read(&elsewhere).expect("the file"), b"two");
+        assert!(fs::read(&elsewhere).expect("the file") == session.checkpoint());
         // In its place another run begins.
         let other = RunFolder::create(&place, false).expect("a directory");
         other.write(RUN_CHECKPOINT, b"theirs").expect("a file");
-        assert_eq!(autosave.save(&session, b"two"), None);
+        assert_eq!(autosave.save(&session), None);
         assert_eq!(fs::read(&home).expect("its file"), b"theirs");
         drop(other);
         fs::remove_dir_all(&place).expect("a directory");
         fs::rename(&away, &place).expect("a move");
-        assert_eq!(autosave.save(&session, b"three"), None);
+        assert_eq!(autosave.save(&session), None);
         assert_eq!(autosave.kept(), Some((home.as_path(), 0.0)));
         assert!(!elsewhere.exists());
     }

@@ -21,7 +21,6 @@ use anyhow::{Result, bail};
 pub mod ansi_writer;
 pub mod app;
 mod appearance;
-pub mod autosave;
 mod beside;
 mod canvas;
 mod clipboard;
@@ -67,13 +66,12 @@ pub mod trend;
 mod undo;
 pub mod worker;
 
-use crate::export::autosave::left_by_a_crash;
+use crate::export::autosave::{Autosave, left_by_a_crash};
 use crate::export::file::shell_path;
 use crate::panics::catch;
 use crate::plot::theme::Theme;
 use app::App;
 pub use appearance::theme_of;
-use autosave::ScreenAutosave;
 use event::Event;
 pub use event_loop::NoTerminal;
 use explorer::Next;
@@ -141,7 +139,12 @@ pub fn run(options: Options) -> Result<Farewell> {
         let word = format!("a session was killed; mdr-tui --resume {path} continues it");
         let _ = events.send(Event::Notice(line::one_line(&word)));
     }
-    let autosave = ScreenAutosave::new(keep_in, options.keep_every, &options.run.session);
+    let autosave = Autosave::new(
+        None,
+        keep_in,
+        options.keep_every,
+        options.run.session.clone(),
+    );
     let worker = Worker::new(options.run, events.clone(), interval, running);
     let mut worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(options.theme, orders.clone(), Arc::new(worker.frame()));

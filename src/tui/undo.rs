@@ -9,8 +9,8 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::autosave::mark;
 use super::trend::Recorded;
+use crate::export::autosave::mark;
 
 /// Maximum number of states, and of numbers at nodes in all of them (64 MB), which counts on large grids.
 const MOST: usize = 256;

@@ -6,11 +6,11 @@ use std::sync::{Arc, Mutex};
 
 use anyhow::{Context, Result, ensure};
 
-use super::{Job, Safe};
+use super::Job;
 use crate::cli::args::Run;
 use crate::cli::job::RunJob;
 use crate::cli::{accuracy, complain, given};
-use crate::export::autosave::{self, Autosave, Recent};
+use crate::export::autosave::{self, Autosave};
 use crate::export::file::{WriteError, directory_of, shell_path};
 use crate::export::header::number;
 use crate::export::own_directory;
@@ -92,7 +92,7 @@ impl<'a> Job<'a> {
         autosave::forget_crash(file);
         let resumed = Self::new(options, name, session, job, folder);
         let cycle = resumed.session.simulation().cycle();
-        locked(&resumed.safe).checkpoints.remember(file, cycle);
+        locked(&resumed.autosave).remember(file, cycle);
         Ok(resumed)
     }
 
@@ -107,14 +107,13 @@ impl<'a> Job<'a> {
         job.set_home(folder.path());
         folder.begin(&job.provenance());
         let home = Some(folder.clone());
-        let safe = Safe {
-            checkpoints: Autosave::new(home, own_directory::state(), options.checkpoint_every),
-            copy: Recent::new((session.clone(), job.clone())),
-        };
+        let start = (session.clone(), job.clone());
+        let every = options.checkpoint_every;
+        let autosave = Autosave::new(home, own_directory::state(), every, start);
         Self {
             options,
             name,
-            safe: Arc::new(Mutex::new(safe)),
+            autosave: Arc::new(Mutex::new(autosave)),
             folder,
             session,
             job,

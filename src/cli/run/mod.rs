@@ -4,9 +4,8 @@ use std::fs;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, OnceLock};
-use std::thread;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow};
@@ -15,11 +14,11 @@ use super::args::{CycleAsGiven, Run};
 use super::job::{RunJob, file_of};
 use super::progress::Progress;
 use super::{FAILED, UNFINISHED, accuracy, complain, stop};
-use crate::export::autosave::{Autosave, Recent};
-use crate::export::file::{WriteError, shell_path};
+use crate::export::autosave::{Autosave, Work};
+use crate::export::file::WriteError;
 use crate::export::header::{self, number};
 use crate::export::run_folder::RunFolder;
-use crate::export::{claim, field, last_loop, provenance, state};
+use crate::export::{field, last_loop, provenance, state};
 use crate::panics::locked;
 use crate::reading::Errors;
 use crate::scenario::checkpoint;
@@ -30,9 +29,6 @@ mod summary;
 
 use summary::remarks;
 
-/// Polling interval for signals.
-const GLANCE: Duration = Duration::from_millis(20);
-
 /// Longest wait for the current step to end after a signal.
 const STEP_TIMEOUT: Duration = Duration::from_millis(400);
 
@@ -42,7 +38,9 @@ const ANOTHER_TRY: Duration = Duration::from_secs(1);
 /// Runs or resumes a scenario and writes its files.
 pub fn run(options: &Run) -> Result<ExitCode> {
     let (begun, stop) = (Instant::now(), stop::signal()?);
-    let guard = Guard::watch(Arc::clone(&stop));
+    let phase = Arc::new(Mutex::new(Phase::Starting));
+    let at_signal = Arc::clone(&phase);
+    stop::after(&stop, STEP_TIMEOUT, move || end_at_once(&at_signal));
     let is_asked_to_go_on = || !stop.load(Ordering::Relaxed);
     let budget = options.budget.unwrap_or(f64::INFINITY);
     let is_in_time = || begun.elapsed().as_secs_f64() < budget;
@@ -65,14 +63,14 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     };
     let told = remarks(&job.session);
     told.iter().for_each(remark);
-    guard.protect(&job.safe);
+    *locked(&phase) = Phase::Running(Arc::clone(&job.autosave));
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&why_stop)));
-    guard.finish();
+    *locked(&phase) = Phase::Over;
     let is_bug = outcome.is_err();
     let outcome = outcome.unwrap_or_else(|_| Ok(Some(job.go_back())));
     if matches!(outcome, Ok(Some(_))) {
-        locked(&job.safe).save(&job.session, &job.job);
+        save(&mut locked(&job.autosave), &job.state());
     }
     // Shows what has come up during the run; the same warning may now name another cycle.
     let now = remarks(&job.session);
@@ -87,7 +85,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if let Err(error) = job.write_end() {
         // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may still be
         // saved elsewhere.
-        locked(&job.safe).save_silently(&job.session, &job.job);
+        locked(&job.autosave).save(&job.state());
         return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
     if matches!(outcome, Ok(None) | Err(_)) {
@@ -107,114 +105,60 @@ pub fn run(options: &Run) -> Result<ExitCode> {
         Ok(Some(why)) => {
             complain(&format!("{why}; {}", job.how_to_resume()));
             // After a bug, the same command would fail at the same place.
-            let can_resume = !is_bug && locked(&job.safe).checkpoints.kept().is_some();
+            let can_resume = !is_bug && locked(&job.autosave).kept().is_some();
             Ok(ExitCode::from(if can_resume { UNFINISHED } else { FAILED }))
         }
         Err(error) => Err(error.context(format!("{} (saved in {folder})", job.name))),
     }
 }
 
-/// Ends the process soon after a signal, even during a long step or a search before the first step.
-struct Guard {
-    /// Set by whichever ends the run first: the run itself, or the thread that waits for a signal.
-    is_over: Arc<AtomicBool>,
-    /// What to save at the end; unset before the first step.
-    safe: Arc<OnceLock<Arc<Mutex<Safe>>>>,
+/// The session, and what the run still has to do.
+type RunState = (Session, RunJob);
+
+impl Work for RunState {
+    fn session(&self) -> &Session {
+        &self.0
+    }
+
+    fn checkpoint(&self) -> Vec<u8> {
+        checkpoint::encode(&self.0, Some(&self.1))
+    }
 }
 
-impl Guard {
-    /// Waits for `stop` in a separate thread.
-    fn watch(stop: Arc<AtomicBool>) -> Self {
-        let guard = Self {
-            is_over: Arc::default(),
-            safe: Arc::default(),
-        };
-        // A weak reference: this thread never ends, and would keep the folder claimed.
-        let (is_over, safe) = (Arc::clone(&guard.is_over), Arc::downgrade(&guard.safe));
-        let watch = move || {
-            while !stop.load(Ordering::Relaxed) {
-                thread::sleep(GLANCE);
-            }
-            thread::sleep(STEP_TIMEOUT);
-            if !is_over.swap(true, Ordering::SeqCst) {
-                let safe = safe.upgrade();
-                let safe = safe.as_ref().and_then(|safe| safe.get());
-                let code = end_at_once(safe);
-                claim::release_all();
-                std::process::exit(code.into());
-            }
-        };
-        // If the system cannot start a thread, runs end only between steps.
-        let _ = thread::Builder::new().spawn(watch);
-        guard
-    }
+/// What a signal finds that comes during a long step, or during a search before the first one.
+enum Phase {
+    Starting,
+    Running(Arc<Mutex<Autosave<RunState>>>),
+    Over,
+}
 
-    /// Saves the run in `safe` from now on.
-    fn protect(&self, safe: &Arc<Mutex<Safe>>) {
-        let _ = self.safe.set(Arc::clone(safe));
-    }
-
-    /// Marks the end of the run; never returns if the process is already being ended.
-    fn finish(&self) {
-        while self.is_over.swap(true, Ordering::SeqCst) {
-            thread::park();
+/// Saves the copy of a run in the middle of a step and ends the process. The run waits for the lock meanwhile.
+fn end_at_once(phase: &Mutex<Phase>) {
+    match &*locked(phase) {
+        Phase::Starting => {
+            complain("interrupted before the first step: nothing is computed yet");
+            stop::exit(FAILED);
         }
-    }
-}
-
-/// Saves the copy of a run in the middle of a step, and returns the exit code.
-fn end_at_once(safe: Option<&Arc<Mutex<Safe>>>) -> u8 {
-    let Some(safe) = safe else {
-        complain("interrupted before the first step: nothing is computed yet");
-        return FAILED;
-    };
-    let mut safe = locked(safe);
-    let (session, job) = safe.copy.get().clone();
-    safe.save(&session, &job);
-    let cycle = session.simulation().cycle();
-    let (at, hint) = (number(cycle), safe.how_to_resume(cycle));
-    complain(&format!(
-        "interrupted at cycle {at}, in the middle of a long step; {hint}"
-    ));
-    match safe.checkpoints.kept() {
-        Some(_) => UNFINISHED,
-        None => FAILED,
-    }
-}
-
-/// What survives a failure: a copy in memory, and a checkpoint on disk.
-struct Safe {
-    checkpoints: Autosave,
-    /// The run a moment ago.
-    copy: Recent<(Session, RunJob)>,
-}
-
-impl Safe {
-    /// Writes a checkpoint. If that fails, tells the user once; the run continues.
-    fn save(&mut self, session: &Session, job: &RunJob) {
-        if let Some(word) = self.save_silently(session, job) {
-            complain(&word);
+        Phase::Running(autosave) => {
+            let mut autosave = locked(autosave);
+            let copy = autosave.copy().clone();
+            save(&mut autosave, &copy);
+            let cycle = copy.session().simulation().cycle();
+            let (at, hint) = (number(cycle), autosave.how_to_resume(cycle));
+            complain(&format!(
+                "interrupted at cycle {at}, in the middle of a long step; {hint}"
+            ));
+            let is_kept = autosave.kept().is_some();
+            stop::exit(if is_kept { UNFINISHED } else { FAILED });
         }
+        Phase::Over => {}
     }
+}
 
-    fn save_silently(&mut self, session: &Session, job: &RunJob) -> Option<String> {
-        let checkpoint = checkpoint::encode(session, Some(job));
-        self.checkpoints.save(session, &checkpoint)
-    }
-
-    /// Says how to resume a run that stopped at the cycle `now`, and which cycles are lost.
-    fn how_to_resume(&self, now: f64) -> String {
-        let Some((path, cycle)) = self.checkpoints.kept() else {
-            return "there is no checkpoint".into();
-        };
-        let path = shell_path(path);
-        if cycle == now {
-            return format!("resume with: mdr-tui run --resume {path}");
-        }
-        let (cycle, now) = (number(cycle), number(now));
-        format!(
-            "resume from cycle {cycle} with: mdr-tui run --resume {path} (cycles up to {now} could not be saved)"
-        )
+/// Writes a checkpoint. If that fails, tells the user once; the run continues.
+fn save(autosave: &mut Autosave<RunState>, state: &RunState) {
+    if let Some(word) = autosave.save(state) {
+        complain(&word);
     }
 }
 
@@ -225,7 +169,7 @@ struct Job<'a> {
     session: Session,
     job: RunJob,
     folder: RunFolder,
-    safe: Arc<Mutex<Safe>>,
+    autosave: Arc<Mutex<Autosave<RunState>>>,
     /// When writing the rows of the history last failed.
     unwritten: Option<Instant>,
     /// Snapshots that could not be written at their cycle and are tried again at the end.
@@ -325,8 +269,6 @@ impl Job<'_> {
 
     /// Keeps a copy in memory and a checkpoint on disk up to date.
     fn checkpoint_if_due(&mut self, session: &Session) {
-        let mut safe = locked(&self.safe);
-        safe.copy.refresh(|| (session.clone(), self.job.clone()));
         let is_time = |at: Instant| at.elapsed() >= ANOTHER_TRY;
         if self.job.history.is_full() && self.unwritten.is_none_or(is_time) {
             // Rows that cannot be written stay in memory.
@@ -334,14 +276,18 @@ impl Job<'_> {
             let is_written = rows.is_ok_and(|rows| self.job.history.spill(&rows).is_ok());
             self.unwritten = (!is_written).then(Instant::now);
         }
-        if safe.checkpoints.is_due() {
-            safe.save(session, &self.job);
-        }
+        let progress = || (session.clone(), self.job.clone());
+        let word = locked(&self.autosave).update(session, progress);
+        word.iter().for_each(|word| complain(word));
+    }
+
+    fn state(&self) -> RunState {
+        (self.session.clone(), self.job.clone())
     }
 
     /// After a bug, returns to the copy, because the interrupted step has left an inconsistent state.
     fn go_back(&mut self) -> String {
-        let (session, job) = locked(&self.safe).copy.get().clone();
+        let (session, job) = locked(&self.autosave).copy().clone();
         self.session = session;
         self.job.rewind(&job);
         let cycle = number(self.session.simulation().cycle());
@@ -351,7 +297,7 @@ impl Job<'_> {
 
     /// Says how to resume a run that has stopped.
     fn how_to_resume(&self) -> String {
-        locked(&self.safe).how_to_resume(self.session.simulation().cycle())
+        locked(&self.autosave).how_to_resume(self.session.simulation().cycle())
     }
 
     /// Takes the snapshots that are due from the cycle of `session` to the cycle `end`. Those that cannot be written

@@ -12,7 +12,6 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use super::autosave::ScreenAutosave;
 use super::beside::Twin;
 use super::event::Event;
 use super::frame::Frame;
@@ -20,6 +19,7 @@ use super::ghosts::Source;
 use super::loops::CycleLoads;
 use super::trend::Recorded;
 use super::undo::{Past, Way};
+use crate::export::autosave::Autosave;
 use crate::panics::locked;
 use crate::reading::Curves;
 use crate::scenario::Scenario;
@@ -133,7 +133,7 @@ pub struct Worker {
     cycle_loads: CycleLoads,
     screen: Outlet,
     /// Shared with the thread that ends the program during a long step.
-    autosave: Arc<Mutex<ScreenAutosave>>,
+    autosave: Arc<Mutex<Autosave<Session>>>,
     /// Set to interrupt long orders.
     halt: Arc<AtomicBool>,
 }
@@ -147,7 +147,7 @@ impl Worker {
         running: bool,
     ) -> Self {
         let run = run.into();
-        let autosave = ScreenAutosave::new(None, Duration::ZERO, &run.session);
+        let autosave = Autosave::new(None, None, Duration::ZERO, run.session.clone());
         Self {
             facts: Facts::new(&run.session),
             ghosts: Ghosts::default(),
@@ -248,7 +248,7 @@ impl Worker {
     /// Saves the session if due.
     fn checkpoint_if_due(&mut self) {
         let session = &self.past.line(&self.run).session;
-        let word = locked(&self.autosave).save_if_due(session);
+        let word = locked(&self.autosave).update(session, || session.clone());
         self.screen.tell(word);
     }
 

@@ -9,7 +9,8 @@ use std::time::Duration;
 use anyhow::{Context, Result};
 
 use super::{Order, Orders, Worker};
-use crate::tui::autosave::ScreenAutosave;
+use crate::export::autosave::Autosave;
+use crate::scenario::session::Session;
 use crate::tui::event::Event;
 
 /// Maximum time for the worker to finish its step on exit.
@@ -22,7 +23,7 @@ const SAVING_TIME: Duration = Duration::from_secs(5);
 pub(in crate::tui) struct WorkerThread {
     orders: Orders,
     halt: Arc<AtomicBool>,
-    autosave: Arc<Mutex<ScreenAutosave>>,
+    autosave: Arc<Mutex<Autosave<Session>>>,
     /// Its final message about what it saved.
     saved: Receiver<Option<String>>,
 }
@@ -42,7 +43,7 @@ impl WorkerThread {
         mut worker: Worker,
         orders: Orders,
         inbox: Receiver<Order>,
-        autosave: ScreenAutosave,
+        autosave: Autosave<Session>,
     ) -> Result<Self> {
         let (tell, saved) = channel();
         let halt = Arc::clone(&worker.halt);

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::args::{CycleAsGiven, HistoryChoice, Run, cycles};
 use crate::export::history::History;
-use crate::reading::Errors;
 use crate::export::provenance::{self, Provenance};
+use crate::reading::Errors;
 use crate::scenario::session::Session;
 use crate::scenario::{MOST_SNAPSHOTS, Refusal, Scenario};
 

@@ -18,51 +18,55 @@
 //! - Words with blanks stand in quotes, in which `\n` is a new line and `\e` the escape character.
 
 use std::fs;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 
 use mdr_tui::scenario::Scenario;
 
 use crate::screen_table::{is_so, unquoted};
-use crate::test_dir::{Said, TestDir, names};
+use crate::tables::{self, ensure};
+use crate::test_dir::{Said, TestDir, has, names};
 
-/// Fails unless every line of a table holds; tells of all that do not. `prepare` puts files into the directory of a section.
-pub fn hold(table: &str, prepare: impl Fn(&TestDir)) {
-    let failures = failures(table, prepare);
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
+/// Fails unless every line of a table holds; `prepare` puts files into the directory of a section.
+#[track_caller]
+pub fn hold(table: &str, prepare: impl Fn(&TestDir) + Sync) {
+    tables::hold(table, &failures(table, prepare));
+}
+
+fn failures(table: &str, prepare: impl Fn(&TestDir) + Sync) -> Vec<String> {
+    tables::failures(table, |lines| {
+        let mut section = Section::default();
+        prepare(&section.dir);
+        while let Some(line) = lines.next() {
+            lines.check(line, |lines| {
+                section.hold(line, || lines.until_end_of_file())
+            });
+        }
+    })
 }
 
 #[test]
 fn every_kind_of_line_can_fail() {
-    let (_, lines) = include_str!("falsehoods.txt")
-        .split_once("nothing is true.\n")
-        .expect("the remark");
-    assert_eq!(
-        failures("falsehoods.txt", |_| {}).len(),
-        lines.lines().count()
-    );
+    let table = tables::read("falsehoods.txt");
+    let (_, lines) = table.split_once("nothing is true.\n").expect("the remark");
+    let failures = failures("falsehoods.txt", |_| {});
+    assert_eq!(failures.len(), lines.lines().count(), "{failures:#?}");
 }
 
-fn failures(table: &str, prepare: impl Fn(&TestDir)) -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite");
-    let table = fs::read_to_string(folder.join(table)).expect(table);
-    let mut failures = Vec::new();
-    for text in table.split("\n== ").skip(1) {
-        let mut section = Section::default();
-        prepare(&section.dir);
-        let mut lines = text.lines();
-        let heading = lines.next().unwrap_or_default();
-        while let Some(line) = lines.next() {
-            let rest = lines.by_ref();
-            let file = || rest.take_while(|line| *line != "<").collect::<Vec<_>>();
-            let held = catch_unwind(AssertUnwindSafe(|| section.hold(line, file)));
-            if let Err(panic) = held {
-                let why = panic.downcast::<String>().map(|text| *text);
-                failures.push(format!("{heading}: {line}\n{}", why.unwrap_or_default()));
-            }
-        }
+/// A line of bash that fails, and a check of what a command has said, show what was printed.
+#[test]
+fn a_failed_line_shows_what_was_printed() {
+    let failures = failures("falsehoods.txt", |_| {}).concat();
+    for (line, shown) in [
+        (
+            "# echo printed; echo told >&2; false",
+            "exit code 1\nout: printed\nerr: told",
+        ),
+        ("$ presets nope", "exit code 2\nout: \nerr: mdr-tui: "),
+        ("? err lacks no such", "no such preset"),
+    ] {
+        let (_, rest) = failures.split_once(line).expect(line);
+        let failure = rest.split("\n== ").next().unwrap_or_default();
+        has(failure, shown);
     }
-    failures
 }
 
 #[derive(Default)]
@@ -76,7 +80,7 @@ struct Section {
 }
 
 impl Section {
-    fn hold<'a>(&mut self, line: &str, file: impl FnOnce() -> Vec<&'a str>) {
+    fn hold<'a>(&mut self, line: &str, file: impl FnOnce() -> Vec<&'a str>) -> Result<(), String> {
         let (mark, rest) = line.split_once(' ').unwrap_or((line, ""));
         match mark {
             ">" => {
@@ -93,12 +97,12 @@ impl Section {
                 self.dir.write(name, edited.as_bytes());
             }
             "@" => self.before = rest.to_owned(),
-            "$" => self.run(rest, Some(0)),
-            "$*" => self.run(rest, None),
-            "$1" | "$2" | "$75" => self.run(rest, mark[1..].parse().ok()),
+            "$" => self.run(rest, Some(0))?,
+            "$*" => self.run(rest, None)?,
+            "$1" | "$2" | "$75" => self.run(rest, mark[1..].parse().ok())?,
             "#" => {
                 let said = self.dir.shell(rest);
-                assert_eq!(said.code, 0, "{}", said.err);
+                ensure(said.code == 0, || shown(&said))?;
                 (self.out, self.err) = (said.out, said.err);
             }
             "=" => {
@@ -107,7 +111,7 @@ impl Section {
                 let found = Scenario::load(name, sets);
                 self.scenario = Some(found.unwrap_or_else(|error| panic!("{error}")));
             }
-            "?" => self.look(rest),
+            "?" => self.look(rest)?,
             "-" => {}
             _ if line.is_empty() => {}
             _ => {
@@ -116,12 +120,13 @@ impl Section {
                 let words: Vec<&str> = words.iter().map(String::as_str).collect();
                 let (more, text) = text.split_once(' ').expect("a text");
                 let said = self.dir.refuse(&words, text);
-                assert!(more == "+" || said.lines().count() == 1, "{said}");
+                ensure(more == "+" || said.lines().count() == 1, || said)?;
             }
         }
+        Ok(())
     }
 
-    fn run(&mut self, line: &str, code: Option<i32>) {
+    fn run(&mut self, line: &str, code: Option<i32>) -> Result<(), String> {
         let words = words_of(line);
         let is_variable = |word: &&String| word.contains('=') && !word.starts_with('-');
         let (set, words): (Vec<&str>, Vec<&str>) = {
@@ -134,17 +139,14 @@ impl Section {
         let mut command = self.dir.command(&words);
         command.envs(set.iter().filter_map(|set| set.split_once('=')));
         let said = Said::from(command.output().expect("the program starts"));
-        assert!(
-            code.is_none_or(|code| code == said.code),
-            "{}: {}",
-            said.code,
-            said.err
-        );
-        assert!(code != Some(0) || said.err.is_empty(), "{}", said.err);
+        let is_due = code.is_none_or(|code| code == said.code);
+        let is_quiet = code != Some(0) || said.err.is_empty();
+        ensure(is_due && is_quiet, || shown(&said))?;
         (self.out, self.err) = (said.out, said.err);
+        Ok(())
     }
 
-    fn look(&self, what: &str) {
+    fn look(&self, what: &str) -> Result<(), String> {
         let mut pieces = what.splitn(3, ' ');
         let mut piece = || pieces.next().unwrap_or_default();
         let (part, verb, text) = (piece(), piece(), piece());
@@ -188,7 +190,7 @@ impl Section {
             }
             _ => is_so(&seen, verb, text),
         };
-        assert!(holds, "{seen:.2000}");
+        ensure(holds, || format!("{seen:.2000}"))
     }
 
     fn part(&self, part: &str) -> String {
@@ -233,6 +235,15 @@ impl Section {
             }
         }
     }
+}
+
+/// What a program has said, in a message.
+fn shown(said: &Said) -> String {
+    let [out, err] = [&said.out, &said.err].map(|text| text.trim_end());
+    format!(
+        "exit code {}\nout: {out:.2000}\nerr: {err:.2000}",
+        said.code
+    )
 }
 
 /// The words of a line; those in quotes keep their blanks.

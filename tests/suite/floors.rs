@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use mdr_tui::reading::Column;
 
+use crate::tables;
+
 /// A floor's height; none for what is not a floor. `cli` stands on `tui`.
 fn height(floor: &str) -> Option<u8> {
     Some(match floor {
@@ -221,7 +223,7 @@ fn names_of_columns_stand_in_one_table() {
 /// `floors.txt` has code of floors, and whether it is wrong.
 #[test]
 fn the_checker_catches_what_it_must_and_lets_pass_what_is_right() {
-    for row in include_str!("floors.txt").lines().skip(2) {
+    for row in tables::read("floors.txt").lines().skip(2) {
         let (judged, code) = row.split_once(" | ").expect("FLOOR is VERDICT | CODE");
         let (floor, verdict) = judged.split_once(" is ").expect("FLOOR is VERDICT");
         let found = faults(floor, &code.replace("\\n", "\n"));

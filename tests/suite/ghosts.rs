@@ -32,7 +32,7 @@ fn measure(dir: &TestDir) {
 
 #[test]
 fn curves_are_over_the_plots_as_the_table_says() {
-    hold("ghosts", include_str!("ghosts.txt"), measure);
+    hold("ghosts", measure);
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod random;
 mod random_kinds;
 mod random_scenarios;
 mod screen_table;
+mod tables;
 mod test_dir;
 
 mod accuracy_claims;

@@ -15,26 +15,21 @@
 
 use std::collections::HashMap;
 
+use crate::tables::{self, ensure};
 use crate::test_dir::{TestDir, names};
 
-/// Fails unless every check of a table holds; `prepare` puts files into the directory of a section.
-pub fn hold(module: &str, table: &str, prepare: impl Fn(&TestDir)) {
-    for (at, section) in table.split("\n== ").enumerate().skip(1) {
-        let mut lines = section.lines();
-        let heading = lines.next().unwrap_or_default();
+/// Fails unless every check of a table, `NAME.txt`, holds; `prepare` puts files into the directory of a section.
+#[track_caller]
+pub fn hold(name: &str, prepare: impl Fn(&TestDir) + Sync) {
+    let table = format!("{name}.txt");
+    let failures = tables::failures(&table, |lines| {
         let mut section = Section::new();
         prepare(&section.dir);
-        for line in lines.filter(|line| !line.is_empty()) {
-            let place = format!("section {at}, {heading}: {line}");
-            if let Some(words) = line.strip_prefix("@ ") {
-                section.set(words);
-            } else if let Some(line) = line.strip_prefix("$ ") {
-                section.dir.done(line);
-            } else {
-                section.check(module, line, &place);
-            }
+        while let Some(line) = lines.next() {
+            lines.check(line, |_| section.hold(name, line));
         }
-    }
+    });
+    tables::hold(&table, &failures);
 }
 
 struct Section {
@@ -79,21 +74,33 @@ impl Section {
         screen
     }
 
-    fn check(&mut self, module: &str, line: &str, place: &str) {
-        let (keys, what) = line.split_once("| ").expect(place);
+    fn hold(&mut self, module: &str, line: &str) -> Result<(), String> {
+        if let Some(words) = line.strip_prefix("@ ") {
+            self.set(words);
+        } else if let Some(line) = line.strip_prefix("$ ") {
+            self.dir.done(line);
+        } else if !line.is_empty() {
+            return self.check(module, line);
+        }
+        Ok(())
+    }
+
+    fn check(&mut self, module: &str, line: &str) -> Result<(), String> {
+        let (keys, what) = line.split_once("| ").expect("KEYS | WHAT");
         if !keys.is_empty() || self.keys.is_empty() {
             self.keys = keys.trim_end().split(" & ").map(unfold).collect();
         }
         let (each, sizes) = (self.keys.clone(), self.sizes.clone());
         if let Some(changes) = what.strip_prefix("replays ") {
-            return replays(&self.arguments, &each[0], changes, place);
+            replays(&self.arguments, &each[0], changes);
+            return Ok(());
         }
         for (keys, size) in each
             .iter()
             .flat_map(|keys| sizes.iter().map(move |size| (keys, size)))
         {
             let screen = self.screen(keys, size);
-            let (first, rest) = what.split_once(' ').expect(place);
+            let (first, rest) = what.split_once(' ').expect("a check");
             if first == "pin" {
                 pin(&format!("suite__{module}__{rest}-{size}"), &screen);
                 continue;
@@ -103,15 +110,16 @@ impl Section {
                 _ if PARTS.contains(&first) => (first, rest),
                 _ => ("screen", what),
             };
-            let (verb, text) = rest.split_once(' ').expect(place);
+            let (verb, text) = rest.split_once(' ').expect("a text");
             let seen = part_of(&screen, part);
             let holds = match verb {
                 "same" => seen == part_of(&self.screen(&unfold(text), size), part),
                 "differs" => seen != part_of(&self.screen(&unfold(text), size), part),
                 _ => is_so(&seen, verb, text),
             };
-            assert!(holds, "{place}\n{screen}");
+            ensure(holds, || format!("after {keys} on {size}:\n{screen}"))?;
         }
+        Ok(())
     }
 }
 
@@ -199,12 +207,12 @@ fn unfold(keys: &str) -> String {
     unfolded
 }
 
-fn replays(arguments: &[String], keys: &str, changes: &str, place: &str) {
+fn replays(arguments: &[String], keys: &str, changes: &str) {
     let dir = TestDir::new();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     dir.screen(&arguments, keys, (80, 24));
     let [name] = &names(&dir.path(""))[..] else {
-        panic!("{place}: not one snapshot");
+        panic!("not one snapshot");
     };
     let [state, scenario] =
         ["state.csv", "scenario.toml"].map(|file| dir.read(&format!("{name}/{file}")));
@@ -212,12 +220,13 @@ fn replays(arguments: &[String], keys: &str, changes: &str, place: &str) {
         state.matches("# at cycle ").count(),
         scenario.matches("[[changes]]").count(),
     ];
-    assert_eq!(told.map(|count| count.to_string()), [changes; 2], "{place}");
-    dir.done(&format!("run {name}/scenario.toml --out again --quiet"));
-    assert!(
-        dir.read("again/state.csv") == state,
-        "{place}: the states differ"
+    assert_eq!(
+        told.map(|count| count.to_string()),
+        [changes; 2],
+        "changes in the snapshot"
     );
+    dir.done(&format!("run {name}/scenario.toml --out again --quiet"));
+    assert!(dir.read("again/state.csv") == state, "the states differ");
 }
 
 /// Pins a screen under a name of its own.

@@ -173,7 +173,7 @@ fn screen(dir: &TestDir, file: &str, keys: &str) -> Vec<String> {
 #[test]
 fn the_map_shows_two_axes_and_reads_points() {
     let study = |dir: &TestDir| dir.write("study.toml", STUDY.as_bytes());
-    hold("sweep", include_str!("sweep.txt"), study);
+    hold("sweep", study);
     let dir = dir_with(STUDY);
     dir.done("sweep study.toml --out map.csv");
     // The lowest depth is the lowest row, which ends by sliding.

@@ -11,7 +11,11 @@
 //! | scar | a bowl as wide as 0.5 to 0.95 of the contact, 0.1 to 0.5 of the depth deep |
 //! | blocks | two or three, with other amplitudes and means |
 //! | powers of the slip rate | 0.7 to 1.5 |
+//! | words of [`CHOICES`] that none of these knows | its keys by their units |
 
+use std::f64::consts::PI;
+
+use mdr_tui::scenario::{Scenario, schema};
 use toml::{Table, Value};
 
 use crate::random::Random;
@@ -88,7 +92,74 @@ pub fn extend(text: &str, known: &Known, draw: &mut Random) -> String {
     if blocks {
         add_blocks(&mut table, known, draw);
     }
+    // Last, so that a new word changes no scenario without it.
+    for (path, drawn) in CHOICES {
+        let mut new = words(path);
+        new.retain(|word| !drawn.contains(word));
+        if !new.is_empty() && draw.chance(0.2) {
+            choose(&mut table, path, draw.pick(&new), known, draw);
+        }
+    }
     table.to_string()
+}
+
+/// What can be chosen, with the words that are drawn with keys of their own, or need a file.
+pub const CHOICES: [(&str, &[&str]); 4] = [
+    ("wear.law", &["archard", "power"]),
+    ("motion.normal.waveform", WAVEFORMS),
+    ("motion.tangential.waveform", WAVEFORMS),
+    (
+        "indenter.shape",
+        &[
+            "paraboloid",
+            "cone",
+            "power",
+            "flat-punch",
+            "truncated-paraboloid",
+            "truncated-cone",
+            "rounded-punch",
+            "table",
+        ],
+    ),
+];
+
+const WAVEFORMS: &[&str] = &["sine", "triangle", "trapezoid", "table"];
+
+/// The words of a key in `keys.toml`.
+pub fn words(path: &str) -> Vec<&'static str> {
+    let key = schema::find(path).expect(path);
+    key.kind.words().expect("a choice of words")
+}
+
+/// Chooses a word, with a value for each key that it then misses, and without the keys that belong to other words.
+pub fn choose(table: &mut Table, path: &str, word: &str, known: &Known, draw: &mut Random) {
+    let (name, key) = path.rsplit_once('.').expect("SECTION.KEY");
+    let keys = name.split('.').fold(&mut *table, section);
+    keys.insert(key.into(), word.into());
+    keys.remove("hold");
+    keys.retain(|key, _| {
+        let shapes = schema::find(&format!("{name}.{key}")).map(|key| &key.shapes);
+        shapes.is_none_or(|shapes| shapes.is_empty() || shapes.contains(&word))
+    });
+    // Whoever takes the scenario tells of any other error.
+    while let Err(error) = Scenario::from_toml(&table.to_string(), word, &[])
+        && let Some((missing, _)) = error.to_string().split_once(" is missing: ")
+        && let Some(missing) = missing.rsplit(' ').next().and_then(schema::find)
+    {
+        let value = usual(missing.unit, known, draw);
+        let keys = missing.section().split('.').fold(&mut *table, section);
+        keys.insert(missing.key().into(), value.into());
+    }
+}
+
+/// A value of a key of which its unit alone is known.
+fn usual(unit: &str, known: &Known, draw: &mut Random) -> f64 {
+    match unit {
+        "Pa" => known.force / (PI * known.radius * known.radius) * draw.log_between(0.1, 1.0),
+        "m" => known.radius * draw.between(0.1, 0.8),
+        "rad" => draw.log_between(3e-3, 0.1),
+        _ => draw.between(0.2, 0.8),
+    }
 }
 
 fn section<'a>(table: &'a mut Table, name: &str) -> &'a mut Table {

@@ -53,7 +53,7 @@ pub fn text(seed: u64) -> String {
 }
 
 /// The scenario of the first family that belongs to a seed, and what is known of it.
-fn first(seed: u64) -> (String, Known) {
+pub fn first(seed: u64) -> (String, Known) {
     let mut draw = Random::new(seed);
     let shape = Shape::draw(&mut draw);
     let poisson = draw.between(0.0, 0.5);

@@ -5,7 +5,8 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::studies::refinement::{Budget, Outcome, Verdict, run_to_accuracy};
 
 use crate::common::{energy, near, ran, volume};
-use crate::random_kinds::KINDS;
+use crate::random::Random;
+use crate::random_kinds::{CHOICES, KINDS, choose, words};
 use crate::random_scenarios;
 
 /// A scenario of the fixtures, with `sets`.
@@ -161,4 +162,42 @@ fn random_kinds_are_valid_and_frequent() {
     }
     assert!(count(&|one| one.changes().len() > 1) >= 15);
     assert!(count(&|one| one.setup().indenter.name() == "rounded-punch") >= 10);
+}
+
+/// Also words that are added to a choice, but for tables, which need a file. The first word of each is its default.
+#[test]
+fn random_kinds_draw_every_word() {
+    let all: Vec<Scenario> = (KINDS..KINDS + 300)
+        .map(random_scenarios::scenario)
+        .collect();
+    for (path, _) in CHOICES {
+        let words = words(path);
+        for word in words.iter().filter(|word| **word != "table") {
+            let drawn = all.iter().filter(|one| {
+                let value = one.value(path);
+                value.map_or(words[0] == *word, |value| value.trim_matches('"') == *word)
+            });
+            let drawn = drawn.count();
+            assert!(drawn >= 3, "{path} = {word}: {drawn}");
+        }
+    }
+}
+
+/// A new word gets values for the keys that it needs: here, words with keys of their own are as new.
+#[test]
+fn a_word_that_no_table_knows_is_drawn_with_its_keys() {
+    for (path, word) in [
+        ("wear.law", "power"),
+        ("motion.normal.waveform", "trapezoid"),
+        ("motion.tangential.waveform", "triangle"),
+        ("indenter.shape", "rounded-punch"),
+        ("indenter.shape", "cone"),
+    ] {
+        let (text, known) = random_scenarios::first(7);
+        let mut table = text.parse().expect("TOML");
+        choose(&mut table, path, word, &known, &mut Random::new(7));
+        let found = Scenario::from_toml(&table.to_string(), word, &[]);
+        let found = found.unwrap_or_else(|error| panic!("{word}: {error}"));
+        assert_eq!(found.value(path).as_deref(), Some(&*format!("\"{word}\"")));
+    }
 }

@@ -14,6 +14,11 @@ fn main() {
         .flatten();
     let version = commit.map_or_else(|| version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MDR_TUI_VERSION={version}");
+    if !is_release {
+        // `cargo test` passes it on to the tests, many of which wait for a terminal most of their time.
+        let threads = 2 * std::thread::available_parallelism().map_or(1, usize::from);
+        println!("cargo::rustc-env=RUST_TEST_THREADS={threads}");
+    }
 }
 
 /// Returns the commit recorded by cargo in a package.

@@ -276,19 +276,6 @@ impl Line {
     }
 }
 
-/// Columns and rows of a size, and the longest times on such a line until every cell and until a key is seen.
-pub fn bounds(rate: f64, round_trip: f64, size: usize) -> ([u16; 2], [f64; 2]) {
-    let line = Line {
-        rate,
-        round_trip,
-        size,
-        ..LINE
-    };
-    let (columns, rows) = SIZES[size];
-    let times = [line.complete(), line.echo()].map(|time| MORE * time);
-    ([columns, rows], times)
-}
-
 fn lines() -> impl Strategy<Value = Line> {
     let rate =
         prop_oneof![9 => (2.0..6.5).prop_map(|power| 10f64.powf(power)), 1 => Just(f64::INFINITY)];

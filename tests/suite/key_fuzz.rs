@@ -14,7 +14,7 @@ use crate::random::Random;
 use crate::test_dir::{TestDir, end};
 
 /// How many sessions there are, unless a time is given.
-const SESSIONS: u64 = 150;
+const SESSIONS: u64 = 40;
 
 /// What writes files, and what a session does most of all.
 const MORE: [&str; 8] = ["s", "S", ".", ".", "z", "<Enter>", "<Esc>", "<Esc>"];

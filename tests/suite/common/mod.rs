@@ -2,10 +2,11 @@
 
 #![allow(dead_code, reason = "not every file of tests needs all of it")]
 
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Display;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
@@ -284,8 +285,23 @@ pub fn run(scene: Scene, cycles: f64) -> Simulation {
     run_setup(scene.into(), cycles)
 }
 
-/// The contact of a whole setup after `cycles`.
+/// The contact of a whole setup after `cycles`; long runs that several tests ask for are made once.
 pub fn run_setup(setup: Setup, cycles: f64) -> Simulation {
+    static RUNS: Mutex<BTreeMap<String, Arc<OnceLock<Simulation>>>> = Mutex::new(BTreeMap::new());
+    if cycles < 100.0 {
+        return run_anew(setup, cycles);
+    }
+    let key = format!("{cycles} {setup:?}");
+    let cell = RUNS
+        .lock()
+        .expect("no panic")
+        .entry(key)
+        .or_default()
+        .clone();
+    cell.get_or_init(|| run_anew(setup, cycles)).clone()
+}
+
+fn run_anew(setup: Setup, cycles: f64) -> Simulation {
     let mut simulation = Simulation::new(setup).expect("a contact");
     simulation.advance_to(cycles).expect("a run to the end");
     simulation

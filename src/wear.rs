@@ -212,6 +212,19 @@ impl WearLaw {
         Law::from(self.form).into()
     }
 
+    /// Returns the keys of its form.
+    pub fn parameters(&self) -> Parameters {
+        match self.form {
+            Form::Archard => Parameters::default(),
+            Form::Power(powers) => Parameters {
+                stress_exponent: Some(powers.stress_exponent),
+                slip_rate_exponent: Some(powers.slip_rate_exponent),
+                reference_stress: Some(powers.reference_stress),
+                reference_slip_rate: Some(powers.reference_slip_rate),
+            },
+        }
+    }
+
     /// Returns its form.
     pub fn form(&self) -> Form {
         self.form

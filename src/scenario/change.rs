@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
 use toml::Value as Raw;
 
 use super::error::Refusal;
@@ -14,8 +13,7 @@ use super::value::Value;
 pub const MOST_CHANGES: usize = 1_000;
 
 /// `[[changes]]`: one key that was changed during the run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(into = "Written", try_from = "Written")]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Change {
     /// Cycles since the start.
     pub at_cycle: f64,
@@ -40,31 +38,6 @@ impl Change {
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.key.path, self.value.literal())
-    }
-}
-
-/// A change in files.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    at_cycle: f64,
-    set: String,
-}
-
-impl From<Change> for Written {
-    fn from(change: Change) -> Self {
-        Self {
-            at_cycle: change.at_cycle,
-            set: change.to_string(),
-        }
-    }
-}
-
-impl TryFrom<Written> for Change {
-    type Error = Refusal;
-
-    fn try_from(Written { at_cycle, set }: Written) -> Result<Self, Refusal> {
-        Self::parse(at_cycle, &set)
     }
 }
 

@@ -5,7 +5,7 @@ use super::escape::echo;
 use super::key::{Key, join};
 use super::spec::Control;
 use super::value::Value;
-use super::{Refusal, Scenario, units};
+use super::{Refusal, Scenario, printable, units};
 
 /// Groups changes, in their order, by cycle.
 pub(super) fn at_one_cycle(changes: &[Change]) -> impl Iterator<Item = &[Change]> {
@@ -45,31 +45,26 @@ impl Scenario {
         made: Vec<Change>,
         planned: Vec<Planned>,
     ) -> Result<Vec<Change>, Refusal> {
+        let origin = printable(&self.origin);
         let made = made.into_iter().enumerate();
         let made = made.map(|(at, change)| Planned {
-            place: format!("{}: changes[{at}].set = \"{change}\"", self.origin),
+            place: format!("{origin}: changes[{at}].set = \"{change}\""),
             at_cycle: change.at_cycle,
             key: change.key,
             raw: (&change.value).into(),
         });
         let planned: Vec<Planned> = made.chain(planned).collect();
-        let refuse = |path: &str, value: f64, rule: String| {
-            Err(Refusal::of_value(
-                format_args!("{}: {path}", self.origin),
-                value,
-                rule,
-            ))
-        };
-        if planned.len() > MOST_CHANGES {
+        let count = planned.len();
+        if count > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
-            return refuse("changes", planned.len() as f64, rule);
+            return Err(Refusal::of_value(format!("{origin}: changes"), count, rule));
         }
         for (k, pair) in planned.windows(2).enumerate() {
             let [before, cycle] = [&pair[0], &pair[1]].map(|change| change.at_cycle);
             if cycle < before {
-                let at = format!("changes[{}].at_cycle", k + 1);
+                let at = format!("{origin}: changes[{}].at_cycle", k + 1);
                 let rule = format!("must be {before} or greater: changes must be in order");
-                return refuse(&at, cycle, rule);
+                return Err(Refusal::of_value(at, cycle, rule));
             }
         }
         let (mut stage, mut changes) = (self.clone(), Vec::new());

@@ -53,8 +53,9 @@ pub struct Checkpoint<E> {
 struct Body<'a, E> {
     origin: Cow<'a, str>,
     scenario: String,
-    changes: Cow<'a, [Change]>,
-    pending: Vec<Change>,
+    /// Cycle and text of each change made, and of those to come.
+    changes: Vec<(f64, String)>,
+    pending: Vec<(f64, String)>,
     goals: Cow<'a, [f64]>,
     saved: Saved,
     log: Cow<'a, Log>,
@@ -70,8 +71,8 @@ pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
     let body = Body {
         origin: session.loaded.origin().into(),
         scenario: session.loaded.to_toml(),
-        changes: (&session.changes).into(),
-        pending: session.pending.clone(),
+        changes: texts(&session.changes),
+        pending: texts(&session.pending),
         goals: (&session.goals).into(),
         saved,
         log: Cow::Borrowed(session.log()),
@@ -83,6 +84,19 @@ pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
     let mut contents = format!("written by mdr-tui {version} at cycle {cycle}\n").into_bytes();
     ciborium::into_writer(&body, &mut contents).expect("CBOR holds any value, and memory takes it");
     sealed(&contents)
+}
+
+fn texts(changes: &[Change]) -> Vec<(f64, String)> {
+    let texts = changes.iter().map(|of| (of.at_cycle, of.to_string()));
+    texts.collect()
+}
+
+fn parsed(texts: &[(f64, String)]) -> Result<Vec<Change>, String> {
+    let read = texts
+        .iter()
+        .map(|(at_cycle, set)| Change::parse(*at_cycle, set));
+    read.collect::<Result<_, _>>()
+        .map_err(|why| why.to_string())
 }
 
 /// Prepends the lines with which `contents` can be verified.
@@ -225,10 +239,11 @@ fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
         .map_err(|error| format!("its scenario {error}"))?;
     let (mut scenario, mut unchanged) = (loaded.clone(), None);
     let mut made = 0;
-    for together in at_one_cycle(&body.changes) {
+    let made_so_far = parsed(&body.changes)?;
+    for together in at_one_cycle(&made_so_far) {
         let after = scenario.after(together).map_err(|why| why.to_string())?;
         let before = std::mem::replace(&mut scenario, after);
-        let is_last = made + together.len() == body.changes.len();
+        let is_last = made + together.len() == made_so_far.len();
         if let Some((saved, log)) = body.unchanged.as_ref().filter(|_| is_last) {
             let state = state(before, saved.clone(), Log::clone(log))?;
             let changes = made;
@@ -239,8 +254,8 @@ fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
     let session = Session {
         loaded,
         now: state(scenario, body.saved, body.log.into_owned())?,
-        changes: body.changes.into_owned(),
-        pending: body.pending,
+        changes: made_so_far,
+        pending: parsed(&body.pending)?,
         unchanged,
         errors: Errors::default(),
         goals: body.goals.into_owned(),

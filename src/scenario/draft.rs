@@ -142,7 +142,9 @@ impl Draft {
         };
         let is_punch = |shape: &str| shape == "flat-punch";
         let was_punch = self.word("indenter.shape").is_some_and(is_punch);
-        for key in Key::all().filter(|key| !key.belongs_to(shape)) {
+        for key in
+            Key::all().filter(|key| key.shapes().is_some_and(|shapes| !shapes.contains(&shape)))
+        {
             self.remove(key);
         }
         for (path, is_stale) in [

@@ -110,6 +110,7 @@ impl Faults {
 
     /// Passes the value of a key, or notes that it is missing.
     pub fn need<T>(&mut self, path: &str, value: Option<T>) -> Option<T> {
+        let value = value.filter(|_| !self.covers(path));
         value.or_else(|| self.missing(path, Key::known(path).described()))
     }
 

@@ -4,6 +4,7 @@
 //! what is made of it, in `setup`. The table serves the reader, the errors and their hints, `--set`, the form of
 //! the explorer, completion, written scenarios, the axes of figures and the documentation.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Deref;
 use std::sync::LazyLock;
@@ -41,8 +42,8 @@ pub struct Parameter {
     pub(super) most: Option<usize>,
     /// Its default.
     pub default: Default,
-    /// The indenter shapes that take the key; empty for all shapes.
-    pub shapes: Vec<&'static str>,
+    /// The words of other keys with which the key is used; empty for all.
+    pub used_by: BTreeMap<&'static str, Vec<&'static str>>,
     /// A textbook's letter or another program's words for it.
     pub(super) also: Vec<&'static str>,
     /// Remark after its name in a hint, if one of these words was given.
@@ -69,9 +70,9 @@ impl Parameter {
         }
     }
 
-    /// Whether an indenter of this shape takes the key.
-    pub(super) fn belongs_to(&self, shape: &str) -> bool {
-        self.shapes.is_empty() || self.shapes.contains(&shape)
+    /// Returns the only shapes of the indenter that take the key, if not all do.
+    pub(super) fn shapes(&self) -> Option<&Vec<&'static str>> {
+        self.used_by.get("indenter.shape")
     }
 
     /// Returns the meaning of `word` as its value; `None` for words that it does not accept.
@@ -233,7 +234,6 @@ mod tests {
 
     #[test]
     fn every_key_says_what_it_means_and_stands_once() {
-        let shapes = Key::known("indenter.shape").kind.words().expect("words");
         for (i, parameter) in Key::all().enumerate() {
             assert!(!parameter.meaning.is_empty(), "{}", parameter.path);
             assert!(
@@ -241,7 +241,10 @@ mod tests {
                 "{} stands twice",
                 parameter.path
             );
-            assert!(parameter.shapes.iter().all(|shape| shapes.contains(shape)));
+            for (path, words) in &parameter.used_by {
+                let known = Key::known(path).kind.words().expect("words");
+                assert!(words.iter().all(|word| known.contains(word)));
+            }
             let changes = !["", "run", "changes"].contains(&parameter.section());
             assert_eq!(!parameter.effect.is_empty(), changes, "{}", parameter.path);
             assert!(parameter.effect.chars().count() <= 76, "{}", parameter.path);

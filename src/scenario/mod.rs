@@ -3,8 +3,8 @@
 //! One way in: a text (`read`) is a TOML table; a `draft` holds what it and assignments give, each value under its
 //! [`key`], then reads the columns of other files (`embed`, [`columns`]) and each value as one of its key, in SI units
 //! ([`value`], [`units`]). A [`spec`] holds all values, typed; `setup` makes the parts that can be run. What is wrong is
-//! noted on the way (`fault`), and told at once: a line each that names the origin, the dotted path, the value and the
-//! rule. One way out: `write`.
+//! noted on the way (`fault`), and reported at once: a line each that names the origin, the dotted path, the value and
+//! the rule. One way out: `write`.
 
 use std::ffi::OsStr;
 use std::io::Read;
@@ -47,7 +47,7 @@ pub use escape::printable;
 use key::{Key, join, split};
 pub use setup::choices;
 pub use spec::{MOST_CYCLES, MOST_SNAPSHOTS, RunPlan, Spec, USUAL_ACCURACY};
-use value::Value;
+use value::{Section, Value};
 
 /// Maximum length of the [stem](Scenario::stem), in bytes.
 const LONGEST_STEM: usize = 200;
@@ -282,6 +282,19 @@ impl Scenario {
     /// Returns the value at a dotted path as TOML, if the scenario gives one.
     pub fn value(&self, path: &str) -> Option<String> {
         Some(self.spec.get(Key::find(path)?)?.literal())
+    }
+
+    /// Returns the value of a key as given or, if another key has a word that uses it, as it follows from the rest.
+    pub fn value_in_use(&self, key: Key) -> Option<Value> {
+        let word = |path: &str| self.spec.or_usual(|of| of.get(Key::known(path)));
+        let mut used_by = key.used_by.iter();
+        let is_used = used_by.any(|(path, words)| {
+            let word = word(path);
+            words.iter().any(|of| word == Some(Value::Word(of)))
+        });
+        let law = || self.setup.wear?.parameters().field(key.key())?.get();
+        let derived = || law().or_else(|| Spec::usual().get(key)).filter(|_| is_used);
+        self.spec.get(key).or_else(derived)
     }
 
     /// Returns the number at a dotted path, if the scenario gives one.

@@ -19,7 +19,8 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Returns every key that has a value or may be given one, in the order of a scenario file.
+    /// Returns every key that has a value or may be given one, in the order of a scenario file; also those that the
+    /// chosen law, shape or waveform uses.
     pub fn all(scenario: &Scenario) -> Vec<Self> {
         let fixed = ["", "run", "changes"];
         Key::all()
@@ -29,7 +30,7 @@ impl Setting {
             .map(|key| Self {
                 key,
                 unit: units::unit_of(&key, scenario.prescribes_force(key.path)),
-                value: scenario.spec().get(key),
+                value: scenario.value_in_use(key),
             })
             .filter(|setting| setting.value.is_some() || setting.key.section() == "numerics")
             .collect()

@@ -42,17 +42,19 @@ pub(super) fn indenter(spec: &Spec, faults: &mut Faults) -> Option<Indenter> {
 
 /// Refuses keys of other shapes, and notes the numbers of this one that are missing.
 fn check_keys(spec: &Spec, faults: &mut Faults, shape: &str) -> Option<()> {
-    let is_foreign = |key: &Key| spec.get(*key).is_some() && !key.belongs_to(shape);
-    let takes = Key::all().filter(|key| key.shapes.contains(&shape));
-    if let Some(foreign) = Key::all().find(is_foreign) {
-        let takes: Vec<&str> = takes.map(|key| key.key()).collect();
+    let keys = Key::all().filter_map(|key| Some((key, key.shapes()?.contains(&shape))));
+    let (takes, others): (Vec<_>, Vec<_>) = keys.partition(|(_, takes)| *takes);
+    let mut others = others.into_iter();
+    if let Some((foreign, _)) = others.find(|(key, _)| spec.get(*key).is_some()) {
+        let takes: Vec<&str> = takes.iter().map(|(key, _)| key.key()).collect();
         let takes = takes.join(", ");
         let rule = format!("shape = \"{shape}\" has no such key; it takes {takes}");
         return faults.refuse(spec, foreign.path, rule);
     }
-    let is_needed = |key: &Key| key.kind == Kind::Number && key.default == Default::None;
-    for key in takes.filter(is_needed) {
-        faults.need(key.path, spec.get(key));
+    for (key, _) in takes {
+        if key.kind == Kind::Number && key.default == Default::None {
+            faults.need(key.path, spec.get(key));
+        }
     }
     Some(())
 }

@@ -277,7 +277,9 @@ fn from_directory(directory: &Path) -> Result<Run> {
     for path in paths {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let is_state = name.starts_with("state") && name.ends_with(".csv");
-        if is_state || ["history.csv", "loop.csv", "field.csv"].contains(&&*name) {
+        let is_table = is_state || ["history.csv", "loop.csv", "field.csv"].contains(&&*name);
+        // A figure may have been drawn into the folder.
+        if is_table && !is_data_of_a_figure(&path) {
             add_file(&mut run, &path)?;
         }
     }

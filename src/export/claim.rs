@@ -3,7 +3,7 @@
 //! The system's file lock decides, so the lock file of a killed process is recognised as stale. On a file system
 //! without locks the contents, `PROCESS HOST`, decide: the process that creates the file has the claim.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -39,21 +39,18 @@ pub struct Claim {
     _file: File,
 }
 
-/// A lock file that this process has made or taken over.
+/// A lock file of this process.
 #[derive(Debug, Clone, PartialEq)]
 struct LockFile {
     path: PathBuf,
-    /// Device and inode.
     identity: (u64, u64),
     /// Whether its directory is to be removed with it if nothing else is in there.
     is_new: bool,
 }
 
 impl LockFile {
-    /// Whether it is still at its path.
     fn is_there(&self) -> bool {
-        let about = self.path.symlink_metadata();
-        about.is_ok_and(|about| (about.dev(), about.ino()) == self.identity)
+        identity(self.path.symlink_metadata()) == Some(self.identity)
     }
 
     fn remove(&self) {
@@ -71,13 +68,60 @@ pub fn release_all() {
     locked(&HELD).drain(..).for_each(|lock| lock.remove());
 }
 
-/// Returns the lock file of the file at `path`.
-fn lock_of(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    directory_of(path).join(match name.len() {
-        0..=LONGEST => format!(".mdr-tui-{name}.lock"),
-        _ => format!(".mdr-tui-{:08x}.lock", crc32fast::hash(name.as_bytes())),
-    })
+impl Claim {
+    /// Claims a directory, or a file whether it exists or not, for this process. If `is_new`, the directory is removed
+    /// with the claim unless something was written into it.
+    ///
+    /// # Errors
+    ///
+    /// If another living process has claimed it, or no file can be created there.
+    pub fn new(claimed: &Path, is_new: bool) -> Result<Self, WriteError> {
+        let path = lock_of(claimed);
+        let failed = |cause| match path.symlink_metadata() {
+            Ok(_) => WriteError::io(&path)(cause),
+            // If the lock cannot be created, no file can be created there.
+            Err(_) => WriteError::io(claimed)(cause),
+        };
+        let file = lock(&path).map_err(failed)?.map_err(|owner| {
+            let owner = owner.as_ref().map_or_else(String::new, Owner::describe);
+            let [is_busy, place] = if claimed.is_dir() {
+                ["another run is writing there", "directory"]
+            } else {
+                ["another mdr-tui is writing this file", "name"]
+            };
+            let rule = format!("{is_busy}{owner}; wait for it to end or choose another {place}");
+            WriteError::refused(claimed, rule)
+        })?;
+        let identity = identity(file.metadata()).unwrap_or_default();
+        let lock = LockFile {
+            path,
+            identity,
+            is_new,
+        };
+        locked(&HELD).push(lock.clone());
+        Ok(Self { lock, _file: file })
+    }
+
+    /// Checks that what was claimed was neither moved nor removed: its place may belong to another process by now.
+    ///
+    /// # Errors
+    ///
+    /// If the lock file is no longer at its place.
+    pub fn check(&self) -> Result<(), WriteError> {
+        if self.lock.is_there() {
+            return Ok(());
+        }
+        let rule = "was moved, removed or cleared meanwhile, and may belong to another run by now";
+        Err(WriteError::refused(directory_of(&self.lock.path), rule))
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        locked(&HELD).retain(|held| *held != self.lock);
+        // The file is still locked, so no other process can have claimed it.
+        self.lock.remove();
+    }
 }
 
 /// Whether the process that has claimed the file at `path` was killed; `None` if none has claimed it.
@@ -90,6 +134,109 @@ pub fn was_killed(path: &Path) -> Option<bool> {
             Owner::read(&mut file).is_some_and(|owner| !owner.may_live())
         }
     })
+}
+
+/// Returns the path of the lock file.
+fn lock_of(claimed: &Path) -> PathBuf {
+    if claimed.is_dir() {
+        return claimed.join(LOCK);
+    }
+    let name = claimed.file_name().unwrap_or_default().to_string_lossy();
+    directory_of(claimed).join(match name.len() {
+        0..=LONGEST => format!(".mdr-tui-{name}.lock"),
+        _ => format!(".mdr-tui-{:08x}.lock", crc32fast::hash(name.as_bytes())),
+    })
+}
+
+/// Returns the file, locked and with this process in it, or who has it.
+fn lock(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
+    loop {
+        let Some((mut file, is_made_here)) = open(path)? else {
+            continue;
+        };
+        match try_lock(&file) {
+            // The previous owner has just removed it.
+            Ok(()) if !is_at(&file, path) => {}
+            Ok(()) => {
+                // On a full disk the lock alone is enough.
+                let _ = Owner::this_process().write(&mut file);
+                return Ok(Ok(file));
+            }
+            Err(TryLockError::WouldBlock) => return Ok(Err(Owner::read(&mut file))),
+            Err(TryLockError::Error(_)) if is_made_here => {
+                let written = Owner::this_process().write(&mut file);
+                if written.is_err() {
+                    let _ = fs::remove_file(path);
+                }
+                return written.map(|()| Ok(file));
+            }
+            Err(TryLockError::Error(_)) => {
+                let owner = Owner::read(&mut file);
+                if owner
+                    .as_ref()
+                    .map_or_else(|| is_young(&file), Owner::may_live)
+                {
+                    return Ok(Err(owner));
+                }
+                remove_stale(&file, path)?;
+            }
+        }
+    }
+}
+
+/// Opens the lock file, and says whether it was made here; `None` if its owner has just removed it.
+fn open(path: &Path) -> io::Result<Option<(File, bool)>> {
+    use io::ErrorKind::{AlreadyExists, NotFound, PermissionDenied};
+    match safe_open::open(path, true) {
+        Err(error) if error.kind() == AlreadyExists => {}
+        made => return made.map(|file| Some((file, true))),
+    }
+    let opened = match safe_open::open(path, false) {
+        // Another user's file can be locked, too, but not removed.
+        Err(error) if error.kind() == PermissionDenied => safe_open::read(path),
+        Err(error) if error.kind() == NotFound => return Ok(None),
+        opened => opened,
+    };
+    opened.map(|file| Some((file, false)))
+}
+
+/// Locks a file until it is closed, if the file system supports locks.
+fn try_lock(file: &File) -> Result<(), TryLockError> {
+    if crate::failpoint::is_asked_for("no locks") {
+        return Err(TryLockError::Error(io::ErrorKind::Unsupported.into()));
+    }
+    file.try_lock()
+}
+
+/// Whether a file is so new that its maker may still be about to write into it.
+fn is_young(file: &File) -> bool {
+    let made = file.metadata().and_then(|about| about.modified());
+    made.is_ok_and(|at| at.elapsed().is_ok_and(|age| age < UNWRITTEN))
+}
+
+/// Removes a stale lock file. If several processes do so at once, only one of them succeeds in renaming it; if the
+/// renamed file turns out to be another process's new lock, it is put back.
+fn remove_stale(file: &File, path: &Path) -> io::Result<()> {
+    let aside = path.with_file_name(format!(".mdr-tui-{}.tmp", std::process::id()));
+    match fs::rename(path, &aside) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        other => other?,
+    }
+    if !is_at(file, &aside) {
+        let _ = fs::hard_link(&aside, path);
+    }
+    fs::remove_file(aside)
+}
+
+/// Whether the open file is still the one at this path.
+fn is_at(file: &File, path: &Path) -> bool {
+    let open = identity(file.metadata());
+    open.is_some() && open == identity(path.symlink_metadata())
+}
+
+/// Returns device and inode of a file.
+fn identity(about: io::Result<Metadata>) -> Option<(u64, u64)> {
+    about.ok().map(|about| (about.dev(), about.ino()))
 }
 
 /// A process and the machine that it runs on.
@@ -136,179 +283,13 @@ impl Owner {
     /// Names the process, in brackets.
     fn describe(&self) -> String {
         let (process, host) = (self.process, printable(&self.host));
-        let is_elsewhere = !self.is_here();
-        let hint = is_elsewhere.then_some("; if it is gone, remove the lock file");
-        let hint = hint.unwrap_or_default();
+        let hint = if self.is_here() {
+            ""
+        } else {
+            "; if it is gone, remove the lock file"
+        };
         format!(" (process {process} on {host}{hint})")
     }
-}
-
-impl Claim {
-    /// Claims `directory`, which must exist, for this process. If `is_new`, the directory is removed with the claim
-    /// unless something was written into it.
-    ///
-    /// # Errors
-    ///
-    /// If another living process has claimed it, or no file can be created in it.
-    pub fn of_directory(directory: &Path, is_new: bool) -> Result<Self, WriteError> {
-        let words = ["another run is writing there", "choose another directory"];
-        Self::with_lock(directory.join(LOCK), is_new, directory, words)
-    }
-
-    /// Claims the file at `path`, whether it exists or not, for this process; `is_new` is about its directory.
-    ///
-    /// # Errors
-    ///
-    /// As [`of_directory`](Self::of_directory).
-    pub fn of_file(path: &Path, is_new: bool) -> Result<Self, WriteError> {
-        let words = [
-            "another mdr-tui is writing this file",
-            "choose another name",
-        ];
-        Self::with_lock(lock_of(path), is_new, path, words)
-    }
-
-    /// Claims what is at `claimed` with a lock file at `path`. If another process has it, the error says so in `words`,
-    /// with what to do instead.
-    fn with_lock(
-        path: PathBuf,
-        is_new: bool,
-        claimed: &Path,
-        words: [&str; 2],
-    ) -> Result<Self, WriteError> {
-        let file = match lock(&path) {
-            Ok(Ok(file)) => file,
-            Ok(Err(owner)) => {
-                let owner = owner.as_ref().map_or_else(String::new, Owner::describe);
-                let rule = format!("{}{owner}; wait for it to end or {}", words[0], words[1]);
-                return Err(WriteError::refused(claimed, rule));
-            }
-            Err(cause) => {
-                // If the lock cannot be created, no file can be created there.
-                let is_there = path.symlink_metadata().is_ok();
-                return Err(WriteError::io(if is_there { &path } else { claimed })(
-                    cause,
-                ));
-            }
-        };
-        let about = file.metadata().map_err(WriteError::io(claimed))?;
-        let identity = (about.dev(), about.ino());
-        let lock = LockFile {
-            path,
-            identity,
-            is_new,
-        };
-        locked(&HELD).push(lock.clone());
-        Ok(Self { lock, _file: file })
-    }
-
-    /// Checks that what was claimed was neither moved nor removed: its place may belong to another process by now.
-    ///
-    /// # Errors
-    ///
-    /// If the lock file is no longer at its place.
-    pub fn check(&self) -> Result<(), WriteError> {
-        if self.lock.is_there() {
-            return Ok(());
-        }
-        let rule = "was moved, removed or cleared meanwhile, and may belong to another run by now";
-        Err(WriteError::refused(directory_of(&self.lock.path), rule))
-    }
-}
-
-impl Drop for Claim {
-    fn drop(&mut self) {
-        locked(&HELD).retain(|held| *held != self.lock);
-        // The file is still locked, so no other process can have claimed it.
-        self.lock.remove();
-    }
-}
-
-/// Returns the file, locked and with this process in it, or who has it.
-fn lock(path: &Path) -> io::Result<Result<File, Option<Owner>>> {
-    loop {
-        let Some((mut file, is_made_here)) = open(path)? else {
-            continue;
-        };
-        match try_lock(&file) {
-            // The previous owner has just removed it.
-            Ok(()) if !is_at(&file, path) => {}
-            Ok(()) => {
-                // On a full disk the lock alone is enough.
-                let _ = Owner::this_process().write(&mut file);
-                return Ok(Ok(file));
-            }
-            Err(TryLockError::WouldBlock) => return Ok(Err(Owner::read(&mut file))),
-            Err(TryLockError::Error(_)) if is_made_here => {
-                let written = Owner::this_process().write(&mut file);
-                if written.is_err() {
-                    let _ = fs::remove_file(path);
-                }
-                return written.map(|()| Ok(file));
-            }
-            Err(TryLockError::Error(_)) => {
-                let owner = Owner::read(&mut file);
-                if owner
-                    .as_ref()
-                    .map_or_else(|| is_young(&file), Owner::may_live)
-                {
-                    return Ok(Err(owner));
-                }
-                remove_stale(&file, path)?;
-            }
-        }
-    }
-}
-
-/// Opens the lock file, and says whether it was made here; `None` if its owner has just removed it.
-fn open(path: &Path) -> io::Result<Option<(File, bool)>> {
-    use io::ErrorKind::{AlreadyExists, NotFound, PermissionDenied};
-    match safe_open::open(path, true) {
-        Err(error) if error.kind() == AlreadyExists => {}
-        made => return made.map(|file| Some((file, true))),
-    }
-    match safe_open::open(path, false) {
-        // Another user's file can be locked, too, but not removed.
-        Err(error) if error.kind() == PermissionDenied => safe_open::read(path),
-        Err(error) if error.kind() == NotFound => return Ok(None),
-        opened => opened,
-    }
-    .map(|file| Some((file, false)))
-}
-
-/// Locks a file until it is closed, if the file system supports locks.
-fn try_lock(file: &File) -> Result<(), TryLockError> {
-    if crate::failpoint::is_asked_for("no locks") {
-        return Err(TryLockError::Error(io::ErrorKind::Unsupported.into()));
-    }
-    file.try_lock()
-}
-
-/// Whether a file is so new that its maker may still be about to write into it.
-fn is_young(file: &File) -> bool {
-    let made = file.metadata().and_then(|about| about.modified());
-    made.is_ok_and(|at| at.elapsed().is_ok_and(|age| age < UNWRITTEN))
-}
-
-/// Removes a stale lock file. If several processes do so at once, only one of them succeeds in renaming it; if the
-/// renamed file turns out to be another process's new lock, it is put back.
-fn remove_stale(file: &File, path: &Path) -> io::Result<()> {
-    let aside = path.with_file_name(format!(".mdr-tui-{}.tmp", std::process::id()));
-    match fs::rename(path, &aside) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-        other => other?,
-    }
-    if !is_at(file, &aside) {
-        let _ = fs::hard_link(&aside, path);
-    }
-    fs::remove_file(aside)
-}
-
-/// Whether the open file is still the one at this path.
-fn is_at(file: &File, path: &Path) -> bool {
-    let about = [file.metadata(), path.symlink_metadata()].map(|about| about.ok());
-    let [one, other] = about.map(|about| about.map(|about| (about.dev(), about.ino())));
-    one.is_some() && one == other
 }
 
 #[cfg(test)]
@@ -318,8 +299,8 @@ mod tests {
     #[test]
     fn a_directory_belongs_to_one_and_a_stale_lock_to_nobody() {
         let base = tempfile::tempdir().expect("a directory");
-        let first = Claim::of_directory(base.path(), false).expect("a free directory");
-        let refused = Claim::of_directory(base.path(), false).expect_err("it is taken");
+        let first = Claim::new(base.path(), false).expect("a free directory");
+        let refused = Claim::new(base.path(), false).expect_err("it is taken");
         let owner = format!("(process {} on ", std::process::id());
         assert!(refused.to_string().contains(&owner), "{refused}");
         drop(first);
@@ -327,7 +308,7 @@ mod tests {
         // What a killed process leaves behind.
         for stale in ["1 elsewhere\n", "999999999 here\n", "", "no number"] {
             std::fs::write(base.path().join(LOCK), stale).expect("a file");
-            drop(Claim::of_directory(base.path(), false).expect("a stale lock"));
+            drop(Claim::new(base.path(), false).expect("a stale lock"));
         }
     }
 
@@ -336,11 +317,11 @@ mod tests {
         let base = tempfile::tempdir().expect("a directory");
         let place = base.path().join("x");
         fs::create_dir(&place).expect("a directory");
-        let claim = Claim::of_directory(&place, true).expect("a free directory");
+        let claim = Claim::new(&place, true).expect("a free directory");
         claim.check().expect("its place");
         fs::remove_dir_all(&place).expect("a directory");
         fs::create_dir(&place).expect("another one");
-        let other = Claim::of_directory(&place, false).expect("a free directory");
+        let other = Claim::new(&place, false).expect("a free directory");
         assert!(claim.check().is_err());
         drop(claim);
         other.check().expect("its place");
@@ -358,7 +339,7 @@ mod tests {
             for _ in 0..8 {
                 scope.spawn(|| {
                     for _ in 0..200 {
-                        if let Ok(claim) = Claim::of_directory(base.path(), false) {
+                        if let Ok(claim) = Claim::new(base.path(), false) {
                             assert_eq!(inside.fetch_add(1, SeqCst), 0, "two have it");
                             taken.fetch_add(1, SeqCst);
                             inside.fetch_sub(1, SeqCst);
@@ -377,7 +358,7 @@ mod tests {
         let (lock, mine) = (base.path().join(LOCK), base.path().join("mine"));
         fs::write(&mine, "mine").expect("a file");
         std::os::unix::fs::symlink(&mine, &lock).expect("a link");
-        let refused = || match Claim::of_directory(base.path(), false) {
+        let refused = || match Claim::new(base.path(), false) {
             Err(WriteError::Io { path, cause }) => {
                 assert_eq!(path, lock);
                 assert!(cause.to_string().contains("not a regular file"), "{cause}");
@@ -395,9 +376,9 @@ mod tests {
     fn a_file_of_any_name_is_claimed_by_itself() {
         let base = tempfile::tempdir().expect("a directory");
         let paths = ["a.csv", "b.csv", &"x".repeat(255)].map(|name| base.path().join(name));
-        let claims = [0, 1, 2].map(|k| Claim::of_file(&paths[k], false).expect("a claim"));
+        let claims = [0, 1, 2].map(|k| Claim::new(&paths[k], false).expect("a claim"));
         for path in &paths {
-            let again = Claim::of_file(path, false).expect_err("it is taken");
+            let again = Claim::new(path, false).expect_err("it is taken");
             assert!(again.to_string().contains("(process "), "{again}");
         }
         drop(claims);

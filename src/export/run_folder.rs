@@ -87,7 +87,7 @@ impl RunFolder {
 
     /// Claims the folder, and removes the temporary files that a killed process has left there.
     fn claim(path: &Path, is_new: bool) -> Result<Self, WriteError> {
-        let claim = Arc::new(Claim::of_directory(path, is_new)?);
+        let claim = Arc::new(Claim::new(path, is_new)?);
         let path = path.to_owned();
         let folder = Self { path, claim };
         let rows = folder.rows();

@@ -81,7 +81,7 @@ impl Target {
             if !directory_of(path).is_dir() {
                 return refused("its directory does not exist");
             }
-            claim = Some(Claim::of_file(path, is_new)?);
+            claim = Some(Claim::new(path, is_new)?);
             sweep(directory_of(path), &temporary_of(path), Duration::ZERO);
         }
         let path = path.to_owned();

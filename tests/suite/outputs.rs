@@ -162,6 +162,7 @@ fn force_removes_what_the_earlier_run_has_written_and_nothing_else() {
     fs::copy(dir.path("other/state-0.5.csv"), dir.path("x/state-0.5.csv")).expect("a copy");
     dir.write("x/state-1.5.csv", b"r_m,f_m\n0,0\n");
     dir.done("figure x -o x/state.svg --panel profile --quiet");
+    dir.done("figure x -o again.svg --panel profile --quiet");
     let mine = [
         "state-0.5.csv",
         "state-1.5.csv",

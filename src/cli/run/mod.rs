@@ -70,7 +70,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     let is_bug = outcome.is_err();
     let outcome = outcome.unwrap_or_else(|_| Ok(Some(job.go_back())));
     if matches!(outcome, Ok(Some(_))) {
-        save(&mut locked(&job.autosave), &job.state());
+        save(&mut locked(&job.autosave), &job.work());
     }
     // Shows what has come up during the run; the same warning may now name another cycle.
     let now = remarks(&job.session);
@@ -85,7 +85,7 @@ pub fn run(options: &Run) -> Result<ExitCode> {
     if let Err(error) = job.write_end() {
         // The directory was writable when the run began, so this is a failure, not misuse. A checkpoint may still be
         // saved elsewhere.
-        locked(&job.autosave).save(&job.state());
+        locked(&job.autosave).save(&job.work());
         return Err(anyhow!("{error}; {}", job.how_to_resume()));
     }
     if matches!(outcome, Ok(None) | Err(_)) {
@@ -281,7 +281,7 @@ impl Job<'_> {
         word.iter().for_each(|word| complain(word));
     }
 
-    fn state(&self) -> RunState {
+    fn work(&self) -> RunState {
         (self.session.clone(), self.job.clone())
     }
 

@@ -7,9 +7,8 @@
 use std::hint::select_unpredictable as select;
 
 use strum::EnumDiscriminants;
-use thiserror::Error;
 
-use crate::math::invalid::{Invalid, non_negative, positive};
+use crate::math::invalid::{Invalid, Unmade, need, non_negative, positive};
 
 /// A local wear law, written as a rate so that the result does not depend on the step size. Linear in k.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,17 +120,6 @@ impl Parameters {
     }
 }
 
-/// Why a law cannot be made.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum Unmade {
-    /// This key of [`Parameters`] is not given.
-    #[error("{0} is missing")]
-    Missing(&'static str),
-    /// A value is not allowed.
-    #[error(transparent)]
-    Invalid(#[from] Invalid),
-}
-
 /// The nodes that may wear in a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Surface<'a> {
@@ -164,7 +152,6 @@ impl WearLaw {
     ///
     /// If one of its keys is not given or not allowed.
     pub fn new(law: Law, coefficient: f64, given: &Parameters) -> Result<Self, Unmade> {
-        let need = |key, value: Option<f64>| value.ok_or(Unmade::Missing(key));
         let law = match law {
             Law::Archard => Self::archard(coefficient),
             Law::Power => {

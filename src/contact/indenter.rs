@@ -3,12 +3,46 @@
 //!
 //! V. L. Popov, M. Heß (2015), Method of dimensionality reduction in contact mechanics and friction,
 //! ch. 3; κₙ = √π Γ(n/2 + 1)/Γ(n/2 + ½).
+//!
+//! To add a shape: its word in [`Shape`], which does not compile until [`Indenter::new`] makes it; its keys, in
+//! [`Dimensions`]; word and keys in `keys.toml`.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use strum::{EnumString, IntoStaticStr, VariantNames};
+
 use super::measured::MeasuredProfile;
 use crate::math::geometry::Geometry;
-use crate::math::invalid::{Invalid, positive};
+use crate::math::invalid::{Invalid, Unmade, need, positive};
+
+/// A shape, by its word in scenarios.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+#[expect(missing_docs, reason = "keys.toml describes each word")]
+pub enum Shape {
+    Paraboloid,
+    Cone,
+    Power,
+    FlatPunch,
+    TruncatedParaboloid,
+    TruncatedCone,
+    RoundedPunch,
+    Table,
+}
+
+/// Keys of the shapes as a scenario gives them; `None`: not given.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[expect(missing_docs, reason = "keys.toml describes each key")]
+pub struct Dimensions {
+    pub radius: Option<f64>,
+    pub angle: Option<f64>,
+    pub tip_radius: Option<f64>,
+    pub coefficient: Option<f64>,
+    pub exponent: Option<f64>,
+    pub smoothing: Option<f64>,
+    pub radii: Option<Vec<f64>>,
+    pub heights: Option<Vec<f64>>,
+}
 
 /// A body of revolution, or the section of a cylinder.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +85,34 @@ pub enum Indenter {
 }
 
 impl Indenter {
+    /// Makes a shape of the keys of a scenario.
+    ///
+    /// # Errors
+    /// If one of its keys is not given or not allowed.
+    pub fn new(shape: Shape, given: &Dimensions) -> Result<Self, Unmade> {
+        let radius = || need("radius", given.radius);
+        let angle = || need("angle", given.angle);
+        let tip = || need("tip_radius", given.tip_radius);
+        let made = match shape {
+            Shape::Paraboloid => Self::paraboloid(radius()?),
+            Shape::Cone => Self::cone(angle()?),
+            Shape::Power => Self::power(
+                need("coefficient", given.coefficient)?,
+                need("exponent", given.exponent)?,
+            ),
+            Shape::FlatPunch => Self::flat_punch(radius()?),
+            Shape::TruncatedParaboloid => Self::truncated_paraboloid(radius()?, tip()?),
+            Shape::TruncatedCone => Self::truncated_cone(angle()?, tip()?),
+            Shape::RoundedPunch => Self::rounded_punch(radius()?, tip()?),
+            Shape::Table => Self::table(
+                need("radii", given.radii.as_deref())?,
+                need("heights", given.heights.as_deref())?,
+                need("smoothing", given.smoothing)?,
+            ),
+        };
+        Ok(made?)
+    }
+
     /// Makes a paraboloid with radius of curvature R in m.
     pub fn paraboloid(radius: f64) -> Result<Self, Invalid> {
         let tip_radius = 0.0;
@@ -263,18 +325,20 @@ impl Indenter {
         }
     }
 
-    /// Returns the name used in scenarios.
+    /// Returns its name in scenarios.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Paraboloid { .. } if self.tip_radius() > 0.0 => "truncated-paraboloid",
-            Self::Paraboloid { .. } => "paraboloid",
-            Self::Cone { .. } if self.tip_radius() > 0.0 => "truncated-cone",
-            Self::Cone { .. } => "cone",
-            Self::Power { .. } => "power",
-            Self::FlatPunch { .. } => "flat-punch",
-            Self::RoundedPunch { .. } => "rounded-punch",
-            Self::Table(_) => "table",
-        }
+        let is_cut = self.tip_radius() > 0.0;
+        let shape = match self {
+            Self::Paraboloid { .. } if is_cut => Shape::TruncatedParaboloid,
+            Self::Paraboloid { .. } => Shape::Paraboloid,
+            Self::Cone { .. } if is_cut => Shape::TruncatedCone,
+            Self::Cone { .. } => Shape::Cone,
+            Self::Power { .. } => Shape::Power,
+            Self::FlatPunch { .. } => Shape::FlatPunch,
+            Self::RoundedPunch { .. } => Shape::RoundedPunch,
+            Self::Table(_) => Shape::Table,
+        };
+        shape.into()
     }
 }
 

@@ -27,6 +27,25 @@ impl Invalid {
     }
 }
 
+/// Why something cannot be made of the keys of a scenario.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Unmade {
+    /// This key is not given.
+    #[error("{0} is missing")]
+    Missing(&'static str),
+    /// A value is not allowed.
+    #[error(transparent)]
+    Invalid(#[from] Invalid),
+}
+
+/// Passes the value of a key.
+///
+/// # Errors
+/// If it is not given.
+pub fn need<T>(key: &'static str, value: Option<T>) -> Result<T, Unmade> {
+    value.ok_or(Unmade::Missing(key))
+}
+
 /// Passes a finite number, refuses NaN and infinities.
 pub fn finite(field: &'static str, value: f64) -> Result<f64, Invalid> {
     checked(field, value, true, "must be a finite number")

@@ -5,10 +5,10 @@ use std::fmt::Display;
 
 use super::error::{MOST_ERRORS, Refusal};
 use super::escape::{echo, printable};
-use super::key::{Key, join};
+use super::key::{Key, Kind, join};
 use super::spec::Spec;
 use super::value::show;
-use crate::math::invalid::Invalid;
+use crate::math::invalid::{Invalid, Unmade};
 
 /// The errors of a scenario.
 #[derive(Debug, Default)]
@@ -108,24 +108,28 @@ impl Faults {
         }
     }
 
+    /// Passes what was made of the keys of a section, or notes what is missing or refused. A list comes from the file
+    /// that a key of the section names.
+    pub fn make<T>(&mut self, spec: &Spec, section: &str, made: Result<T, Unmade>) -> Option<T> {
+        let made = match made {
+            Ok(made) => Ok(made),
+            Err(Unmade::Invalid(invalid)) => Err(invalid),
+            Err(Unmade::Missing(key)) => {
+                let path = join(section, key);
+                return match Key::known(&path).kind {
+                    Kind::Numbers if self.covers(&path) => None,
+                    Kind::Numbers => self.need(&join(section, "file"), None),
+                    _ => self.need(&path, None),
+                };
+            }
+        };
+        self.accept(spec, section, made)
+    }
+
     /// Passes the value of a key, or notes that it is missing.
     pub fn need<T>(&mut self, path: &str, value: Option<T>) -> Option<T> {
         let value = value.filter(|_| !self.covers(path));
         value.or_else(|| self.missing(path, Key::known(path).described()))
-    }
-
-    /// Passes a list of a section, or notes that the key of its file is missing.
-    pub fn need_list<'a>(
-        &mut self,
-        section: &str,
-        key: &str,
-        list: &'a Option<Vec<f64>>,
-    ) -> Option<&'a [f64]> {
-        match list {
-            Some(list) => Some(list),
-            None if self.covers(&join(section, key)) => None,
-            None => self.need(&join(section, "file"), None),
-        }
     }
 
     /// Notes that the key at `path`, which means `meaning`, is missing, unless an error is about it already.

@@ -226,10 +226,13 @@ pub(crate) fn split(path: &str) -> (&str, &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::indenter::Shape;
     use crate::math::grid::{MAX_CELLS, MIN_CELLS};
     use crate::scenario::units::PRESCRIBED;
     use crate::scenario::{MOST_CYCLES, MOST_SNAPSHOTS};
+    use crate::simulation::waveform::Wave;
     use crate::simulation::{Integrator, Scheme, Spacing, Stability};
+    use crate::wear::Law;
     use strum::VariantNames;
 
     #[test]
@@ -278,6 +281,10 @@ mod tests {
     #[test]
     fn the_table_is_that_of_the_program() {
         for (path, names) in [
+            ("indenter.shape", Shape::VARIANTS),
+            ("motion.normal.waveform", Wave::VARIANTS),
+            ("motion.tangential.waveform", Wave::VARIANTS),
+            ("wear.law", Law::VARIANTS),
             ("numerics.method", AbelMethod::VARIANTS),
             ("numerics.grid", Spacing::VARIANTS),
             ("numerics.scheme", Scheme::VARIANTS),

@@ -7,7 +7,9 @@ use strum::{EnumString, IntoStaticStr, VariantNames};
 use super::change::Change;
 use super::key::{Default as Usual, Key, SCHEMA};
 use super::value::{Field, Held, Section, Value, fields, section, words};
+use crate::contact::indenter::{Dimensions, Shape};
 use crate::math::abel::AbelMethod;
+use crate::simulation::waveform::{self, Wave};
 use crate::simulation::{Scheme, Spacing, Stability};
 use crate::wear::{Law, Parameters};
 
@@ -63,38 +65,10 @@ section! {
         geometry: Option<Geometry>,
         /// Length of a line contact, m.
         length: Option<f64>,
-        /// Radius of curvature, of a punch, or of its edge, m.
-        radius: Option<f64>,
-        /// Rise of the flank, rad.
-        angle: Option<f64>,
-        /// Radius of the flat tip, m.
-        tip_radius: Option<f64>,
-        /// A of f = A rⁿ, m^(1−n).
-        coefficient: Option<f64>,
-        /// n of f = A rⁿ.
-        exponent: Option<f64>,
-        /// Length over which a table is smoothed, m.
-        smoothing: Option<f64>,
-        /// Radii of a table, m.
-        radii: Option<Vec<f64>>,
-        /// Heights there, m.
-        heights: Option<Vec<f64>>,
+    } parts {
+        /// Keys of the shapes.
+        dimensions: Dimensions,
     }
-}
-
-/// A shape of the unworn indenter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
-#[strum(serialize_all = "kebab-case")]
-#[expect(missing_docs, reason = "keys.toml describes each word")]
-pub enum Shape {
-    Paraboloid,
-    Cone,
-    Power,
-    FlatPunch,
-    TruncatedParaboloid,
-    TruncatedCone,
-    RoundedPunch,
-    Table,
 }
 
 /// What the section of the indenter stands for.
@@ -212,12 +186,9 @@ section! {
         gauge_length: Option<f64>,
         /// Waveform.
         waveform: Option<Wave>,
-        /// Fraction of a period at rest, of a trapezoid.
-        hold: Option<f64>,
-        /// Times of a table, s.
-        times: Option<Vec<f64>>,
-        /// Values there.
-        values: Option<Vec<f64>>,
+    } parts {
+        /// Keys of the waveforms.
+        form: waveform::Parameters,
     }
 }
 
@@ -229,17 +200,6 @@ pub enum Control {
     Displacement,
     /// Forces.
     Force,
-}
-
-/// A waveform.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
-#[strum(serialize_all = "lowercase")]
-#[expect(missing_docs, reason = "keys.toml describes each word")]
-pub enum Wave {
-    Sine,
-    Triangle,
-    Trapezoid,
-    Table,
 }
 
 section! {
@@ -325,6 +285,10 @@ section! {
         stated: Option<String>,
     }
 }
+
+fields! { Dimensions { radius, angle, tip_radius, coefficient, exponent, smoothing, radii, heights } }
+
+fields! { waveform::Parameters { hold, times, values } }
 
 fields! { Parameters { stress_exponent, slip_rate_exponent, reference_stress, reference_slip_rate } }
 

@@ -279,7 +279,7 @@ macro_rules! section {
 
 /// Finds the fields of a struct by the names of their keys.
 macro_rules! fields {
-    ($name:ident { $($key:ident),* } $(parts { $($part:ident),* })?) => {
+    ($name:ty { $($key:ident),* } $(parts { $($part:ident),* })?) => {
         impl Section for $name {
             fn field(&self, key: &str) -> Option<&dyn Field> {
                 match key {

@@ -1,5 +1,8 @@
 //! Waveforms: a sine, or straight lines between corners.
 //!
+//! To add a waveform: its word in [`Wave`], which does not compile until [`Waveform::new`] makes it; its keys, in
+//! [`Parameters`]; word and keys in `keys.toml`, of both directions.
+//!
 //! A waveform has period 1, values from −1 to 1, and the phase of a sine: triangle and trapezoid
 //! cross zero upwards at 0. Coulomb friction and wear by friction work are rate-independent, so at
 //! constant depth only the turning points matter: triangle, trapezoid and sine wear alike.
@@ -7,7 +10,9 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::math::invalid::{Invalid, check_table};
+use strum::{EnumString, IntoStaticStr, VariantNames};
+
+use crate::math::invalid::{Invalid, Unmade, check_table, need};
 
 /// Maximum number of corners.
 const MOST_CORNERS: usize = 100_000;
@@ -20,6 +25,26 @@ const CLOSED: f64 = 1e-6;
 const MOST_REPEATS: u32 = 50;
 const REPEAT_PLACES: u32 = 211;
 const ALIKE: f64 = 0.02;
+
+/// A waveform, by its word in scenarios.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+#[expect(missing_docs, reason = "keys.toml describes each word")]
+pub enum Wave {
+    Sine,
+    Triangle,
+    Trapezoid,
+    Table,
+}
+
+/// Keys of the waveforms as a scenario gives them; `None`: not given.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[expect(missing_docs, reason = "keys.toml describes each key")]
+pub struct Parameters {
+    pub hold: Option<f64>,
+    pub times: Option<Vec<f64>>,
+    pub values: Option<Vec<f64>>,
+}
 
 /// A periodic motion between −1 and 1.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -40,11 +65,9 @@ pub struct Polyline {
     values: Vec<f64>,
 }
 
-/// A table of one period: its shape, and its original scale.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Tabled {
-    /// The shape, between −1 and 1.
-    pub waveform: Waveform,
+/// The scale of a motion that is given as a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
     /// Mean of the lowest and the highest value.
     pub mean: f64,
     /// Half of their difference.
@@ -54,6 +77,25 @@ pub struct Tabled {
 }
 
 impl Waveform {
+    /// Makes a waveform of the keys of a scenario, with the scale of its motion if they tell it.
+    ///
+    /// # Errors
+    /// If one of its keys is not given or not allowed.
+    pub fn new(wave: Wave, given: &Parameters) -> Result<(Self, Option<Scale>), Unmade> {
+        let waveform = match wave {
+            Wave::Sine => Self::Sine,
+            Wave::Triangle => Self::triangle(),
+            Wave::Trapezoid => Self::trapezoid(need("hold", given.hold)?)?,
+            Wave::Table => {
+                let times = need("times", given.times.as_deref())?;
+                let values = need("values", given.values.as_deref())?;
+                let (waveform, scale) = Self::table(times, values)?;
+                return Ok((waveform, Some(scale)));
+            }
+        };
+        Ok((waveform, None))
+    }
+
     /// Moves at constant speed there and back.
     pub fn triangle() -> Self {
         Self::polyline(vec![0.25, 0.75], vec![1.0, -1.0])
@@ -78,7 +120,7 @@ impl Waveform {
     ///
     /// # Errors
     /// If the rows are not a closed motion; the field is `times` or `values`.
-    pub fn table(times: &[f64], values: &[f64]) -> Result<Tabled, Invalid> {
+    pub fn table(times: &[f64], values: &[f64]) -> Result<(Self, Scale), Invalid> {
         let number = times.len();
         check_table(("times", times), ("values", values), 3..=MOST_CORNERS)?;
         let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -110,12 +152,12 @@ impl Waveform {
             );
             return Err(Invalid::new("times", format!("{period:e} s"), rule));
         }
-        Ok(Tabled {
-            waveform,
+        let scale = Scale {
             mean,
             amplitude,
             angular_frequency: TAU / period,
-        })
+        };
+        Ok((waveform, scale))
     }
 
     /// Returns how often it repeats within its period; `None` if it does not.
@@ -302,16 +344,16 @@ mod tests {
 
     #[test]
     fn a_table_keeps_its_shape_its_size_and_its_period() {
-        let tabled =
+        let (waveform, scale) =
             Waveform::table(&[1.0, 1.5, 2.0, 3.0], &[2e-6, 6e-6, 2e-6, 2e-6]).expect("a motion");
-        assert_eq!(tabled.angular_frequency, TAU / 2.0);
-        assert!((tabled.mean - 4e-6).abs() < 1e-20 && (tabled.amplitude - 2e-6).abs() < 1e-20);
-        let line = line(&tabled.waveform);
+        assert_eq!(scale.angular_frequency, TAU / 2.0);
+        assert!((scale.mean - 4e-6).abs() < 1e-20 && (scale.amplitude - 2e-6).abs() < 1e-20);
+        let line = line(&waveform);
         assert!((line.at(0.125) - 0.0).abs() < 1e-12);
         assert!((line.at(0.75) + 1.0).abs() < 1e-12);
-        assert!(tabled.waveform.has_two_strokes());
+        assert!(waveform.has_two_strokes());
         let double = Waveform::table(&[0.0, 1.0, 2.0, 3.0, 4.0], &[0.0, 1.0, 0.5, 1.0, 0.0]);
-        assert!(!double.expect("a motion").waveform.has_two_strokes());
+        assert!(!double.expect("a motion").0.has_two_strokes());
     }
 
     #[test]

@@ -15,7 +15,8 @@
 
 use std::f64::consts::PI;
 
-use mdr_tui::scenario::{Scenario, schema};
+use mdr_tui::scenario::Scenario;
+use mdr_tui::scenario::key::Key;
 use toml::{Table, Value};
 
 use crate::random::Random;
@@ -127,7 +128,7 @@ const WAVEFORMS: &[&str] = &["sine", "triangle", "trapezoid", "table"];
 
 /// The words of a key in `keys.toml`.
 pub fn words(path: &str) -> Vec<&'static str> {
-    let key = schema::find(path).expect(path);
+    let key = Key::find(path).expect(path);
     key.kind.words().expect("a choice of words")
 }
 
@@ -136,15 +137,15 @@ pub fn choose(table: &mut Table, path: &str, word: &str, known: &Known, draw: &m
     let (name, key) = path.rsplit_once('.').expect("SECTION.KEY");
     let keys = name.split('.').fold(&mut *table, section);
     keys.insert(key.into(), word.into());
-    keys.remove("hold");
     keys.retain(|key, _| {
-        let shapes = schema::find(&format!("{name}.{key}")).map(|key| &key.shapes);
-        shapes.is_none_or(|shapes| shapes.is_empty() || shapes.contains(&word))
+        let key = Key::find(&format!("{name}.{key}"));
+        let users = key.and_then(|key| key.used_by.get(path).cloned());
+        users.is_none_or(|users| users.contains(&word))
     });
     // Whoever takes the scenario tells of any other error.
     while let Err(error) = Scenario::from_toml(&table.to_string(), word, &[])
         && let Some((missing, _)) = error.to_string().split_once(" is missing: ")
-        && let Some(missing) = missing.rsplit(' ').next().and_then(schema::find)
+        && let Some(missing) = missing.rsplit(' ').next().and_then(Key::find)
     {
         let value = usual(missing.unit, known, draw);
         let keys = missing.section().split('.').fold(&mut *table, section);

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::{Faults, NORMAL, Spec, TANGENTIAL};
 use crate::scenario::key::join;
-use crate::scenario::spec::{self, Direction, Wave};
+use crate::scenario::spec::{self, Direction};
 use crate::simulation::drive::{Control, Drive, Oscillation};
-use crate::simulation::waveform::{Tabled, Waveform};
+use crate::simulation::waveform::{Scale, Wave, Waveform};
 
 /// Maximum number of periods of the normal motion per cycle.
 const HIGHEST_RATIO: f64 = 1000.0;
@@ -56,27 +56,21 @@ pub(super) fn drive(spec: &Spec, faults: &mut Faults) -> Option<Drive> {
     }
 }
 
-/// Builds the motion of waveform = "table"; a table alone implies that waveform.
-fn tabled_motion(
+/// Builds the waveform; a table alone implies its word.
+fn waveform(
     spec: &Spec,
     faults: &mut Faults,
     section: &str,
     given: &Direction,
-) -> Option<Option<Tabled>> {
-    let is_given = given.times.is_some() || given.values.is_some();
-    match given.waveform {
-        Some(Wave::Table) => {}
-        None if is_given => {}
-        Some(_) if is_given => {
-            let rule = "conflicts with this waveform; give waveform = \"table\"";
-            return faults.refuse(spec, &join(section, "times"), rule);
-        }
-        _ => return Some(None),
+) -> Option<(Waveform, Option<Scale>)> {
+    let has_table = given.form.times.is_some() || given.form.values.is_some();
+    let implied = if has_table { Wave::Table } else { Wave::Sine };
+    let wave = given.waveform.unwrap_or(implied);
+    if has_table && wave != Wave::Table {
+        let rule = "conflicts with this waveform; give waveform = \"table\"";
+        return faults.refuse(spec, &join(section, "times"), rule);
     }
-    let times = faults.need_list(section, "times", &given.times);
-    let values = faults.need_list(section, "values", &given.values);
-    let table = Waveform::table(times?, values?);
-    faults.accept(spec, section, table).map(Some)
+    faults.make(spec, section, Waveform::new(wave, &given.form))
 }
 
 /// Builds one direction of the motion, `given` with its defaults. A direction at rest takes the frequency of the
@@ -90,28 +84,18 @@ fn control(
     other: Option<&Direction>,
 ) -> Option<Control> {
     let path = |key: &str| join(section, key);
-    let tabled = tabled_motion(spec, faults, section, given)?;
-    let tabled = tabled.as_ref();
-    let of_table = |of: fn(&Tabled) -> f64| tabled.map(of);
-    let mean = given.mean.or(of_table(|table| table.mean));
+    let (waveform, scale) = waveform(spec, faults, section, given)?;
+    let mean = given.mean.or(scale.map(|table| table.mean));
     let mean = faults.need(&path("mean"), mean.or(usual.mean));
-    let amplitude = given.amplitude.or(of_table(|table| table.amplitude));
+    let amplitude = given.amplitude.or(scale.map(|table| table.amplitude));
     let amplitude = faults.need(&path("amplitude"), amplitude.or(usual.amplitude));
-    let of_table = of_table(|table| table.angular_frequency);
+    let of_table = scale.map(|table| table.angular_frequency);
     let frequency = match given.in_rad_per_s().or(of_table) {
         None if amplitude == Some(0.0) => {
             Some(other.and_then(Direction::in_rad_per_s).unwrap_or(1.0))
         }
         None if faults.covers(&path("frequency")) => None,
         frequency => faults.need(&path("angular_frequency"), frequency),
-    };
-    let waveform = match given.waveform {
-        Some(Wave::Triangle) => Waveform::triangle(),
-        Some(Wave::Trapezoid) => {
-            let hold = faults.need(&path("hold"), given.hold)?;
-            faults.accept(spec, section, Waveform::trapezoid(hold))?
-        }
-        _ => tabled.map_or(Waveform::Sine, |table| table.waveform.clone()),
     };
     let phase = faults.need(&path("phase"), given.phase.or(usual.phase));
     let oscillation = Oscillation::new(mean?, amplitude?, frequency?, phase?);

@@ -1,10 +1,9 @@
 //! Builds the indenter from the keys of a scenario, and checks a measured one against the domain.
 
 use super::{Faults, HARDLY_SAME, Spec};
-use crate::contact::indenter::Indenter;
+use crate::contact::indenter::{Dimensions, Indenter};
 use crate::contact::measured::MeasuredProfile;
 use crate::scenario::key::{Default, Key, Kind};
-use crate::scenario::spec::Shape;
 use crate::scenario::value::length;
 
 /// Allowed slopes a/R of a table at the contact's edge: beyond the steepest and the shallowest, one of its columns is
@@ -20,24 +19,12 @@ pub(super) fn indenter(spec: &Spec, faults: &mut Faults) -> Option<Indenter> {
     let given = &spec.indenter;
     let shape = faults.need("indenter.shape", given.shape)?;
     check_keys(spec, faults, shape.into())?;
-    let made = match shape {
-        Shape::Paraboloid => Indenter::paraboloid(given.radius?),
-        Shape::Cone => Indenter::cone(given.angle?),
-        Shape::Power => Indenter::power(given.coefficient?, given.exponent?),
-        Shape::FlatPunch => Indenter::flat_punch(given.radius?),
-        Shape::TruncatedParaboloid => {
-            Indenter::truncated_paraboloid(given.radius?, given.tip_radius?)
-        }
-        Shape::TruncatedCone => Indenter::truncated_cone(given.angle?, given.tip_radius?),
-        Shape::RoundedPunch => Indenter::rounded_punch(given.radius?, given.tip_radius?),
-        Shape::Table => {
-            let radii = faults.need_list("indenter", "radii", &given.radii);
-            let heights = faults.need_list("indenter", "heights", &given.heights);
-            let smoothing = spec.or_usual(|of| of.indenter.smoothing);
-            Indenter::table(radii?, heights?, smoothing?)
-        }
+    let smoothing = spec.or_usual(|of| of.indenter.dimensions.smoothing);
+    let given = Dimensions {
+        smoothing,
+        ..given.dimensions.clone()
     };
-    faults.accept(spec, "indenter", made)
+    faults.make(spec, "indenter", Indenter::new(shape, &given))
 }
 
 /// Refuses keys of other shapes, and notes the numbers of this one that are missing.

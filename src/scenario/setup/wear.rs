@@ -1,10 +1,11 @@
 //! Builds the wear law from the keys of a scenario.
 
 use super::{Faults, Spec, bodies};
+use crate::math::invalid::Unmade;
 use crate::scenario::key::{Key, join};
 use crate::scenario::spec::Wear;
 use crate::simulation::Unworn;
-use crate::wear::{Parameters, Unmade, WearLaw};
+use crate::wear::{Parameters, WearLaw};
 
 const WEAR: &str = "wear";
 

@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 
 use super::args::{Guard, Stability};
 use super::{given, progress, results, stop, succeeded};
-use crate::export::header::number;
+use crate::math::number::exact;
 use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
 use crate::scenario::{Refusal, printable};
@@ -27,7 +27,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
     let go_on = stop::signal().map(stop::until_stopped)?;
     let lines = lines(&study, options, &settings, &go_on)?;
     let interrupted = !go_on();
-    let (cycles, steps) = (number(options.cycles), options.steps);
+    let (cycles, steps) = (exact(options.cycles), options.steps);
     let about = "K = k E* d/a at the start";
     let mut notes = vec![format!(
         "{title}, {cycles} cycles, {steps} steps per cycle: {about}"

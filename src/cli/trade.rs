@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use super::args::Trade;
 use super::job::end;
 use super::{given, progress, results, small_multiples, stop, succeeded};
-use crate::export::header::number;
+use crate::math::number::exact;
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
@@ -121,7 +121,7 @@ fn run(
             "{}, {} cycles: errors at the end of depth (rms, in largest depths), V, E_d and F_x; the \
              worst counts, and only runs that pass their own checks",
             scenario.title(),
-            number(cycles)
+            exact(cycles)
         ),
         format!("reference: {}", trade::describe_reference(&reference)),
     ];

@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 
 use super::claim::was_killed;
 use super::file::{INTERNAL, WriteError, shell_path, sweep};
-use super::header::number;
 use super::run_folder::{RUN_CHECKPOINT, RunFolder};
 use super::target::Target;
+use crate::math::number::exact;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 
@@ -198,7 +198,7 @@ impl<T: Work> Autosave<T> {
         self.save(work.unwrap_or(&copy));
         self.file = None;
         let place = self.kept().map(|(path, cycle)| {
-            let (cycle, path) = (number(cycle), shell_path(path));
+            let (cycle, path) = (exact(cycle), shell_path(path));
             format!("saved at cycle {cycle}; resume with: mdr-tui --resume {path}")
         });
         match (&self.failure, place) {
@@ -217,7 +217,7 @@ impl<T: Work> Autosave<T> {
         if cycle == now {
             return format!("resume with: mdr-tui run --resume {path}");
         }
-        let (cycle, now) = (number(cycle), number(now));
+        let (cycle, now) = (exact(cycle), exact(now));
         format!(
             "resume from cycle {cycle} with: mdr-tui run --resume {path} (cycles up to {now} could not be saved)"
         )

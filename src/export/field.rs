@@ -2,9 +2,9 @@
 //! steady-state cycle, one row per point.
 
 use super::header;
+use crate::math::number::exact;
 use crate::reading::fatigue::{Fatigue, StressCycle};
 use crate::reading::{Column, Curves};
-use crate::scenario::scalars::field;
 use crate::scenario::session::Session;
 
 /// The columns, in order.
@@ -33,7 +33,7 @@ const REACH: f64 = 1.5;
 /// a. Without contact the domain's radius replaces a, and all stresses are zero.
 pub fn table(session: &Session) -> String {
     let rows = rows(session).into_iter();
-    let fields = rows.map(|row| row.into_iter().map(field).collect::<Vec<_>>());
+    let fields = rows.map(|row| row.into_iter().map(exact).collect::<Vec<_>>());
     header::table(session, &COLUMNS, fields)
 }
 

@@ -1,9 +1,9 @@
-//! The `# key: value` lines at the top of every CSV file, and numbers that read back exactly.
+//! The `# key: value` lines at the top of every CSV file.
 
 use crate::math::grid::RadialGrid;
+use crate::math::number::exact;
 use crate::reading::Column;
 use crate::scenario::escape::{csv_line, printable};
-pub use crate::scenario::scalars::{field, number};
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
@@ -46,7 +46,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     line("mdr-tui", env!("CARGO_PKG_VERSION"));
     line("arithmetic", arithmetic());
     line("scenario", scenario.title());
-    line(Column::Cycle.name(), &number(session.simulation().cycle()));
+    line(Column::Cycle.name(), &exact(session.simulation().cycle()));
     if let Some(remark) = setup.geometry.remark() {
         line("geometry", &remark);
     }
@@ -55,11 +55,11 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
     if let Some(law) = &setup.wear {
         // 1/Pa = m³/J: worn volume per friction work.
         let k = law.coefficient();
-        line("wear_coefficient_per_Pa", &number(k));
-        line("wear_coefficient_mm3_per_J", &number(k * 1e9));
-        line("wear_coefficient_um3_per_J", &number(k * 1e18));
+        line("wear_coefficient_per_Pa", &exact(k));
+        line("wear_coefficient_mm3_per_J", &exact(k * 1e9));
+        line("wear_coefficient_um3_per_J", &exact(k * 1e18));
         // Archard's coefficient, per load and sliding distance, at the present friction.
-        let per_load = number(k * setup.material.friction() * 1e9);
+        let per_load = exact(k * setup.material.friction() * 1e9);
         line("wear_coefficient_per_load_mm3_per_Nm", &per_load);
     }
     line("points", &setup.grid.cells().to_string());
@@ -70,11 +70,11 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         line("table", &remark);
     }
     if let Some(share) = scenario.wear_share() {
-        line("wear_share_of_indenter", &number(share));
+        line("wear_share_of_indenter", &exact(share));
     }
     if setup.scar.is_some() {
         let initial = session.simulation().moment().initial_volume;
-        line("initial_wear_volume_m3", &number(initial));
+        line("initial_wear_volume_m3", &exact(initial));
     }
     line("checks", &checks(session));
     for warning in session.warnings() {
@@ -91,7 +91,7 @@ pub fn entries(session: &Session) -> Vec<(String, String)> {
         line(UNMEASURED.0, UNMEASURED.1);
     }
     for change in session.changes() {
-        let place = format!("at cycle {}", number(change.at_cycle));
+        let place = format!("at cycle {}", exact(change.at_cycle));
         line(&place, &change.to_string());
     }
     entries
@@ -132,35 +132,5 @@ fn checks(session: &Session) -> String {
     match failing.collect::<Vec<String>>() {
         none if none.is_empty() => "ok".into(),
         failing => failing.join(", "),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_read_back_to_the_same_bits() {
-        let values = [
-            0.1 + 0.2,
-            1e-300,
-            -1.5e-7,
-            199.24,
-            5e-324,
-            f64::MAX,
-            1e22,
-            2.0 / 3.0,
-            0.0001,
-        ];
-        for value in values {
-            let text = number(value);
-            assert_eq!(
-                text.parse::<f64>().map(f64::to_bits),
-                Ok(value.to_bits()),
-                "{text}"
-            );
-        }
-        assert_eq!(number(-0.0), "0");
-        assert_eq!(field(f64::NAN), "");
     }
 }

@@ -1,6 +1,7 @@
 //! `loop.csv`: the fretting loop of the last period, computed with fine steps on the last profile.
 
-use super::header::{field, table};
+use super::header::table;
+use crate::math::number::exact;
 use crate::reading::Column;
 use crate::scenario::session::Session;
 use crate::simulation::{PeriodPoint, Simulation};
@@ -39,6 +40,6 @@ pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
 /// Returns the whole file for the present state of `session`; `None` without tangential motion.
 pub fn file(session: &Session) -> Option<String> {
     let rows = rows(session.simulation());
-    let fields = rows.iter().map(|row| row.map(field));
+    let fields = rows.iter().map(|row| row.map(exact));
     (!rows.is_empty()).then(|| table(session, &COLUMNS, fields))
 }

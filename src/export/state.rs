@@ -1,6 +1,7 @@
 //! `state.csv`: one row per node, at one moment.
 
-use super::header::{self, number};
+use super::header;
+use crate::math::number::exact;
 use crate::reading::{Column, Curves};
 use crate::scenario::session::Session;
 
@@ -19,12 +20,12 @@ pub fn table(session: &Session) -> String {
         .chain([Column::Zone]);
     let names: Vec<Column> = names.chain(of_bodies).collect();
     let rows = seen.zones.iter().enumerate().map(|(j, zone)| {
-        let fields = seen.columns.columns().map(|(_, values)| number(values[j]));
+        let fields = seen.columns.columns().map(|(_, values)| exact(values[j]));
         let of_bodies = share
             .iter()
             .flat_map(|&share| seen.wear_of_bodies(share, j));
         let fields = fields.chain([zone.name().to_owned()]);
-        fields.chain(of_bodies.map(number)).collect::<Vec<_>>()
+        fields.chain(of_bodies.map(exact)).collect::<Vec<_>>()
     });
     header::table(session, &names, rows)
 }

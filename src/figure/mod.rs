@@ -27,8 +27,9 @@ use draw::Ordinate;
 use look::FigureStyle;
 
 use crate::export::file::WriteError;
-use crate::export::header::{field, line, number};
+use crate::export::header::line;
 use crate::export::target::{Target, write_all};
+use crate::math::number::exact;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::Refusal;
@@ -199,8 +200,8 @@ impl Sheet {
             for (part, curve) in curves.chain(inset) {
                 let (place, name) = (format!("{panel}{part}"), &curve.name);
                 for (i, (x, y)) in curve.points().enumerate() {
-                    let error = field(curve.errors.get(i).copied().unwrap_or(f64::NAN));
-                    let [x, y] = [x, y].map(number);
+                    let error = exact(curve.errors.get(i).copied().unwrap_or(f64::NAN));
+                    let [x, y] = [x, y].map(exact);
                     text += &csv_line([place.as_str(), name, &x, &y, "", &error]);
                 }
             }
@@ -208,7 +209,7 @@ impl Sheet {
             let [xs, ys] = &map.places;
             for (&y, values) in ys.iter().zip(map.values.chunks(xs.len())) {
                 for (&x, &value) in xs.iter().zip(values) {
-                    let [x, y, value] = [x, y, value].map(number);
+                    let [x, y, value] = [x, y, value].map(exact);
                     let _ = writeln!(text, "{panel},map,{x},{y},{value},");
                 }
             }

@@ -2,6 +2,7 @@
 
 use super::canvas::{Canvas, Rgb, Shape};
 use super::font::FAMILY;
+use crate::math::number::exact;
 use crate::scenario::escape::xml;
 
 /// Returns the whole file.
@@ -72,8 +73,7 @@ pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Rounds to one micrometre, which is fine enough on paper. Adding zero turns -0 into 0.
+/// Rounds to one micrometre, which is fine enough on paper.
 fn length(value: f64) -> String {
-    let rounded = (1e3 * value).round() / 1e3;
-    (rounded + 0.0).to_string()
+    exact((1e3 * value).round() / 1e3)
 }

@@ -7,6 +7,7 @@ pub mod grid;
 pub mod invalid;
 pub mod krylov;
 pub mod monotone;
+pub mod number;
 pub mod quadrature;
 pub mod root;
 pub mod rosenbrock;

@@ -7,8 +7,9 @@ use ratatui::text::Span;
 
 use super::raster::Raster;
 use super::theme::Role;
-use super::units::{AxisUnit, format_number, format_value};
+use super::units::{AxisUnit, format_value};
 use super::{Axis, Plot, Scale};
+use crate::math::number::shown;
 
 /// Significant digits of a value in the legend.
 const DIGITS: usize = 4;
@@ -116,7 +117,7 @@ fn lines(plot: &Plot<'_>, units: [&AxisUnit; 2], x: Option<f64>, is_full: bool) 
             None => String::new(),
             Some(None) => "–".to_owned(),
             Some(Some(y)) if is_full => with_unit(y, &chart.y, y_unit),
-            Some(Some(y)) => format_number(y / y_unit.factor, DIGITS),
+            Some(Some(y)) => shown(y / y_unit.factor, DIGITS),
         };
         Entry {
             left: format!("{swatch} {name}"),
@@ -136,7 +137,7 @@ fn with_unit(value: f64, axis: &Axis, unit: &AxisUnit) -> String {
     if axis.scale == Scale::Log || power || small {
         return format_value(value, axis.unit, DIGITS);
     }
-    let text = format!("{} {}", format_number(scaled, DIGITS), unit.text);
+    let text = format!("{} {}", shown(scaled, DIGITS), unit.text);
     text.trim_end().to_owned()
 }
 
@@ -149,9 +150,9 @@ pub(super) fn short_reading(
 ) -> Option<String> {
     let x = plot.cursor.filter(|x| x.is_finite())?;
     let curves = plot.chart.curves.iter();
-    let mut line = format!("{}:", format_number(x / x_unit.factor, 3));
+    let mut line = format!("{}:", shown(x / x_unit.factor, 3));
     for y in curves.filter_map(|curve| curve.value_at(x)) {
-        let longer = format!("{line} {}", format_number(y / y_unit.factor, 3));
+        let longer = format!("{line} {}", shown(y / y_unit.factor, 3));
         if cells(&longer) > width {
             break;
         }

@@ -6,6 +6,7 @@
 
 use std::borrow::Cow;
 
+use crate::math::number::{exact, rounded, shown};
 use crate::scenario::units::{SHOWN_PREFIXES, shown_in, takes_prefix};
 
 /// Returns the prefix for values up to `max` of `unit`, and its factor: 1e-18 for µ before m³. Some units (an empty
@@ -75,7 +76,7 @@ pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize) -> [String; 
     if text.starts_with("1e") {
         return [low, high].map(|end| format_value(end, unit, digits));
     }
-    let [low, high] = [low, high].map(|end| format_number(end / factor, digits));
+    let [low, high] = [low, high].map(|end| shown(end / factor, digits));
     [low, format!("{high} {text}").trim_end().to_owned()]
 }
 
@@ -83,34 +84,17 @@ pub fn range_ends([low, high]: [f64; 2], unit: &str, digits: usize) -> [String; 
 /// away). The prefix is chosen after rounding; beyond pico and giga the notation is scientific.
 pub fn format_value(value: f64, unit: &str, digits: usize) -> String {
     let digits = digits.clamp(1, 17);
-    let (mut symbol, factor) = prefix(round_to(value, digits), unit);
-    let mut number = format_number(value / factor, digits);
+    let (mut symbol, factor) = prefix(rounded(value, digits), unit);
+    let mut number = shown(value / factor, digits);
     if number.contains('e') {
-        (symbol, number) = ("", format_number(value, digits));
+        (symbol, number) = ("", shown(value, digits));
     }
     let text = format!("{number} {symbol}{unit}");
     text.trim_end().to_owned()
 }
 
-/// Formats a bare number with `digits` significant digits; in scientific notation outside 1e-3..1e6.
-pub fn format_number(value: f64, digits: usize) -> String {
-    let digits = digits.clamp(1, 17);
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !value.is_finite() {
-        return value.to_string();
-    }
-    let rounded = round_to(value, digits);
-    let size = rounded.abs();
-    if (1e-3..1e6).contains(&size) {
-        let decimals = digits as i32 - 1 - (size * (1.0 + 1e-12)).log10().floor() as i32;
-        let shown = if decimals < 0 { value } else { rounded };
-        format!("{shown:.*}", decimals.max(0) as usize)
-    } else {
-        format!("{rounded:.*e}", digits - 1)
-    }
-}
+/// Most digits of a [`reading`].
+const DIGITS: usize = 7;
 
 /// Formats a value (in `unit`) as an engineer writes it, to at most seven digits. Returns the number and its unit,
 /// which a scenario accepts: `230.77 GPa`, `1 µm`, `45 deg`, `100 rad/s`, `0.13 mm³/J`.
@@ -127,26 +111,7 @@ pub fn reading(value: f64, unit: &str, ascii: bool) -> (String, String) {
     } else {
         unit
     };
-    (plain(value / factor), unit)
-}
-
-/// Formats a number to at most seven digits, without trailing zeros.
-pub fn plain(number: f64) -> String {
-    match round_to(number, 7) {
-        0.0 => "0".to_owned(),
-        rounded if (1e-3..1e6).contains(&rounded.abs()) => rounded.to_string(),
-        rounded => format!("{rounded:e}"),
-    }
-}
-
-/// Rounds `value` to `digits` significant decimal digits.
-fn round_to(value: f64, digits: usize) -> f64 {
-    let rounded = format!("{value:.*e}", digits - 1).parse();
-    // Rounding may overflow next to f64::MAX; the value itself is then good enough.
-    match rounded {
-        Ok(number) if f64::is_finite(number) => number,
-        _ => value,
-    }
+    (exact(rounded(value / factor, DIGITS)), unit)
 }
 
 /// Characters common in units and labels, and their spelling in ASCII.

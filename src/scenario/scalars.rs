@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 
 use super::{hint, printable};
+use crate::math::number::exact;
 use crate::math::scan::largest;
 use crate::reading::column::other_columns;
 use crate::reading::fatigue::{Limits, StressCycle};
@@ -21,26 +22,9 @@ pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(word) => word.clone(),
-        value if value.is_f64() => number(value.as_f64().unwrap_or(f64::NAN)),
+        value if value.is_f64() => exact(value.as_f64().unwrap_or(f64::NAN)),
         other => other.to_string(),
     }
-}
-
-/// Returns the shortest decimal form that reads back to the same bits.
-pub fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".into()
-    } else if (1e-4..1e15).contains(&size) || !value.is_finite() {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
-    }
-}
-
-/// Returns a number as a field, empty if NaN.
-pub fn field(value: f64) -> String {
-    cell(&value.into())
 }
 
 /// Reads scalars at the present moment of a session. Intermediate results that several scalars need are computed once,

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::Setup;
 use super::choices::Stability;
+use crate::math::number::shown;
 
 /// A step that failed. The state after the last good step remains.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -38,7 +39,7 @@ pub enum Cause {
     /// A worn profile far above anything that can touch.
     #[error(
         "wear diverges: {} times the largest depth at r = {radius:.4e} m; {advice}",
-        short(*worn)
+        shown(*worn, 2)
     )]
     Runaway {
         /// Largest worn depth in units of the largest depth of indentation.
@@ -119,15 +120,6 @@ impl Cause {
     /// Whether a wider domain may hold the contact.
     pub(super) fn lacks_room(&self) -> bool {
         matches!(self, Self::EdgeReached { .. } | Self::LoadTooLarge { .. })
-    }
-}
-
-/// Formats a number of any size in a few characters.
-fn short(value: f64) -> String {
-    if value < 1e4 {
-        format!("{value:.1}")
-    } else {
-        format!("{value:.1e}")
     }
 }
 

@@ -22,6 +22,7 @@ use super::layout;
 use super::overlays::Overlay;
 use super::panels::{Content, Panel, Shown};
 use super::{footer, present, timeline};
+use crate::math::number::{exact, rounded, shown};
 use crate::plot::theme::Role;
 use crate::reading::verdict;
 
@@ -160,7 +161,7 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
         widest = format!("cycle {planned:.decimals$}/{planned}").len();
     }
     let mut pace = match frame.speed.unwrap_or(frame.pace) {
-        pace if pace.is_finite() => format!("{} cycles/s", short(pace)),
+        pace if pace.is_finite() => format!("{} cycles/s", exact(rounded(pace, 2))),
         _ => "unlimited".into(),
     };
     let mut pace_width = "0.5 cycles/s".len();
@@ -203,17 +204,6 @@ fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
 fn wear_error(error: f64) -> String {
     match 100.0 * error {
         size if size < 0.01 => "wear ±<0.01 %".into(),
-        size if size < 0.1 => format!("wear ±{size:.2} %"),
-        size if size < 1.0 => format!("wear ±{size:.1} %"),
-        size => format!("wear ±{size:.0} %"),
-    }
-}
-
-/// Formats a speed to two or three digits.
-fn short(value: f64) -> String {
-    match value.abs() {
-        size if size >= 10_000.0 => format!("{:.0}k", value / 1000.0),
-        size if size >= 10.0 => format!("{value:.0}"),
-        _ => format!("{value:.1}"),
+        size => format!("wear ±{} %", shown(size, 1)),
     }
 }

@@ -1,7 +1,8 @@
 //! The keys of a scenario that can be changed while it runs, with their present values.
 
+use crate::math::number::{exact, rounded};
 use crate::math::scan::shifted;
-use crate::plot::units::{plain, reading};
+use crate::plot::units::reading;
 use crate::scenario::Scenario;
 use crate::scenario::key::{Key, Kind};
 use crate::scenario::units::{self, shown_in};
@@ -94,10 +95,11 @@ impl Setting {
             // One step of the number as shown: 45 degrees are followed by 46.
             Value::Number(bare) => match self.reading(true) {
                 Some((number, unit)) => {
-                    let next = plain(next_number(number.parse().ok()?, up));
+                    let next = next_number(number.parse().ok()?, up);
+                    let next = exact(rounded(next, 7));
                     Some(format!("{next} {unit}"))
                 }
-                None => Some(plain(next_number(*bare, up))),
+                None => Some(exact(rounded(next_number(*bare, up), 7))),
             },
             Value::Text(_) | Value::Numbers(_) => None,
         }

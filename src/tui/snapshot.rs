@@ -7,9 +7,10 @@ use serde::de::IgnoredAny;
 
 use super::trend::{Recorded, Trend};
 use crate::export::file::WriteError;
-use crate::export::header::{field as written, number, table};
+use crate::export::header::table;
 use crate::export::run_folder::{RUN_CHECKPOINT, RunFolder};
 use crate::export::{history, last_loop, state};
+use crate::math::number::exact;
 use crate::reading::Column;
 use crate::scenario::columns::Columns;
 use crate::scenario::scalars::Reading;
@@ -26,7 +27,7 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     let kept = checkpoint::encode(&run.session, None::<&()>);
     let noted = note.map(|note| run.session.noted(note));
     let session = noted.as_ref().unwrap_or(&run.session);
-    let cycle = number(session.simulation().cycle());
+    let cycle = exact(session.simulation().cycle());
     let stem = session.loaded().stem();
     let directory = RunFolder::create_named(&format!("{stem}-cycle-{cycle}"))?;
     let scenario = session.as_run(Vec::new()).to_toml();
@@ -69,7 +70,7 @@ fn history(session: &Session, trend: &Trend) -> String {
             if let Some(field) = at.map(|at| &mut fields[at])
                 && (is_of_cycle || field.is_empty())
             {
-                *field = written(values[row]);
+                *field = exact(values[row]);
             }
         }
         fields
@@ -80,7 +81,7 @@ fn history(session: &Session, trend: &Trend) -> String {
 /// Returns the last period, with the columns of a measured loop.
 fn loop_table(session: &Session) -> String {
     let rows = last_loop::rows(session.simulation()).into_iter();
-    let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(written));
+    let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(exact));
     table(
         session,
         &[Column::Cycle, Column::LoopShift, Column::LoopForce],

@@ -3,7 +3,8 @@
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-use crate::plot::units::{format_value, plain};
+use crate::math::number::{exact, rounded};
+use crate::plot::units::format_value;
 use crate::scenario::Scenario;
 use crate::simulation::drive::Oscillation;
 use crate::simulation::{Setup, Unworn};
@@ -89,7 +90,7 @@ impl<'a> Forecast<'a> {
     /// Says how many cycles the rig runs per day.
     pub fn a_day(&self) -> String {
         let frequency = self.shift.angular_frequency() / TAU;
-        let (cycles, frequency) = (plain(frequency * DAY), plain(frequency));
+        let [cycles, frequency] = [frequency * DAY, frequency].map(|value| exact(rounded(value, 7)));
         format!("a day on the rig is {cycles} cycles at {frequency} Hz")
     }
 }

@@ -12,9 +12,9 @@ use crate::cli::job::RunJob;
 use crate::cli::{accuracy, complain, given};
 use crate::export::autosave::{self, Autosave};
 use crate::export::file::{WriteError, directory_of, shell_path};
-use crate::export::header::number;
 use crate::export::own_directory;
 use crate::export::run_folder::{RUN_CHECKPOINT, RUN_ROWS, RunFolder};
+use crate::math::number::exact;
 use crate::panics::locked;
 use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
@@ -175,7 +175,7 @@ fn refuse_going_back(folder: &RunFolder, session: &Session) -> Result<()> {
     let rule = format!(
         "the run has come further there, to cycle {}; resume with: mdr-tui run --resume {}, or choose another directory \
          with --out (--force goes back)",
-        number(there),
+        exact(there),
         shell_path(&checkpoint)
     );
     let is_newer = session.simulation().cycle() >= there;

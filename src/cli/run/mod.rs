@@ -16,9 +16,10 @@ use super::progress::Progress;
 use super::{FAILED, UNFINISHED, accuracy, complain, stop};
 use crate::export::autosave::{Autosave, Work};
 use crate::export::file::WriteError;
-use crate::export::header::{self, number};
+use crate::export::header;
 use crate::export::run_folder::RunFolder;
 use crate::export::{field, last_loop, provenance, state};
+use crate::math::number::exact;
 use crate::panics::locked;
 use crate::reading::Errors;
 use crate::scenario::checkpoint;
@@ -144,7 +145,7 @@ fn end_at_once(phase: &Mutex<Phase>) {
             let copy = autosave.copy().clone();
             save(&mut autosave, &copy);
             let cycle = copy.session().simulation().cycle();
-            let (at, hint) = (number(cycle), autosave.how_to_resume(cycle));
+            let (at, hint) = (exact(cycle), autosave.how_to_resume(cycle));
             complain(&format!(
                 "interrupted at cycle {at}, in the middle of a long step; {hint}"
             ));
@@ -230,7 +231,7 @@ impl Job<'_> {
         outcome?;
         match ended {
             Err(SessionError::Interrupted) => {
-                let cycle = number(self.session.simulation().cycle());
+                let cycle = exact(self.session.simulation().cycle());
                 let place = self.folder.path().display();
                 let why = why_stop().unwrap_or("interrupted");
                 Ok(Some(format!("{why} at cycle {cycle}; saved in {place}")))
@@ -290,7 +291,7 @@ impl Job<'_> {
         let (session, job) = locked(&self.autosave).copy().clone();
         self.session = session;
         self.job.rewind(&job);
-        let cycle = number(self.session.simulation().cycle());
+        let cycle = exact(self.session.simulation().cycle());
         let word = crate::panics::take_message().unwrap_or_default();
         format!("bug in mdr-tui: {word}; saved at cycle {cycle}")
     }

@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use anyhow::Result;
 
 use super::Job;
-use crate::export::header::{self, number};
+use crate::export::header;
+use crate::math::number::exact;
 use crate::reading::{Quantity, verdict};
 use crate::scenario::scalars::Value;
 use crate::scenario::session::Session;
@@ -83,7 +84,7 @@ impl Job<'_> {
         lines.push(("files in", printable(&directory)));
         let mut out = io::stdout().lock();
         let title = self.session.scenario().title();
-        writeln!(out, "{title}: {} cycles", number(moment.cycle))?;
+        writeln!(out, "{title}: {} cycles", exact(moment.cycle))?;
         let width = if setup.geometry.is_line() { 26 } else { 22 };
         for (name, text) in lines {
             let name = setup.geometry.term(name);

@@ -3,10 +3,10 @@
 use toml::Value;
 
 use super::design::Spacing;
+use crate::math::number::exact;
 use crate::math::scale::Scale;
 use crate::scenario::Refusal;
 use crate::scenario::key::{Key, Kind};
-use crate::scenario::scalars::number;
 use crate::scenario::value;
 
 /// A key that a study varies.
@@ -116,7 +116,7 @@ impl StudyAxis {
 /// Formats a value as for `--set`.
 pub(super) fn text(value: &Value) -> String {
     match value {
-        Value::Float(value) => number(*value),
+        Value::Float(value) => exact(*value),
         Value::String(word) => word.clone(),
         other => other.to_string(),
     }

@@ -1,8 +1,8 @@
 //! Finds the points that a row belongs to from the values at its beginning.
 
 use super::{Design, Study, StudyAxis};
+use crate::math::number::exact;
 use crate::scenario::escape::cell;
-use crate::scenario::scalars::number;
 
 /// Finds the points of a study by their values. Its size grows with the lengths of the axes, not with the number of
 /// points of a grid.
@@ -64,7 +64,7 @@ fn value(axis: &StudyAxis, place: usize) -> Vec<u8> {
 
 /// Normalises the spelling of a number.
 fn normal(value: &str) -> Vec<u8> {
-    let number = value.parse().map(number);
+    let number = value.parse().map(exact);
     number.unwrap_or_else(|_| value.to_owned()).into_bytes()
 }
 

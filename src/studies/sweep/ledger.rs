@@ -10,8 +10,8 @@ use std::path::Path;
 use super::finder::Finder;
 use super::record::{self, Refused};
 use super::{Shard, Study, Success};
+use crate::math::number::exact;
 use crate::scenario::escape::csv_line;
-use crate::scenario::scalars::number;
 
 /// Size of an entry of the index, in bytes.
 const ENTRY: usize = 16;
@@ -94,7 +94,7 @@ impl Ledger {
             if let Ok(value) = field.parse::<f64>()
                 && value.is_finite()
             {
-                *field = number(value);
+                *field = exact(value);
             }
         }
         // Points with equal values have equal rows, so any of them may take it.

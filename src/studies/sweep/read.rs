@@ -10,11 +10,12 @@ use toml::{Table, Value};
 use super::axis::{self, StudyAxis, Values, known_key};
 use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
 use super::study::{Stop, Study};
+use crate::math::number::exact;
 use crate::math::scale::Scale;
 use crate::reading::Column;
 use crate::scenario::blocks::flatten;
 use crate::scenario::key::Key;
-use crate::scenario::scalars::{self, number};
+use crate::scenario::scalars;
 use crate::scenario::{Refusal, Scenario, printable, typed};
 use crate::scenario::{preset, units, value};
 
@@ -205,7 +206,7 @@ fn check_stop(stop: Stop) -> Result<()> {
     ] {
         if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
             let place = format!("stop.{name}");
-            return refuse(&place, number(value), "must be a number greater than 0");
+            return refuse(&place, exact(value), "must be a number greater than 0");
         }
     }
     Ok(())

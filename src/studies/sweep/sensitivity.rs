@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use super::Study;
 use super::point::{self, Success};
-use crate::scenario::scalars::number;
+use crate::math::number::exact;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::Level;
 use crate::studies::table::{Format, Report};
@@ -100,7 +100,7 @@ fn around(
     let mut scenarios = vec![fixed.clone()];
     for (key, _, value) in keys {
         for place in PLACES {
-            let value = number(value * (STEP * place).exp());
+            let value = exact(value * (STEP * place).exp());
             let scenario = fixed.assigned(&[(key, &value)]);
             scenarios.push(scenario.map_err(|error| Refusal::new("sensitivity", error))?);
         }

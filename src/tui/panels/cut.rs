@@ -7,9 +7,9 @@ use super::Shown;
 use super::stress_map::Shares;
 use crate::charts::magnification;
 use crate::math::grid::interpolate;
+use crate::math::number::shown;
 use crate::math::scan::largest;
 use crate::plot::theme::Theme;
-use crate::plot::units::format_number;
 use crate::reading::Zone;
 use crate::simulation::drive::Control;
 use crate::tui::frame::Frame;
@@ -234,7 +234,7 @@ impl<'a> Section<'a> {
         ];
         let mut title = title.to_owned();
         for (name, factor, _) in factors.into_iter().filter(|factor| factor.2) {
-            let more = format!(", {name} ×{}", format_number(factor, 2));
+            let more = format!(", {name} ×{}", shown(factor, 2));
             if title.chars().count() + more.chars().count() <= room {
                 title.push_str(&more);
             }

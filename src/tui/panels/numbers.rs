@@ -5,8 +5,9 @@ use ratatui::text::{Line, Span};
 
 use super::{Picture, Shown};
 use crate::charts::Recipe;
+use crate::math::number::shown;
 use crate::plot::theme::Role;
-use crate::plot::units::{format_number, format_value};
+use crate::plot::units::format_value;
 use crate::reading::CycleFigures;
 use crate::scenario::units::shown_in;
 use crate::tui::canvas::Canvas;
@@ -88,7 +89,7 @@ fn rows(frame: &Frame) -> impl Iterator<Item = (&'static str, String)> {
 
     let value = |value: Option<f64>, unit| Some(format_value(value?, unit, 4));
     let always = |number, unit| value(Some(number), unit);
-    let plain = |value: Option<f64>, digits| Some(format_number(value?, digits));
+    let plain = |value: Option<f64>, digits| Some(shown(value?, digits));
     let with_unit = |number: Option<String>, unit| Some(format!("{} {unit}", number?));
     // In the same unit as in the list of parameters.
     let in_words = |value: Option<f64>, unit| {

@@ -56,8 +56,8 @@ pub enum Command {
     Presets(Presets),
     /// Answer a few questions, and get a commented scenario of your own.
     ///
-    /// Each question tells what it means and has a default; what closed forms say of the answers (contact radius, Hertz
-    /// pressure, stick or slip) stands below it. Options answer questions beforehand; without a terminal nothing is
+    /// Each question has a default, which an empty line takes; what closed forms say of the answers (contact radius, Hertz
+    /// pressure, stick or slip) appears below it. Options answer questions beforehand; without a terminal nothing is
     /// asked, and what is not given has its default.
     New(New),
     /// Compare every method with closed forms, for increasing N.
@@ -254,46 +254,46 @@ pub struct New {
     #[arg(default_value = "new.toml")]
     #[serde(skip)]
     pub file: PathBuf,
-    /// A ball of this radius.
+    /// Radius of a ball; for two curved bodies 1/R = 1/R1 + 1/R2.
     #[arg(long, value_name = "RADIUS", conflicts_with_all = ["punch", "cylinder"])]
     pub ball: Option<String>,
-    /// A flat punch of this radius.
+    /// Radius of a flat punch.
     #[arg(long, value_name = "RADIUS", conflicts_with = "cylinder")]
     pub punch: Option<String>,
-    /// A cylinder of this radius on its side: a line contact.
+    /// Radius of a cylinder on its side: a line contact.
     #[arg(long, value_name = "RADIUS", conflicts_with = "depth")]
     pub cylinder: Option<String>,
-    /// The length of the cylinder.
+    /// Length of the cylinder; forces, volume and energy are of all of it.
     #[arg(long, value_name = "LENGTH")]
     pub length: Option<String>,
-    /// The depth of the point that the stroke of a cylinder is measured against.
+    /// Depth of the point that the stroke of a cylinder is measured against.
     #[arg(long, value_name = "LENGTH")]
     pub gauge: Option<String>,
-    /// The indenter's material: a name such as steel, bronze, alumina, rigid, or E,NU.
+    /// Material of the indenter: steel, titanium alloy, bronze, alumina, glass, rigid and others, or E,NU.
     #[arg(long, value_name = "NAME|E,NU")]
     pub material: Option<String>,
-    /// The flat body's material.
+    /// Material of the flat body.
     #[arg(long, value_name = "NAME|E,NU")]
     pub against: Option<String>,
-    /// The load that is held.
+    /// Load that is held, as by a dead weight: the contact sinks in as it wears.
     #[arg(long, value_name = "FORCE", conflicts_with = "depth")]
     pub load: Option<String>,
-    /// The depth that is held.
+    /// Depth that is held: wear unloads the contact.
     #[arg(long, value_name = "LENGTH")]
     pub depth: Option<String>,
-    /// The stroke, from turning point to turning point.
+    /// Stroke, from turning point to turning point.
     #[arg(long, value_name = "LENGTH")]
     pub stroke: Option<String>,
     /// Cycles per second.
     #[arg(long, value_name = "HZ")]
     pub frequency: Option<String>,
-    /// The coefficient of friction.
+    /// Coefficient of friction: dry metals 0.5 to 0.9, ceramics 0.3 to 0.6, lubricated 0.1.
     #[arg(long, value_name = "MU")]
     pub friction: Option<String>,
-    /// The wear coefficient of a pin test, per load and sliding distance, or none.
+    /// Wear coefficient of a pin test, per load and sliding distance, or none: mild 1e-7 to 1e-5, severe 1e-4 mm3/Nm.
     #[arg(long, value_name = "MM3/NM|none")]
     pub wear: Option<String>,
-    /// The length of the test.
+    /// Number of cycles; with more than 1000, cycles that are alike are jumped over.
     #[arg(long, value_name = "CYCLES")]
     pub cycles: Option<String>,
     /// Replace the file if it is there.

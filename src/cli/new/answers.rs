@@ -1,58 +1,91 @@
-//! The questions of `mdr-tui new`, the parsing of their answers, and the commented scenario made from them.
-//!
-//! `questions.toml` holds each question with its meaning, its default, and the key that it sets.
+//! The questions of `mdr-tui new`, how their answers are read, and the commented scenario made of them.
 
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
 
-use serde::Deserialize;
 use toml::Value;
 
 use crate::scenario::key::{Key, join};
 use crate::scenario::value::literal;
 use crate::scenario::{Refusal, Scenario, units, write};
 
-/// The contents of `questions.toml`.
-#[derive(Deserialize)]
-struct Form {
-    #[serde(rename = "question")]
-    questions: Vec<Question>,
-    #[serde(rename = "material")]
-    materials: Vec<Body>,
-}
-
-static FORM: LazyLock<Form> = LazyLock::new(|| {
-    toml::from_str(include_str!("questions.toml")).expect("the questions are whole")
-});
-
-/// A question that is answered with one line and sets a key of the scenario.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+/// A question. The help of its option is its text.
 pub struct Question {
     /// The option that answers it in advance.
-    pub option: String,
-    /// Its subject, as named in a title.
-    pub name: String,
-    /// Its name in a list.
-    pub item: String,
-    with: Option<[String; 3]>,
-    key: String,
-    share: Option<f64>,
-    unit: String,
-    /// The question.
-    pub prompt: String,
-    /// What it means.
-    pub meaning: String,
-    /// Default answer.
-    pub default: String,
-    note: String,
+    pub option: &'static str,
+    /// The key, or the table of a body, that the answer is for.
+    key: &'static str,
+    /// The unit of a bare number.
+    unit: &'static str,
+    /// The default answer.
+    pub default: &'static str,
 }
 
-/// Returns the question that an option answers.
-pub fn question(option: &str) -> &'static Question {
-    let mut questions = FORM.questions.iter();
-    let found = questions.find(|question| question.option == option);
-    found.expect("a question of the form")
+const fn ask(
+    option: &'static str,
+    key: &'static str,
+    unit: &'static str,
+    default: &'static str,
+) -> Question {
+    Question {
+        option,
+        key,
+        unit,
+        default,
+    }
+}
+
+/// All questions, in the order in which they are asked.
+pub const QUESTIONS: [Question; 14] = [
+    ask("ball", "indenter.radius", "mm", "5 mm"),
+    ask("punch", "indenter.radius", "mm", "1 mm"),
+    ask("cylinder", "indenter.radius", "mm", "6 mm"),
+    ask("length", "indenter.length", "mm", "10 mm"),
+    ask("material", "material.indenter", "", "steel"),
+    ask("against", "material.half_space", "", "steel"),
+    ask("load", "motion.normal.mean", "N", "10 N"),
+    ask("depth", "motion.normal.mean", "um", "1 um"),
+    ask("stroke", "motion.tangential.amplitude", "um", "20 um"),
+    ask("gauge", "motion.tangential.gauge_length", "mm", "10 mm"),
+    ask("friction", "friction.coefficient", "", "0.6"),
+    ask("frequency", "motion.tangential.frequency", "Hz", "10 Hz"),
+    ask("wear", "wear.coefficient_per_load", "mm3/Nm", "1e-6 mm3/Nm"),
+    ask("cycles", "run.cycles", "", "1000"),
+];
+
+/// The words that go with an option: the key, and its word.
+const WORDS: [(&str, &str, &str); 6] = [
+    ("ball", "indenter.shape", "paraboloid"),
+    ("punch", "indenter.shape", "flat-punch"),
+    ("cylinder", "indenter.shape", "paraboloid"),
+    ("cylinder", "indenter.geometry", "line"),
+    ("load", "motion.normal.control", "force"),
+    ("depth", "motion.normal.control", "displacement"),
+];
+
+/// Materials by name: Young's modulus and Poisson's ratio, empty for a rigid body.
+const MATERIALS: [(&str, &str); 12] = [
+    ("steel", "210 GPa,0.3"),
+    ("stainless steel", "193 GPa,0.29"),
+    ("titanium alloy", "114 GPa,0.34"),
+    ("aluminium alloy", "72 GPa,0.33"),
+    ("bronze", "110 GPa,0.34"),
+    ("alumina", "380 GPa,0.22"),
+    ("silicon nitride", "310 GPa,0.27"),
+    ("tungsten carbide", "630 GPa,0.22"),
+    ("glass", "70 GPa,0.22"),
+    ("PEEK", "3.8 GPa,0.4"),
+    ("UHMWPE", "0.8 GPa,0.46"),
+    ("rigid", ""),
+];
+
+/// A scenario with more cycles than this uses cycle jumps.
+const JUMP_FROM: f64 = 1000.0;
+
+/// An answer: as a title names it, and the keys that it sets.
+#[derive(Debug, PartialEq)]
+pub struct Answer {
+    text: String,
+    sets: Vec<(String, Value)>,
 }
 
 impl Question {
@@ -60,63 +93,63 @@ impl Question {
     ///
     /// # Errors
     /// The rule that the answer breaks.
-    pub fn read(&self, text: &str) -> Result<Quantity, String> {
-        quantity(text, &self.key, &self.unit)
-    }
-}
-
-/// One of the two bodies.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Body {
-    /// The material's name.
-    pub name: String,
-    /// Young's modulus with its unit, and Poisson's ratio; `None` if it is rigid.
-    pub elastic: Option<(String, f64)>,
-}
-
-/// Returns the materials of the short list.
-pub fn materials() -> &'static [Body] {
-    &FORM.materials
-}
-
-impl Body {
-    /// Reads a name from the list, or `E,NU` such as `200 GPa,0.3`.
-    ///
-    /// # Errors
-    /// Says what would be valid.
-    pub fn read(text: &str) -> Result<Self, String> {
+    pub fn read(&self, text: &str) -> Result<Answer, String> {
         let text = text.trim();
-        let mut known = materials().iter();
-        if let Some(body) = known.find(|body| body.name.eq_ignore_ascii_case(text)) {
-            return Ok(body.clone());
+        let mut answer = match self.option {
+            "material" | "against" => self.body(text)?,
+            "wear" if text == "none" => Answer {
+                text: text.to_owned(),
+                sets: Vec::new(),
+            },
+            option => {
+                let (text, value) = quantity(text, self.key, self.unit)?;
+                let value = match option {
+                    "stroke" => Value::Float(0.5 * value),
+                    _ if self.unit.is_empty() => Value::Float(value),
+                    _ => Value::String(text.clone()),
+                };
+                let sets = vec![(self.key.to_owned(), value)];
+                Answer { text, sets }
+            }
+        };
+        let words = WORDS.iter().filter(|(option, ..)| *option == self.option);
+        let words = words.map(|(_, key, word)| ((*key).to_owned(), Value::from(*word)));
+        answer.sets.extend(words);
+        Ok(answer)
+    }
+
+    /// Reads a material: a name of the list, or `E,NU` such as `200 GPa,0.3`.
+    fn body(&self, text: &str) -> Result<Answer, String> {
+        let mut known = MATERIALS.iter();
+        let known = known.find(|(name, _)| name.eq_ignore_ascii_case(text));
+        let key = |key: &str| join(self.key, key);
+        if let Some((name, "")) = known {
+            return Ok(Answer {
+                text: (*name).to_owned(),
+                sets: vec![(key("rigid"), true.into())],
+            });
         }
-        let Some((modulus, poisson)) = text.split_once(',') else {
-            let names: Vec<&str> = materials().iter().map(|body| &*body.name).collect();
-            let names = names.join(", ");
+        let elastic = known.map_or(text, |(_, elastic)| elastic);
+        let Some((modulus, poisson)) = elastic.split_once(',') else {
+            let names = MATERIALS.map(|(name, _)| name).join(", ");
             return Err(format!(
                 "must be one of {names}, or E,NU such as \"200 GPa,0.3\""
             ));
         };
-        let modulus = quantity(modulus, "material.indenter.youngs_modulus", "GPa")?;
-        let poisson = quantity(poisson, "material.indenter.poisson", "")?;
-        Ok(Self {
-            name: format!("E = {}", modulus.text),
-            elastic: Some((modulus.text, poisson.value)),
+        let (modulus, _) = quantity(modulus, &key("youngs_modulus"), "GPa")?;
+        let (_, poisson) = quantity(poisson, &key("poisson"), "")?;
+        Ok(Answer {
+            text: known.map_or(format!("E = {modulus}"), |(name, _)| (*name).to_owned()),
+            sets: vec![
+                (key("youngs_modulus"), modulus.into()),
+                (key("poisson"), poisson.into()),
+            ],
         })
     }
 }
 
-/// A number with its unit, as typed, and its value in SI.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
-    /// As written in the scenario.
-    pub text: String,
-    /// In the unit of its key.
-    pub value: f64,
-}
-
-/// Reads the value of a key; a bare number has the unit `unit`.
-fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
+/// Reads the value of a key: the text with its unit, and the number in SI units. A bare number has the unit `unit`.
+fn quantity(text: &str, key: &str, unit: &str) -> Result<(String, f64), String> {
     let text = text.trim();
     let known = Key::find(key).expect("a key of the table");
     let text = match text.parse::<f64>() {
@@ -131,50 +164,17 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<Quantity, String> {
         (None, _) => return Err(format!("must be a number, in {unit} or with its unit")),
     };
     if known.range.holds(value) {
-        Ok(Quantity { text, value })
+        Ok((text, value))
     } else {
         Err(format!("must be {}", known.range))
     }
 }
 
-/// The scenario so far: its keys, each with a value and a note.
+/// The answers so far, by option.
 #[derive(Debug, Default)]
-pub struct Draft(BTreeMap<String, (Value, String)>);
+pub struct Answers(pub BTreeMap<&'static str, Answer>);
 
-impl Draft {
-    /// Sets a key, with a note beside it.
-    pub fn set(&mut self, path: &str, value: impl Into<Value>, note: impl Into<String>) {
-        self.0.insert(path.to_owned(), (value.into(), note.into()));
-    }
-
-    /// Sets the key of a question to its answer, and any second key that goes with it.
-    pub fn answer(&mut self, question: &Question, given: &Quantity) {
-        let value = match question.share {
-            Some(share) => Value::Float(share * given.value),
-            None if question.unit.is_empty() => Value::Float(given.value),
-            None => Value::String(given.text.clone()),
-        };
-        let note = question.note.replace("{}", &given.text);
-        self.set(&question.key, value, note);
-        if let Some([key, value, note]) = &question.with {
-            self.set(key, value.as_str(), note);
-        }
-    }
-
-    /// Sets the keys of the body that a question is about.
-    pub fn body(&mut self, question: &Question, body: &Body) {
-        let mut set = |key: &str, value: Value, note: &str| {
-            self.set(&join(&question.key, key), value, note);
-        };
-        match &body.elastic {
-            None => set("rigid", true.into(), ""),
-            Some((modulus, poisson)) => {
-                set("youngs_modulus", modulus.as_str().into(), &body.name);
-                set("poisson", (*poisson).into(), "");
-            }
-        }
-    }
-
+impl Answers {
     /// Makes the scenario.
     ///
     /// # Errors
@@ -183,17 +183,46 @@ impl Draft {
         Scenario::from_toml(&self.to_toml(), origin, &[])
     }
 
-    /// Returns the scenario as a commented file.
+    /// Returns the scenario as a file, each key with its meaning.
     pub fn to_toml(&self) -> String {
+        let answers = self.0.values().flat_map(|answer| &answer.sets);
+        let mut sets: BTreeMap<&str, Value> = answers
+            .map(|(key, value)| (key.as_str(), value.clone()))
+            .collect();
+        let cycles = sets.get("run.cycles").and_then(Value::as_float);
+        if cycles > Some(JUMP_FROM) && sets.contains_key("wear.coefficient_per_load") {
+            sets.insert("numerics.integrator", "cycle-jump".into());
+        }
+        sets.insert("title", self.title().into());
         write::sections(|known| {
-            let (value, note) = self.0.get(known.path)?;
+            let value = sets.get(known.path)?;
             let row = format!("{} = {}", known.key(), literal(value));
-            Some(if note.is_empty() {
-                row
-            } else {
-                format!("{row:38} # {note}")
-            })
+            let meaning = match value.as_str().and_then(|word| known.meaning_of(word)) {
+                _ if known.path == "title" => return Some(row),
+                Some(meaning) => meaning.to_owned(),
+                None if value.is_float() => known.described(),
+                None => known.meaning.to_owned(),
+            };
+            Some(format!("{row:38} # {meaning}"))
         })
+    }
+
+    fn title(&self) -> String {
+        let text = |option: &str| self.0.get(option).map(|answer| answer.text.as_str());
+        let shapes = [
+            ("ball", "Ball"),
+            ("punch", "Flat punch"),
+            ("cylinder", "Cylinder"),
+        ];
+        let shape = shapes.iter().find(|(option, _)| text(option).is_some());
+        format!(
+            "{} of {} on {}, {}, stroke {}",
+            shape.map_or("", |(_, name)| name),
+            text("material").unwrap_or_default(),
+            text("against").unwrap_or_default(),
+            text("load").or(text("depth")).unwrap_or_default(),
+            text("stroke").unwrap_or_default()
+        )
     }
 }
 
@@ -201,35 +230,53 @@ impl Draft {
 mod tests {
     use super::*;
 
+    fn read(option: &str, text: &str) -> Result<Answer, String> {
+        let mut questions = QUESTIONS.iter();
+        let question = questions.find(|question| question.option == option);
+        question.expect("a question").read(text)
+    }
+
+    #[test]
+    fn every_default_is_an_answer() {
+        for question in &QUESTIONS {
+            question.read(question.default).expect(question.option);
+        }
+    }
+
     #[test]
     fn materials_are_names_or_two_numbers() {
-        for known in materials() {
-            assert_eq!(Body::read(&known.name).as_ref(), Ok(known));
+        for (name, _) in MATERIALS {
+            assert_eq!(
+                read("material", name).map(|body| body.text).as_deref(),
+                Ok(name)
+            );
         }
-        let body = Body::read(" 200 GPa , 0.28").expect("two numbers");
-        assert_eq!(body.elastic, Some(("200 GPa".into(), 0.28)));
-        assert_eq!(
-            Body::read("70,0.2").expect("in GPa").elastic,
-            Some(("70 GPa".into(), 0.2))
-        );
+        for (text, modulus, poisson) in [
+            (" 200 GPa , 0.28", "200 GPa", 0.28),
+            ("70,0.2", "70 GPa", 0.2),
+        ] {
+            let body = read("against", text).expect("two numbers");
+            let values = body.sets.into_iter().map(|(_, value)| value);
+            assert!(values.eq([Value::from(modulus), Value::from(poisson)]));
+        }
         for text in ["stone", "200 GPa", "200 GPa,0.7", "200 mm,0.3", "-1,0.3"] {
-            assert!(Body::read(text).is_err(), "{text}");
+            assert!(read("material", text).is_err(), "{text}");
         }
     }
 
     #[test]
     fn quantities_are_in_the_unit_that_is_asked_for_unless_they_say() {
-        let of = |text: &str| question("ball").read(text);
-        assert_eq!(of("10").expect("a length").value, 0.01);
-        assert_eq!(of("200 um").expect("a length").value, 2e-4);
+        let of = |text: &str| quantity(text, "indenter.radius", "mm");
+        assert_eq!(of("10"), Ok(("10 mm".into(), 0.01)));
+        assert_eq!(of("200 um"), Ok(("200 um".into(), 2e-4)));
         for (text, rule) in [
             ("0", "greater than 0"),
             ("ten", "in mm"),
             ("1 N", "compatible"),
             ("0,3", "point"),
         ] {
-            let told = of(text).expect_err(text);
-            assert!(told.contains(rule), "{text}: {told}");
+            let refused = of(text).expect_err(text);
+            assert!(refused.contains(rule), "{text}: {refused}");
         }
     }
 }

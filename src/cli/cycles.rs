@@ -3,15 +3,19 @@
 use anyhow::{Context, Result, ensure};
 use serde::{Serialize, Serializer};
 
+use super::report::Report;
 use crate::charts::fretting_log;
+use crate::math::number::exact;
 use crate::math::scan::thinned;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::reading::Column;
+use crate::scenario::scalars::Value;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::fit::model_cycles;
 use crate::studies::measured::Measured;
 use crate::studies::measured::record::{self, COLUMNS, Record, Row};
+use crate::studies::table::Rows;
 use crate::traces::{Axes, Loop};
 
 /// Maximum number of cycles printed; a longer record is thinned evenly to this number.
@@ -73,14 +77,14 @@ impl Figures {
             .map_or(f64::NAN, |(_, value)| value)
     }
 
-    /// Returns its line in the table.
-    fn text(&self, label: &str) -> String {
-        let cells = printed().map(|column| match (self.value(column), column.unit()) {
-            (value, _) if value.is_nan() => format!("{:>10}", "-"),
-            (value, unit) if unit.is_empty() || self.cycle.is_none() => format!("{value:10.4}"),
-            (value, _) => format!("{value:10.3e}"),
-        });
-        format!("{label:>5}") + &cells.collect::<String>()
+    /// Returns its row in the table.
+    fn cells(&self, of: &str) -> Vec<Value> {
+        let cycle = self.cycle.map(exact);
+        let values = printed().map(|column| self.value(column).into());
+        [of.into(), cycle.into()]
+            .into_iter()
+            .chain(values)
+            .collect()
     }
 }
 
@@ -189,32 +193,37 @@ impl Cycles {
         notes
     }
 
-    /// Returns the lines of the table; none without a cycle.
-    pub fn lines(&self) -> Vec<String> {
+    /// Adds the table; nothing without a cycle.
+    pub fn add_to(&self, report: &mut Report) {
         if self.cycles.is_empty() {
-            return Vec::new();
+            return;
         }
-        let names = printed().map(|column| match (column.symbol(), column.unit()) {
-            // A history has E_d since the start under this symbol.
-            ("", unit) => format!("E_d/{unit}"),
-            (symbol, "") => symbol.to_owned(),
-            (symbol, unit) => format!("{symbol}/{unit}"),
-        });
-        let names: String = names.map(|name| format!("{name:>10}")).collect();
-        let mut lines = vec!["cycle".to_owned() + &names];
+        let mut rows = Rows::with_columns(&[("", "of cycle")]);
+        for column in printed() {
+            match (column.symbol(), column.unit()) {
+                // A history has E_d since the start under this symbol.
+                ("", unit) => rows.column("", &format!("E_d/{unit}")),
+                (symbol, "") => rows.column("", symbol),
+                (symbol, unit) => rows.column("", &format!("{symbol}/{unit}")),
+            }
+        }
         for (k, one) in shown(&self.cycles).into_iter().enumerate() {
-            lines.push(one.text(&one.cycle.unwrap_or_default().to_string()));
-            lines.extend(self.of_model().get(k).map(|model| model.text("model")));
+            rows.push(one.cells("measured"));
+            let model = self.of_model().get(k);
+            model
+                .into_iter()
+                .for_each(|model| rows.push(model.cells("model")));
         }
-        if let Some(Beside { model, ratio }) = &self.beside {
-            lines.push(ratio.text("ratio"));
-            let ends = [model.first(), model.last()].map(|one| one.and_then(|one| one.cycle));
-            let [first, last] = ends.map(Option::unwrap_or_default);
-            lines.push(format!(
-                "model: its cycles {first} to {last}; ratio: measured to model, by their means"
-            ));
-        }
-        lines
+        let Some(Beside { model, ratio }) = &self.beside else {
+            return report.table(&rows, 4);
+        };
+        rows.push(ratio.cells("ratio"));
+        report.table(&rows, 4);
+        let ends = [model.first(), model.last()].map(|one| one.and_then(|one| one.cycle));
+        let [first, last] = ends.map(Option::unwrap_or_default);
+        report.line(format!(
+            "model: its cycles {first} to {last}; ratio: measured to model, by their means"
+        ));
     }
 
     /// Draws the last loop where there is a model; for several cycles E_d over these, and the loops at their heights.

@@ -9,12 +9,12 @@ use anyhow::Result;
 use serde::Serialize;
 
 use super::args::{self, Beside};
-use super::{complain, given, progress, results, small_multiples};
+use super::report::Report;
+use super::{complain, given, progress};
 use crate::export::target::Target;
 use crate::plot::theme::Role;
 use crate::plot::units::reading;
-use crate::plot::{Axis, Chart, Curve, Marker};
-use crate::scenario::Scenario;
+use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::columns::Columns;
 use crate::studies::fit::{Fit, Fitted, Options, SetResult, Structure, Switch, Value};
 use crate::studies::measured::Measured;
@@ -23,24 +23,23 @@ use crate::traces::Axes;
 /// Fits, and prints, draws and writes the results.
 pub fn fit(options: &args::Fit) -> Result<()> {
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
-    let data = data(options)?;
-    if options.each {
-        return fit_each(options, &scenario, data);
-    }
-    let fit = Fit::new(scenario, data, &options.free, fit_options(options))?;
+    let fit = Fit::new(
+        scenario,
+        data(options)?,
+        &options.free,
+        fit_options(options),
+    )?;
     let target = Target::claim_given(options.out.as_deref(), options.force)?;
     let (fitted, runs) = run(&fit, options.quiet)?;
     if let Some(target) = target {
         target.write(fitted.scenario.to_toml().as_bytes())?;
     }
-    results::print(
-        options.json.then(|| Told::new(&fitted, runs)).as_ref(),
-        || {
-            let plots = || residual_plots(&fit, &fitted, options.drawing.marker);
-            let plots = options.drawing.plot.then(plots).unwrap_or_default();
-            format!("{}{runs} runs\n{plots}", report(&fit, &fitted))
-        },
-    )?;
+    let mut report = report(&fit, &fitted);
+    report.line(format!("{runs} runs"));
+    if options.drawing.plot {
+        report.charts(&residual_charts(&fit, &fitted), options.drawing.marker);
+    }
+    report.print(options.json.then(|| Told::new(&fitted, runs)).as_ref())?;
     let remarks = fitted.remarks.iter().filter(|_| options.json);
     remarks.for_each(|remark| complain(remark));
     Ok(())
@@ -68,61 +67,6 @@ fn fit_options(options: &args::Fit) -> Options {
         takes_stroke: options.stroke == args::Stroke::FromData,
         budget: options.budget,
     }
-}
-
-/// Fits every file separately and prints one row per file.
-fn fit_each(options: &args::Fit, scenario: &Scenario, data: Vec<Measured>) -> Result<()> {
-    let outcomes = data.into_iter().map(|set| {
-        let name = set.name.clone();
-        let fit = Fit::new(
-            scenario.clone(),
-            vec![set],
-            &options.free,
-            fit_options(options),
-        );
-        (name, fit.and_then(|fit| run(&fit, options.quiet)))
-    });
-    let outcomes: Vec<_> = outcomes.collect();
-    let found = outcomes
-        .iter()
-        .filter_map(|(_, outcome)| outcome.as_ref().ok());
-    let told: Vec<_> = found
-        .map(|(fitted, runs)| Told::new(fitted, *runs))
-        .collect();
-    // A file that cannot be fitted gets a row, too.
-    let row = |(name, outcome): &(String, Result<(Fitted, u64)>)| match outcome {
-        Ok((fitted, _)) => {
-            let values = fitted
-                .values
-                .iter()
-                .map(|one| value(one, fitted.has_converged));
-            let values = values.collect::<Vec<_>>();
-            [name.clone(), values.join("  "), fitted.remarks.join("; ")]
-        }
-        Err(error) => [name.clone(), "not fitted".to_owned(), format!("{error:#}")],
-    };
-    let rows: Vec<[String; 3]> = outcomes.iter().map(row).collect();
-    results::print(options.json.then_some(&told), || {
-        let width = |k: usize| {
-            rows.iter()
-                .map(|row| row[k].chars().count())
-                .max()
-                .unwrap_or(0)
-        };
-        let (names, values) = (width(0), width(1));
-        let head = format!(
-            "{:names$}  {:values$}  remarks\n",
-            "file",
-            options.free.join("  ")
-        );
-        let line = |[name, value, remark]: &[String; 3]| {
-            format!("{name:names$}  {value:values$}  {remark}")
-                .trim_end()
-                .to_owned()
-                + "\n"
-        };
-        head + &rows.iter().map(line).collect::<String>()
-    })
 }
 
 /// The JSON output: the keys, and how they were found.
@@ -217,26 +161,26 @@ fn value(one: &Value, has_converged: bool) -> String {
 }
 
 /// Reports the keys with their errors and correlations, and how well each data set is matched.
-fn report(fit: &Fit, fitted: &Fitted) -> String {
-    let mut lines = Vec::new();
-    let width = fitted.values.iter().map(|value| value.key.len()).max();
-    let width = width.unwrap_or(0);
+fn report(fit: &Fit, fitted: &Fitted) -> Report {
+    let mut report = Report::default();
+    let mut rows = Vec::new();
     for one in &fitted.values {
-        let value = value(one, fitted.has_converged);
-        lines.push(format!("{:width$}  {value}", one.key));
+        rows.push((one.key.as_str(), value(one, fitted.has_converged)));
         if let (Some(numerical), false) = (one.numerical_error, one.is_open()) {
             let share = 100.0 * (numerical / one.value).abs();
-            lines.push(format!(
-                "{:width$}  numerical error {numerical:.1e} {} ({share:.2} %)",
-                "", one.unit
+            let unit = one.unit;
+            rows.push((
+                "",
+                format!("numerical error {numerical:.1e} {unit} ({share:.2} %)"),
             ));
         }
     }
+    report.rows(&rows);
     for (i, one) in fitted.values.iter().enumerate() {
         for other in &fitted.values[..i] {
             let (key, other) = (&one.key, &other.key);
             let correlation = one.correlations[other];
-            lines.push(format!("correlation {other} - {key}: {correlation:.3}"));
+            report.line(format!("correlation {other} - {key}: {correlation:.3}"));
         }
     }
     for (measured, set) in fit.data.iter().zip(&fitted.sets) {
@@ -256,41 +200,31 @@ fn report(fit: &Fit, fitted: &Fitted) -> String {
             probability,
             ..
         } = set.structure;
-        lines.push(format!(
+        report.line(format!(
             "{name}: {points} points{at}, residuals {rms:.2e} {unit} rms"
         ));
-        lines.extend(set.notes.iter().map(|note| format!("  {note}")));
-        lines.extend(set.nuisances.iter().map(|one| {
-            format!(
-                "  {} {:.3e} ± {:.1e} {}",
-                one.name, one.value, one.stderr, one.unit
-            )
+        report.lines(set.notes.iter().map(|note| format!("  {note}")));
+        report.lines(set.nuisances.iter().map(|one| {
+            let (name, value, error, unit) = (one.name, one.value, one.stderr, &one.unit);
+            format!("  {name} {value:.3e} ± {error:.1e} {unit}")
         }));
-        lines.push(format!(
+        report.line(format!(
             "  χ² per degree of freedom {chi_squared:.2}; {runs} runs of one sign, by chance {expected_runs:.0} (p = \
              {probability:.1e})"
         ));
     }
-    lines.extend(fitted.remarks.iter().cloned());
-    lines.iter().map(|line| format!("{line}\n")).collect()
+    report.lines(&fitted.remarks);
+    report
 }
 
 /// Plots measured minus simulated values, one plot per data set.
-fn residual_plots(fit: &Fit, fitted: &Fitted, marker: Marker) -> String {
+fn residual_charts(fit: &Fit, fitted: &Fitted) -> Vec<Chart> {
     let sets = fit.data.iter().zip(&fitted.sets);
     let charts = sets.map(|(measured, set)| {
-        let abscissa = measured.axes.x;
-        let ordinate = Axis::new(
-            format!("{}: residual", measured.name),
-            measured.axes.y.unit(),
-        );
+        let (x, y) = (measured.axes.x, measured.axes.y);
+        let y = Axis::new(format!("{}: residual", measured.name), y.unit());
         let curve = Curve::new("", &measured.at[..], &set.residuals[..], Role::Profile);
-        Chart::new(
-            "",
-            Axis::new(abscissa.quantity(), abscissa.unit()),
-            ordinate,
-        )
-        .curve(curve)
+        Chart::new("", Axis::new(x.quantity(), x.unit()), y).curve(curve)
     });
-    small_multiples::draw(&charts.collect::<Vec<_>>(), marker)
+    charts.collect()
 }

@@ -6,7 +6,9 @@ use serde::Serialize;
 use super::args::Inspect;
 use super::cycles::Cycles;
 use super::fit::at_cycle;
-use super::{given, results, small_multiples};
+use super::given;
+use super::report::Report;
+use crate::math::number::shown;
 use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
@@ -71,11 +73,10 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         understood.cycles = Cycles::new(&measured, options.load, beside)?;
         understood.notes.extend(understood.cycles.trends());
     }
-    results::print(options.json.then_some(&understood), || {
-        let mut charts = vec![chart(&measured)];
-        charts.extend(understood.cycles.charts());
-        understood.text() + &small_multiples::draw(&charts, options.marker)
-    })
+    let mut report = understood.report();
+    report.charts(&[chart(&measured)], options.marker);
+    report.charts(&understood.cycles.charts(), options.marker);
+    report.print(options.json.then_some(&understood))
 }
 
 fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Understood {
@@ -151,38 +152,27 @@ fn of_trace(measured: &Measured) -> Vec<String> {
 }
 
 impl Understood {
-    fn text(&self) -> String {
-        let mut lines = vec![
-            format!("{}: {}", self.file, self.kind),
-            format!("{} rows, {}", self.rows, self.written),
-        ];
-        let width = self
-            .columns
-            .iter()
-            .map(|column| column.name.chars().count())
-            .max()
-            .unwrap_or(0);
-        for Column {
-            name,
-            read_as,
-            least,
-            largest,
-            missing,
-        } in &self.columns
-        {
-            let gaps = if *missing > 0 {
-                format!(", {missing} missing")
-            } else {
-                String::new()
+    fn report(&self) -> Report {
+        let mut report = Report::default();
+        report.line(format!("{}: {}", self.file, self.kind));
+        report.line(format!("{} rows, {}", self.rows, self.written));
+        let row = |column: &Column| {
+            let (read_as, unit) = (&column.read_as, unit_of(&column.read_as));
+            let [least, largest] = [column.least, column.largest].map(|end| shown(end, 4));
+            let gaps = match column.missing {
+                0 => String::new(),
+                missing => format!(", {missing} missing"),
             };
-            let unit = unit_of(read_as);
-            lines.push(format!(
-                "  {name:width$}  read as {read_as}: {least:.3e} to {largest:.3e} {unit}{gaps}"
-            ));
-        }
-        lines.extend(self.notes.iter().cloned());
-        lines.extend(self.cycles.lines());
-        lines.iter().map(|line| format!("{line}\n")).collect()
+            format!("read as {read_as}: {least} to {largest} {unit}{gaps}")
+        };
+        let rows = self.columns.iter();
+        let rows: Vec<_> = rows
+            .map(|column| (column.name.as_str(), row(column)))
+            .collect();
+        report.rows(&rows);
+        report.lines(&self.notes);
+        self.cycles.add_to(&mut report);
+        report
     }
 }
 

@@ -37,9 +37,8 @@ mod job;
 mod new;
 mod presets;
 mod progress;
-mod results;
+mod report;
 mod run;
-mod small_multiples;
 mod stability;
 mod stop;
 mod sweep;
@@ -200,10 +199,16 @@ fn mistyped_command(word: &str) -> Option<Refusal> {
 }
 
 /// Options that older versions had, and what to use instead.
-const GONE: [(&str, &str); 1] = [(
-    "--format",
-    "--print prints text; mdr-tui figure draws charts as SVG, PNG or PDF",
-)];
+const GONE: [(&str, &str); 2] = [
+    (
+        "--format",
+        "--print prints text; mdr-tui figure draws charts as SVG, PNG or PDF",
+    ),
+    (
+        "--each",
+        "fit one file at a time: for f in *.csv; do mdr-tui fit SCENARIO --scar $f --free KEYS; done",
+    ),
+];
 
 /// Prints help and version on stdout; reports a mistake in one line.
 fn refuse(error: &clap::Error) -> ExitCode {

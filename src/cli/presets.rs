@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use serde_json::{Value, json};
 
 use super::args::Presets;
-use super::results;
+use super::report::Report;
 use crate::scenario::Refusal;
 use crate::scenario::preset::{self, Preset};
 
@@ -22,10 +22,10 @@ pub fn presets(options: &Presets) -> Result<()> {
     let all = preset::ALL.iter();
     let about = |preset: &Preset| json!({ "name": preset.name, "title": preset.title() });
     let list: Vec<Value> = all.clone().map(about).collect();
-    results::print(options.json.then_some(&list), || {
-        let width = all.clone().map(|preset| preset.name.len()).max();
-        let width = width.unwrap_or(0);
-        let line = |preset: &Preset| format!("{:width$}  {}\n", preset.name, preset.title());
-        all.map(line).collect()
-    })
+    let mut report = Report::default();
+    report.rows(
+        &all.map(|preset| (preset.name, preset.title().to_owned()))
+            .collect::<Vec<_>>(),
+    );
+    report.print(options.json.then_some(&list))
 }

@@ -5,10 +5,11 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 
 use super::args::{Guard, Stability};
-use super::{given, progress, results, stop, succeeded};
-use crate::math::number::exact;
+use super::report::{self, Report};
+use super::{given, progress, stop, succeeded};
 use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
+use crate::math::number::exact;
 use crate::scenario::{Refusal, printable};
 use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Limit, StabilityStudy, Variant};
@@ -36,12 +37,14 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
         notes.push("interrupted: the last line is not complete".to_owned());
     }
     let runs = runs(&lines);
-    results::write(target.as_ref(), "stability", &notes, &runs)?;
-    results::print(options.output.json.then_some(&runs), || {
-        let signs = ". stable  ~ sawtooth # exploded  | where the limit is predicted";
-        let (maps, boundaries) = (maps(&lines), boundaries(&lines).text());
-        format!("{}\n{signs}\n\n{maps}{boundaries}", notes.join("\n"))
-    })?;
+    report::write(target.as_ref(), "stability", &notes, &runs)?;
+    let mut report = Report::default();
+    report.lines(&notes);
+    report.line(". stable  ~ sawtooth # exploded  | where the limit is predicted");
+    report.line("");
+    report.lines(maps(&lines).lines());
+    report.table(&boundaries(&lines), 2);
+    report.print(options.output.json.then_some(&runs))?;
     Ok(succeeded(!interrupted))
 }
 
@@ -59,7 +62,6 @@ fn lines(
     let mut lines = Vec::new();
     for setting in settings.iter().copied().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));
-        bar.tick();
         lines.push(study.line(setting, &wear_numbers, go_on, || bar.inc(1))?);
     }
     bar.finish_and_clear();

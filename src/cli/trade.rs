@@ -6,9 +6,10 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::args::Trade;
 use super::job::end;
-use super::{given, progress, results, small_multiples, stop, succeeded};
-use crate::math::number::exact;
+use super::report::{self, Report};
+use super::{given, progress, stop, succeeded};
 use crate::math::abel::AbelMethod;
+use crate::math::number::exact;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::session::SessionError;
@@ -41,7 +42,7 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
     let found = run(&scenario, cycles, options, &go_on)?;
     let found = found.context("interrupted before the reference was computed: no results");
     let (trials, notes) = &found?;
-    results::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
+    report::write(target.as_ref(), "trade", notes, &table(trials, trials))?;
     let best = cheapest(trials, options.accuracy.unwrap_or(USUAL));
     if let (Some(accuracy), None) = (options.accuracy, best) {
         // A searched level may meet an accuracy that no fixed setting meets.
@@ -53,12 +54,12 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
             bail!("no setting reached an error of {accuracy:e}; try larger --points or --steps");
         };
         let (error, found) = (error.promised(), table(&[], trials));
-        results::print(options.output.json.then_some(&found), || {
-            format!(
-                "# no fixed setting tried; estimated error {error:.1e} at worst (depth, V, E_d, F_x), in \
-                 {seconds:.1e} s\n--set numerics.accuracy={accuracy:e}\n"
-            )
-        })?;
+        let mut report = Report::default();
+        report.line(format!(
+            "# no fixed setting tried; estimated error {error:.1e} at worst (depth, V, E_d, F_x), in {seconds:.1e} s"
+        ));
+        report.line(format!("--set numerics.accuracy={accuracy:e}"));
+        report.print(options.output.json.then_some(&found))?;
         return Ok(succeeded(go_on()));
     }
     let only = best.filter(|_| options.accuracy.is_some());
@@ -69,18 +70,22 @@ pub fn trade(options: &Trade) -> Result<ExitCode> {
         None => front(trials).into_iter().map(|(trial, _)| trial).collect(),
     };
     let table = table(shown, trials);
-    results::print(json.then_some(&table), || match only {
-        Some((trial, [seconds, error])) => {
-            let what = "at worst (depth, V, E_d, F_x)";
-            let keys = trial.setting.assignments().join("\n");
-            format!("# error {error:.1e} {what}, in {seconds:.1e} s\n{keys}\n")
+    let mut report = Report::default();
+    if let Some((trial, [seconds, error])) = only {
+        report.line(format!(
+            "# error {error:.1e} at worst (depth, V, E_d, F_x), in {seconds:.1e} s"
+        ));
+        report.lines(trial.setting.assignments());
+    } else {
+        report.lines(notes);
+        report.line("");
+        report.table(&table, 2);
+        if options.drawing.plot {
+            report.charts_alike(charts(trials), options.drawing.marker);
         }
-        None => {
-            let plots = options.drawing.plot.then(|| plots(trials, options));
-            let (plots, table) = (plots.unwrap_or_default(), table.text());
-            format!("{}\n{table}{plots}{}\n", notes.join("\n"), advice(best))
-        }
-    })?;
+        report.line(advice(best));
+    }
+    report.print(json.then_some(&table))?;
     Ok(succeeded(go_on()))
 }
 
@@ -96,11 +101,9 @@ fn run(
     let bar = progress::bar(settings.len(), progress::COUNTS, options.output.quiet);
     let measure = |setting: &Candidate| {
         bar.set_message(format!("{setting} by {}", setting.scheme));
-        bar.tick();
         setting.run(scenario, cycles, go_on)
     };
     bar.set_message("reference");
-    bar.tick();
     let finest = options.accuracy.unwrap_or(USUAL).min(ACCURACIES[1]) / SHARPER;
     let best = trade::by_the_best(scenario)?;
     let reference = match run_to_accuracy(&best, cycles, finest, LONGEST_SEARCH, go_on) {
@@ -181,7 +184,7 @@ fn advice(best: Option<Timed>) -> String {
 }
 
 /// Plots error against time: one plot per method with its Pareto front; the overall front is dashed.
-fn plots(trials: &[Trial], options: &Trade) -> String {
+fn charts(trials: &[Trial]) -> Vec<Chart> {
     let curve = |method: Option<AbelMethod>| {
         let mut mine = trials.iter().collect::<Vec<_>>();
         mine.retain(|trial| method.is_none_or(|method| trial.setting.method == method));
@@ -198,5 +201,5 @@ fn plots(trials: &[Trial], options: &Trade) -> String {
         let chart = Chart::new("", time, error).curve(all.clone());
         (!mine.xs.is_empty()).then(|| chart.curve(mine))
     });
-    small_multiples::draw_alike(charts.collect(), options.drawing.marker)
+    charts.collect()
 }

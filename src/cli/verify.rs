@@ -3,10 +3,11 @@
 use anyhow::{Result, ensure};
 
 use super::args::Verify;
-use super::{progress, results, small_multiples};
+use super::progress;
+use super::report::{self, Report};
 use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
-use crate::plot::{Axis, Chart, Curve, Marker, Scale};
+use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::Refusal;
 use crate::studies::verify::errors::Errors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
@@ -24,16 +25,16 @@ pub fn verify(options: &Verify) -> Result<()> {
     ensure!(!tasks.is_empty(), Refusal::new("--points", rule));
     let outcomes = run(&tasks, options.output.quiet);
     let (nodes, notes) = (all_nodes(&outcomes), notes(&outcomes));
-    results::write(target.as_ref(), "verify", &notes, &nodes)?;
-    let rows = options.output.json.then(|| all_rows(&outcomes));
-    let is_whole = options.all || options.drawing.plot || !options.problem.is_empty();
-    results::print(rows.as_ref(), || {
-        if is_whole {
-            format!("{}\n{}\n", text(&outcomes, options), verdict(&outcomes))
-        } else {
-            verdict(&outcomes) + "\n"
+    report::write(target.as_ref(), "verify", &notes, &nodes)?;
+    let mut report = Report::default();
+    if options.all || options.drawing.plot || !options.problem.is_empty() {
+        for (problem, outcomes) in by_problem(&outcomes) {
+            add_problem(&mut report, problem, outcomes, options);
         }
-    })
+    }
+    report.line(verdict(&outcomes));
+    let rows = options.output.json.then(|| all_rows(&outcomes));
+    report.print(rows.as_ref())
 }
 
 fn run(tasks: &[Task], quiet: bool) -> Vec<Solved> {
@@ -41,7 +42,6 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Solved> {
     let outcomes = tasks.iter().map(|task| {
         let (problem, method, points) = (task.problem, task.method, task.points);
         bar.set_message(format!("{problem}, {method}, N = {points}"));
-        bar.tick();
         let outcome = task.run();
         bar.inc(1);
         outcome
@@ -57,27 +57,23 @@ fn by_problem(outcomes: &[Solved]) -> impl Iterator<Item = (Problem, &[Solved])>
     groups.map(|group| (group[0].task.problem, group))
 }
 
-/// Returns every table below its description, with the curves below the table.
-fn text(outcomes: &[Solved], options: &Verify) -> String {
-    let of_problem = |(problem, outcomes): (Problem, &[Solved])| {
-        let mut text = format!("{problem}\n");
-        for line in problem.facts().description.lines() {
-            text += &format!("  {line}\n");
-        }
-        text += &problem_table(problem, outcomes).text();
-        let points = options.points.iter();
-        let left = points.filter(|&&points| !options.long && problem.is_long(points));
-        let left: Vec<String> = left.map(usize::to_string).collect();
-        if !left.is_empty() {
-            text += &format!("N = {} only with --long\n", left.join(", "));
-        }
-        if options.drawing.plot {
-            text += &error_curves(problem, outcomes, options.drawing.marker);
-        }
-        text
-    };
-    let texts: Vec<String> = by_problem(outcomes).map(of_problem).collect();
-    texts.join("\n")
+/// Adds a problem's description, its table, and the curves below it.
+fn add_problem(report: &mut Report, problem: Problem, outcomes: &[Solved], options: &Verify) {
+    report.line(problem.to_string());
+    let description = problem.facts().description.lines();
+    report.lines(description.map(|line| format!("  {line}")));
+    report.table(&problem_table(problem, outcomes), 2);
+    let points = options.points.iter();
+    let left = points.filter(|&&points| !options.long && problem.is_long(points));
+    let left: Vec<String> = left.map(usize::to_string).collect();
+    if !left.is_empty() {
+        report.line(format!("N = {} only with --long", left.join(", ")));
+    }
+    if options.drawing.plot {
+        let charts = error_curves(problem, outcomes).into_iter();
+        charts.for_each(|charts| report.charts_alike(charts, options.drawing.marker));
+    }
+    report.line("");
 }
 
 /// Says in one line how far the best method is from theory: its worst problem, on the finest grid of each.
@@ -114,7 +110,7 @@ fn notes(outcomes: &[Solved]) -> Vec<String> {
     problems.map(note).collect()
 }
 
-/// Draws the error over r/a as text: for each quantity of a problem one small plot per method on its finest grid, all
+/// Plots the error over r/a: for each quantity of a problem one small plot per method on its finest grid, all
 /// on the same axes, so that they can be compared without colour.
 ///
 /// ```text
@@ -123,7 +119,7 @@ fn notes(outcomes: &[Solved]) -> Vec<String> {
 /// 1e-3 ┤⠈⠒⠤⢄⣀⣀⣀⣀⣀⣀⣀⣀                     1e-3 ┤⠈⠒⠤⢄⣀⣀⣀⣀⣀⣀⣀⣀
 ///      0               1                      0               1   r/a
 /// ```
-fn error_curves(problem: Problem, outcomes: &[Solved], marker: Marker) -> String {
+fn error_curves(problem: Problem, outcomes: &[Solved]) -> Vec<Vec<Chart>> {
     let quantities = problem.facts().quantities.iter().enumerate();
     let drawn = quantities.filter(|(_, quantity)| **quantity != STICK_RADIUS);
     let plots = drawn.map(|(at, quantity)| {
@@ -136,7 +132,7 @@ fn error_curves(problem: Problem, outcomes: &[Solved], marker: Marker) -> String
             let curve = Curve::new("", radii, values, Role::Profile);
             Some(Chart::new("", Axis::new("r/a", ""), y).curve(curve))
         });
-        small_multiples::draw_alike(charts.collect(), marker)
+        charts.collect()
     });
     plots.collect()
 }

@@ -1,66 +1,33 @@
-//! A table with named columns, rendered as aligned text, CSV or JSON.
+//! Rows under named columns, rendered as aligned text, CSV or JSON.
 
 use serde::{Serialize, Serializer};
 
+use crate::math::number::shown;
 use crate::scenario::escape::csv_line;
 use crate::scenario::scalars::{self, Value};
 
-/// How a column is formatted as text; files always get every digit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Words, aligned left.
-    Words,
-    /// Numbers, aligned right: whole ones unchanged, others with two digits and an exponent, 1.2e-3.
-    Rough,
-    /// Two decimals.
-    Fixed,
-}
-
-impl Format {
-    fn text(self, cell: &Value) -> String {
-        match (self, cell.as_f64().filter(|_| cell.is_f64())) {
-            (Self::Fixed, Some(value)) => format!("{value:.2}"),
-            (_, Some(value)) => format!("{value:.1e}"),
-            (_, None) => scalars::cell(cell),
-        }
-    }
-
-    fn aligned(self, text: &str, width: usize) -> String {
-        match self {
-            Self::Words => format!("{text:width$}"),
-            Self::Rough | Self::Fixed => format!("{text:>width$}"),
-        }
-    }
-
-    /// Whether a cell spans all following columns of its group: words among numbers.
-    fn is_spanned_by(self, cell: &Value) -> bool {
-        self != Self::Words && cell.is_string()
-    }
-}
-
-/// A column: a heading shared with its neighbours, only in texts and empty if there is none; its own heading, which is
-/// the key in files; and its format.
-pub type Heading = (&'static str, &'static str, Format);
-
-/// Columns and rows.
+/// Columns and rows. A column of words is aligned left, one of numbers right.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Report {
-    columns: Vec<Heading>,
+pub struct Rows {
+    /// Of each column the heading that it shares with its neighbours, only in texts and empty if there is none, and its
+    /// own, which is the key in files.
+    columns: Vec<(String, String)>,
     pub(super) rows: Vec<Vec<Value>>,
 }
 
-impl Report {
-    /// Makes a table without rows, from groups of columns: their shared heading, their names separated by blanks, and
-    /// their format.
-    pub fn with_columns(columns: &[Heading]) -> Self {
-        let columns = columns.iter().flat_map(|&(group, names, format)| {
-            let names = names.split(' ');
-            names.map(move |name| (group, name, format))
-        });
-        Self {
-            columns: columns.collect(),
-            rows: Vec::new(),
+impl Rows {
+    /// Makes a table without rows, from groups of columns: their shared heading, and their names separated by blanks.
+    pub fn with_columns(groups: &[(&str, &str)]) -> Self {
+        let mut rows = Self::default();
+        for (group, names) in groups {
+            names.split(' ').for_each(|name| rows.column(group, name));
         }
+        rows
+    }
+
+    /// Adds a column to a table without rows.
+    pub fn column(&mut self, group: &str, name: &str) {
+        self.columns.push((group.to_owned(), name.to_owned()));
     }
 
     /// Adds a row, a list or a tuple: absent cells are missing, cells beyond the columns are dropped. Words in a column
@@ -72,59 +39,72 @@ impl Report {
         self.rows.push(row);
     }
 
-    fn names(&self) -> Vec<&'static str> {
-        self.columns.iter().map(|(_, name, _)| *name).collect()
+    fn names(&self) -> Vec<&str> {
+        self.columns.iter().map(|(_, name)| name.as_str()).collect()
     }
 
-    /// Formats comma-separated values after a line of names.
+    /// Formats comma-separated values after a line of names; numbers have all their digits.
     pub fn csv(&self) -> String {
         let rows = self.rows.iter();
         let rows = rows.map(|row| csv_line(row.iter().map(scalars::cell)));
         csv_line(self.names()) + &rows.collect::<String>()
     }
 
-    /// Formats aligned columns under their headings, without trailing blanks.
-    pub fn text(&self) -> String {
-        let columns = &self.columns;
-        let widths: Vec<usize> = (0..columns.len()).map(|at| self.width(at)).collect();
-        let mut text = String::new();
-        if columns.iter().any(|(group, ..)| !group.is_empty()) {
-            let heading = |at: usize, width| match columns[at].0 {
+    /// Formats aligned columns under their headings, without trailing blanks. Whole numbers are unchanged, others have so
+    /// many digits.
+    pub fn text(&self, digits: usize) -> String {
+        let text = |cell: &Value| match cell.as_f64().filter(|_| cell.is_f64()) {
+            Some(value) => shown(value, digits),
+            None => scalars::cell(cell),
+        };
+        let is_words: Vec<bool> = (0..self.columns.len())
+            .map(|at| self.is_words(at))
+            .collect();
+        let spans = |row: &[Value], at: usize| !is_words[at] && row[at].is_string();
+        let aligned = |at: usize, text: &str, width: usize| match is_words[at] {
+            true => format!("{text:width$}"),
+            false => format!("{text:>width$}"),
+        };
+        let width = |(at, (_, name)): (usize, &(String, String))| {
+            let cells = self.rows.iter().filter(|row| !spans(row, at));
+            let widths = cells.map(|row| text(&row[at]).chars().count());
+            widths.fold(name.chars().count(), usize::max)
+        };
+        let widths: Vec<usize> = self.columns.iter().enumerate().map(width).collect();
+        let mut lines = String::new();
+        if self.columns.iter().any(|(group, _)| !group.is_empty()) {
+            let heading = |at: usize, width| match self.columns[at].0.as_str() {
                 "" => " ".repeat(width),
                 group => format!("{group:-^width$}"),
             };
-            text += &line(&widths, |at| self.group_end(at), heading);
+            lines += &line(&widths, |at| self.group_end(at), heading);
         }
-        let name = |at: usize, width| columns[at].2.aligned(columns[at].1, width);
-        text += &line(&widths, |at| at + 1, name);
+        let name = |at: usize, width| aligned(at, &self.columns[at].1, width);
+        lines += &line(&widths, |at| at + 1, name);
         for row in &self.rows {
             let end = |at: usize| {
-                if columns[at].2.is_spanned_by(&row[at]) {
+                if spans(row, at) {
                     self.group_end(at)
                 } else {
                     at + 1
                 }
             };
-            let cell = |at: usize, width| {
-                let (.., format) = columns[at];
-                format.aligned(&format.text(&row[at]), width)
-            };
-            text += &line(&widths, end, cell);
+            lines += &line(&widths, end, |at, width| {
+                aligned(at, &text(&row[at]), width)
+            });
         }
-        text
+        lines
     }
 
-    fn width(&self, at: usize) -> usize {
-        let (_, name, format) = &self.columns[at];
-        let cells = self.rows.iter().map(|row| &row[at]);
-        let cells = cells.filter(|cell| !format.is_spanned_by(cell));
-        let widths = cells.map(|cell| format.text(cell).chars().count());
-        widths.fold(name.chars().count(), usize::max)
+    /// Whether a column has no cell but words.
+    fn is_words(&self, at: usize) -> bool {
+        let mut cells = self.rows.iter().map(|row| &row[at]);
+        cells.all(|cell| cell.is_string() || cell.is_null())
     }
 
     /// Returns one past the last column of the group of column `at`.
     fn group_end(&self, at: usize) -> usize {
-        let is_of_it = |other: &&Heading| other.0 == self.columns[at].0;
+        let is_of_it = |other: &&(String, String)| other.0 == self.columns[at].0;
         at + self.columns[at..].iter().take_while(is_of_it).count()
     }
 }
@@ -148,7 +128,7 @@ fn line(
     line.join(GAP).trim_end().to_owned() + "\n"
 }
 
-impl Serialize for Report {
+impl Serialize for Rows {
     /// Writes a list of objects, with keys in the order of the columns.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let names = self.names();
@@ -169,13 +149,8 @@ impl Serialize for Object<'_> {
 mod tests {
     use super::*;
 
-    fn table() -> Report {
-        let mut table = Report::with_columns(&[
-            ("", "method", Format::Words),
-            ("", "N", Format::Rough),
-            ("g", "max", Format::Rough),
-            ("g", "order", Format::Fixed),
-        ]);
+    fn table() -> Rows {
+        let mut table = Rows::with_columns(&[("", "method N"), ("g", "max order")]);
         table.push(("a", 50, 0.1 + 0.2));
         table.push(("x, \"y\"", 100, "stopped"));
         table
@@ -183,11 +158,11 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        let expected = "           -----g------\n\
-            method   N    max order\n\
-            a       50 3.0e-1\n\
-            x, \"y\" 100      stopped\n";
-        assert_eq!(table().text(), expected);
+        let expected = "           ----g-----\n\
+            method   N  max order\n\
+            a       50 0.30\n\
+            x, \"y\" 100    stopped\n";
+        assert_eq!(table().text(2), expected);
     }
 
     #[test]

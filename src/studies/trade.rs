@@ -18,7 +18,7 @@ use crate::scenario::spec::{Numerics, Spec};
 use crate::scenario::{Refusal, Scenario, value};
 use crate::simulation::{Integrator, Scheme};
 use crate::studies::refinement::{self, Level, Outcome, Reached};
-use crate::studies::table::{Format, Report};
+use crate::studies::table::Rows;
 
 /// Numbers of cells to try.
 pub const POINTS: [usize; 3] = [25, 50, 100];
@@ -294,14 +294,14 @@ pub fn cheapest(trials: &[Trial], accuracy: f64) -> Option<Timed<'_>> {
 }
 
 /// Makes a table with one row per trial of `shown`, marking those on the front of `all`.
-pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Report {
-    let of_run = "points steps_per_cycle tolerance time_s steps transforms";
+pub fn table<'a>(shown: impl IntoIterator<Item = &'a Trial>, all: &[Trial]) -> Rows {
+    let of_run =
+        "method scheme integrator points steps_per_cycle tolerance time_s steps transforms";
     let errors = "error_rms volume_error work_error force_error stick_error";
-    let mut table = Report::with_columns(&[
-        ("", "method scheme integrator", Format::Words),
-        ("", of_run, Format::Rough),
-        ("against the reference", errors, Format::Rough),
-        ("", "checks front", Format::Words),
+    let mut table = Rows::with_columns(&[
+        ("", of_run),
+        ("against the reference", errors),
+        ("", "checks front"),
     ]);
     let front = front(all);
     for trial in shown {
@@ -371,7 +371,7 @@ mod tests {
         let rows = &table.rows;
         let stars = rows.iter().filter(|row| row[15] == "*");
         assert_eq!(stars.count(), 3);
-        assert!(table.text().contains("broke"));
+        assert!(table.text(2).contains("broke"));
         // Without tangential motion there is no stick radius; errors of a missing scar do not count.
         let judged = judged(8, Ok((reference.rung.session.clone(), 0.1)));
         assert_eq!(judged.row[13], Value::Null);

@@ -184,9 +184,6 @@ pub struct Fit {
     /// Time limit of the search, e.g. 60s or 5min; then the best found so far is told.
     #[arg(long, value_name = "TIME", value_parser = budget)]
     pub budget: Option<f64>,
-    /// Fit every file by itself, and print a row per file.
-    #[arg(long, conflicts_with_all = ["out", "plot"])]
-    pub each: bool,
     /// Write the fitted scenario to this file.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,

@@ -2,8 +2,8 @@
 
 use anyhow::{Context, Result};
 
-use super::super::results;
 use crate::cli::args::Sweep;
+use crate::cli::report::Report;
 use crate::cli::{complain, stop};
 use crate::export::target::Target;
 use crate::studies::sweep::{Study, record, sensitivity};
@@ -20,9 +20,11 @@ pub fn sensitivity(options: &Sweep, study: &Study) -> Result<()> {
         target.write((record::header(study) + &table.csv()).as_bytes())?;
     }
     let (cells, steps) = found.numerics;
-    let numerics = || format!("N = {cells}, {steps} steps per cycle\n");
     if options.json || !options.quiet {
-        results::print(options.json.then_some(table), || table.text() + &numerics())?;
+        let mut report = Report::default();
+        report.table(table, 2);
+        report.line(format!("N = {cells}, {steps} steps per cycle"));
+        report.print(options.json.then_some(table))?;
     }
     if !found.is_resolved {
         complain(

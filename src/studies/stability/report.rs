@@ -4,8 +4,7 @@ use std::fmt::Write;
 
 use super::{Ending, Limit, Variant};
 use crate::scenario::scalars::Value;
-use crate::studies::table::Format::{Fixed, Rough, Words};
-use crate::studies::table::Report;
+use crate::studies::table::Rows;
 
 impl Ending {
     /// Returns the word in tables, and the mark in maps.
@@ -30,15 +29,10 @@ fn guard(line: &Limit) -> &'static str {
 }
 
 /// Makes a table with one row per run.
-pub fn runs(lines: &[Limit]) -> Report {
-    let mut table = Report::with_columns(&[
-        ("", "method guard", Words),
-        ("", "points steps_per_cycle wear_number", Rough),
-        ("", "outcome", Words),
-        ("", "exploded_at_cycle", Fixed),
-        ("", "sawtooth predicted_wear_number", Rough),
-        ("", "reason", Words),
-    ]);
+pub fn runs(lines: &[Limit]) -> Rows {
+    let of_run = "method guard points steps_per_cycle wear_number outcome";
+    let found = "exploded_at_cycle sawtooth predicted_wear_number reason";
+    let mut table = Rows::with_columns(&[("", of_run), ("", found)]);
     for line in lines {
         for (wear_number, outcome) in &line.outcomes {
             let (cycle, reason) = outcome.exploded.clone().unzip();
@@ -53,13 +47,9 @@ pub fn runs(lines: &[Limit]) -> Report {
 }
 
 /// Makes a table with one row per method and grid: the predicted and the observed boundary.
-pub fn boundaries(lines: &[Limit]) -> Report {
-    let mut table = Report::with_columns(&[
-        ("", "method guard", Words),
-        ("", "points", Rough),
-        ("critical K", "predicted seen", Rough),
-        ("critical K", "ratio", Fixed),
-    ]);
+pub fn boundaries(lines: &[Limit]) -> Rows {
+    let critical = ("critical K", "predicted seen ratio");
+    let mut table = Rows::with_columns(&[("", "method guard points"), critical]);
     for line in lines {
         let found = [line.predicted, line.seen, line.ratio()].map(Value::from);
         table.push(key(line).into_iter().chain(found).collect::<Vec<_>>());
@@ -176,6 +166,6 @@ mod tests {
             csv.contains("a,off,50,100,100,exploded,2.5,,8,\"it blew, up\"\n"),
             "{csv}"
         );
-        assert!(boundaries(&[line()]).text().contains("0.50"));
+        assert!(boundaries(&[line()]).text(2).contains("0.50"));
     }
 }

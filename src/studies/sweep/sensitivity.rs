@@ -20,7 +20,7 @@ use super::point::{self, Success};
 use crate::math::number::exact;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::Level;
-use crate::studies::table::{Format, Report};
+use crate::studies::table::Rows;
 
 /// h, in ln x.
 const STEP: f64 = 0.01;
@@ -38,7 +38,7 @@ const PLACES: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 #[derive(Debug)]
 pub struct Sensitivity {
     /// A row per key and column, followed by the relative spread of each column due to all deviations together.
-    pub table: Report,
+    pub table: Rows,
     /// Cells and steps per cycle of the last runs.
     pub numerics: (usize, u32),
     /// Whether every elasticity is as accurate as wanted.
@@ -122,14 +122,8 @@ fn around(
         let numbers = row.iter().map(|field| field.parse::<f64>().ok());
         results.push(numbers.collect());
     }
-    let mut table = Report::with_columns(&[
-        ("", "key", Format::Words),
-        ("", "value", Format::Rough),
-        ("", "column", Format::Words),
-        ("", "result", Format::Rough),
-        ("", "elasticity", Format::Fixed),
-        ("", "error deviation relative_spread", Format::Rough),
-    ]);
+    let names = "key value column result elasticity error deviation relative_spread";
+    let mut table = Rows::with_columns(&[("", names)]);
     let mut is_resolved = true;
     let has_deviation = keys.iter().any(|(_, deviation, _)| deviation.is_some());
     // The relative spread of each column, unless one of its elasticities is unknown.

@@ -3,7 +3,7 @@
 use super::errors::Errors;
 use super::{Problem, STICK_RADIUS, Solved};
 use crate::scenario::scalars::Value;
-use crate::studies::table::{Format, Report};
+use crate::studies::table::Rows;
 
 /// Smaller errors are rounding, and their order means nothing.
 pub const ROUNDING: f64 = 1e-12;
@@ -12,41 +12,29 @@ pub const ROUNDING: f64 = 1e-12;
 const ROOMY: usize = 2;
 
 /// Makes the table of one problem, with a row for each method and N.
-pub fn problem_table(problem: Problem, outcomes: &[Solved]) -> Report {
+pub fn problem_table(problem: Problem, outcomes: &[Solved]) -> Rows {
     let quantities = problem.facts().quantities;
     let roomy = quantities.len() <= ROOMY;
-    let mut columns = vec![("", "method", Format::Words), ("", "N", Format::Rough)];
+    let names = |quantity: &str| match (quantity == STICK_RADIUS, roomy) {
+        (true, _) => "error order",
+        (false, true) => "max order rms order",
+        (false, false) => "max order rms",
+    };
+    let mut table = Rows::with_columns(&[("", "method N")]);
     for quantity in quantities {
-        let shown = shown(quantity, roomy).iter();
-        columns.extend(shown.map(|&(name, format)| (*quantity, name, format)));
+        let columns = names(quantity).split(' ');
+        columns.for_each(|name| table.column(quantity, name));
     }
-    let mut table = Report::with_columns(&columns);
     for outcome in outcomes.iter().filter(|o| o.task.problem == problem) {
         let task = outcome.task;
         let mut row = vec![task.method.name().into(), task.points.into()];
         for (at, quantity) in quantities.iter().enumerate() {
-            let shown = shown(quantity, roomy).len();
-            row.extend(group(outcome, at, outcomes).into_iter().take(shown));
+            let columns = names(quantity).split(' ').count();
+            row.extend(group(outcome, at, outcomes).into_iter().take(columns));
         }
         table.push(row);
     }
     table
-}
-
-/// Returns the columns of one quantity.
-fn shown(quantity: &str, roomy: bool) -> &'static [(&'static str, Format)] {
-    const ALL: [(&str, Format); 4] = [
-        ("max", Format::Rough),
-        ("order", Format::Fixed),
-        ("rms", Format::Rough),
-        ("order", Format::Fixed),
-    ];
-    const SINGLE: [(&str, Format); 2] = [("error", Format::Rough), ("order", Format::Fixed)];
-    match (quantity == STICK_RADIUS, roomy) {
-        (true, _) => &SINGLE,
-        (false, true) => &ALL,
-        (false, false) => &ALL[..3],
-    }
 }
 
 /// Returns the maximum, its order, the rms and its order; or where the run stopped.
@@ -86,17 +74,10 @@ fn order(
 }
 
 /// Makes a table of all problems, with one row per quantity.
-pub fn all_rows(outcomes: &[Solved]) -> Report {
-    let mut table = Report::with_columns(&[
-        ("", "problem quantity method", Format::Words),
-        ("", "points max", Format::Rough),
-        ("", "max_order", Format::Fixed),
-        ("", "rms", Format::Rough),
-        ("", "rms_order", Format::Fixed),
-        ("", "nodes nodes_left_out", Format::Rough),
-        ("", "stopped_at_cycle", Format::Fixed),
-        ("", "stopped_because", Format::Words),
-    ]);
+pub fn all_rows(outcomes: &[Solved]) -> Rows {
+    let errors = "problem quantity method points max max_order rms rms_order";
+    let rest = "nodes nodes_left_out stopped_at_cycle stopped_because";
+    let mut table = Rows::with_columns(&[("", errors), ("", rest)]);
     for outcome in outcomes {
         for (at, quantity) in outcome.task.problem.facts().quantities.iter().enumerate() {
             let mut row = key(outcome, quantity);
@@ -119,13 +100,8 @@ pub fn all_rows(outcomes: &[Solved]) -> Report {
 }
 
 /// Makes a table of the errors at all nodes.
-pub fn all_nodes(outcomes: &[Solved]) -> Report {
-    let mut table = Report::with_columns(&[
-        ("", "problem quantity method", Format::Words),
-        ("", "points", Format::Rough),
-        ("", "r_over_a", Format::Fixed),
-        ("", "error", Format::Rough),
-    ]);
+pub fn all_nodes(outcomes: &[Solved]) -> Rows {
+    let mut table = Rows::with_columns(&[("", "problem quantity method points r_over_a error")]);
     for outcome in outcomes {
         let Ok(all) = &outcome.errors else { continue };
         for (quantity, errors) in outcome.task.problem.facts().quantities.iter().zip(all) {
@@ -169,7 +145,7 @@ mod tests {
             }),
         };
         let outcomes = [outcome];
-        let text = problem_table(Problem::Limit, &outcomes).text();
+        let text = problem_table(Problem::Limit, &outcomes).text(2);
         let row = text.lines().nth(2).expect("a row");
         assert_eq!(row.matches("stopped at cycle 12.50").count(), 2, "{row}");
         assert!(row.chars().count() <= 80, "{row}");

@@ -1,12 +1,13 @@
 //! `numerics.accuracy` and `--estimate-error` on the command line.
 
-use super::{complain, progress};
+use super::complain;
+use super::progress::{self, Bar};
 use crate::reading::Errors;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use crate::studies::refinement::{self, Budget, Resolved};
 
-/// Finds the points and steps that meet the accuracy of `scenario` with `search`. Shows a spinner on stderr unless
+/// Finds the points and steps that meet the accuracy of `scenario` with `search`. Shows progress on stderr unless
 /// `quiet`, and warns there if the accuracy is not met.
 ///
 /// # Errors
@@ -17,11 +18,10 @@ pub(super) fn resolve(
     search: impl FnOnce(&Scenario) -> Result<Resolved, SessionError>,
 ) -> Result<Resolved, SessionError> {
     let message = "looking for points and steps that meet numerics.accuracy";
-    let spinner = progress::spinner(message, quiet || scenario.accuracy().is_none());
+    let is_quiet = quiet || scenario.accuracy().is_none();
+    let bar = Bar::new(message, 0.0, progress::COUNTS, is_quiet);
     let found = search(scenario);
-    // Another tick would draw it once more.
-    spinner.disable_steady_tick();
-    spinner.finish_and_clear();
+    drop(bar);
     if let Ok(Resolved { warning, .. }) = &found {
         warning.iter().for_each(|word| complain(word));
     }

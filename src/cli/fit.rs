@@ -9,8 +9,9 @@ use anyhow::Result;
 use serde::Serialize;
 
 use super::args::{self, Beside};
+use super::progress::{self, Bar};
 use super::report::Report;
-use super::{complain, given, progress};
+use super::{complain, given};
 use crate::export::target::Target;
 use crate::plot::theme::Role;
 use crate::plot::units::reading;
@@ -46,11 +47,9 @@ pub fn fit(options: &args::Fit) -> Result<()> {
 }
 
 fn run(fit: &Fit, quiet: bool) -> Result<(Fitted, u64)> {
-    let bar = progress::bar(0, "{pos} runs  {elapsed} gone", quiet);
-    let outcome = fit.run(&|| bar.inc(1));
-    let runs = bar.position();
-    bar.finish_and_clear();
-    Ok((outcome?, runs))
+    let bar = Bar::new("runs", 0.0, progress::COUNTS, quiet);
+    let outcome = fit.run(&|| bar.inc());
+    Ok((outcome?, bar.position() as u64))
 }
 
 /// Translates the command-line options into options of the fit.

@@ -1,83 +1,166 @@
-//! Progress bars on stderr, if it is a terminal.
+//! A line of progress on stderr, if it is a terminal.
 
-use std::fmt;
-use std::io::{self, IsTerminal};
-use std::time::Duration;
+use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-
+use super::guide::columns;
 use super::without_waiting;
+use crate::math::number::{exact, rounded};
+use crate::panics::locked;
 
-/// Units of the bar per cycle.
-const PARTS: f64 = 1000.0;
-
-/// Refresh interval of the bar.
+/// Refresh interval of the line.
 const INTERVAL: Duration = Duration::from_millis(100);
 
-/// Template of a bar that can estimate the remaining time.
-pub const TIMES: &str = "{percent}%  {elapsed} gone, {eta} to go";
+/// Cells of the bar.
+const CELLS: usize = 32;
 
-/// Template of a bar that counts runs of different lengths, whose remaining time cannot be estimated.
-pub const COUNTS: &str = "{pos} of {len}  {elapsed} gone";
+/// A bar that estimates the remaining time.
+pub const TIMES: bool = true;
 
-/// Makes a bar of `length`, followed by `behind` (placeholders of `indicatif`); hidden if `quiet` or if stderr is not a
-/// terminal.
-pub fn bar(length: usize, behind: &str, quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(length as u64), target(quiet));
-    if let Ok(style) = ProgressStyle::with_template(&format!("{{msg}} [{{bar:32}}] {behind}")) {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
+/// A bar of runs of different lengths, whose remaining time cannot be estimated.
+pub const COUNTS: bool = false;
+
+/// How far a command is, drawn by a separate thread, so that a terminal that stops reading does not stop the command. The
+/// line disappears when this is dropped.
+pub struct Bar {
+    state: Arc<State>,
+    drawer: Option<JoinHandle<()>>,
 }
 
-/// Makes a spinner for work of unknown length.
-pub fn spinner(message: &'static str, quiet: bool) -> ProgressBar {
-    // These characters exist in every locale.
-    let style = ProgressStyle::default_spinner().tick_chars("-\\|/ ");
-    let spinner = ProgressBar::with_draw_target(None, target(quiet)).with_style(style);
-    let spinner = spinner.with_message(message);
-    if !spinner.is_hidden() {
-        spinner.enable_steady_tick(INTERVAL);
-    }
-    spinner
+struct State {
+    length: f64,
+    is_timed: bool,
+    /// What is being done, and how much of the length is done.
+    reached: Mutex<(String, f64)>,
+    has_ended: AtomicBool,
 }
 
-/// Returns where progress is drawn, or a hidden target.
-fn target(quiet: bool) -> ProgressDrawTarget {
-    if quiet || !io::stderr().is_terminal() {
-        ProgressDrawTarget::hidden()
-    } else {
-        ProgressDrawTarget::stderr()
+/// Makes a bar of `length` (0 if it is unknown), with the remaining time if it is `timed`; hidden if `quiet` or if stderr
+/// is not a terminal.
+pub fn bar(length: usize, is_timed: bool, quiet: bool) -> Bar {
+    Bar::new("", length as f64, is_timed, quiet)
+}
+
+impl Bar {
+    /// Makes a bar with a message.
+    pub fn new(message: &str, length: f64, is_timed: bool, quiet: bool) -> Self {
+        let state = Arc::new(State {
+            length,
+            is_timed,
+            reached: Mutex::new((message.to_owned(), 0.0)),
+            has_ended: AtomicBool::new(false),
+        });
+        let is_shown = !quiet && io::stderr().is_terminal();
+        let drawer = is_shown.then(|| {
+            let state = state.clone();
+            thread::spawn(move || state.draw())
+        });
+        Self { state, drawer }
+    }
+
+    /// Says what is being done.
+    pub fn set_message(&self, message: impl Into<String>) {
+        locked(&self.state.reached).0 = message.into();
+    }
+
+    /// Says how much is done.
+    pub fn set_position(&self, position: f64) {
+        locked(&self.state.reached).1 = position;
+    }
+
+    /// Says that one more is done.
+    pub fn inc(&self) {
+        locked(&self.state.reached).1 += 1.0;
+    }
+
+    /// Returns how much is done.
+    pub fn position(&self) -> f64 {
+        locked(&self.state.reached).1
     }
 }
 
-/// The progress of a run in cycles, drawn by a separate thread, so that a terminal that stops reading does not stop the
-/// run. The bar disappears when this is dropped.
-pub struct Progress(ProgressBar);
-
-impl Progress {
-    /// Makes a bar for `cycles` in total.
-    pub fn new(cycles: f64, quiet: bool) -> Self {
-        let bar = bar((cycles * PARTS) as usize, TIMES, quiet);
-        let reached = |state: &ProgressState, out: &mut dyn fmt::Write| {
-            let _ = write!(out, "cycle {:.1}", state.pos() as f64 / PARTS);
-        };
-        bar.set_style(bar.style().with_key("msg", reached));
-        if !bar.is_hidden() {
-            bar.enable_steady_tick(INTERVAL);
-        }
-        Self(bar)
-    }
-
-    /// Shows that `cycle` is reached.
-    pub fn at(&self, cycle: f64) {
-        self.0.set_position((cycle * PARTS) as u64);
-    }
-}
-
-impl Drop for Progress {
+impl Drop for Bar {
     fn drop(&mut self) {
-        let bar = std::mem::replace(&mut self.0, ProgressBar::hidden());
-        without_waiting(!bar.is_hidden(), move || bar.finish_and_clear());
+        self.state.has_ended.store(true, Ordering::Relaxed);
+        if let Some(drawer) = self.drawer.take() {
+            without_waiting(true, move || {
+                drawer.thread().unpark();
+                let _ = drawer.join();
+            });
+        }
+    }
+}
+
+impl State {
+    /// Draws the line until the bar is dropped, then clears it.
+    fn draw(&self) {
+        let (start, mut before) = (Instant::now(), None);
+        loop {
+            thread::park_timeout(INTERVAL);
+            if self.has_ended.load(Ordering::Relaxed) {
+                break;
+            }
+            let before = *before.get_or_insert(locked(&self.reached).1);
+            let line = self.line(start.elapsed().as_secs_f64(), before);
+            let line: String = line.chars().take(columns().saturating_sub(1)).collect();
+            let _ = write!(io::stderr(), "\r{line}\x1b[K");
+        }
+        if before.is_some() {
+            let _ = write!(io::stderr(), "\r\x1b[K");
+        }
+    }
+
+    /// Formats the line after so many seconds, of a command that began with `before`.
+    fn line(&self, elapsed: f64, before: f64) -> String {
+        let (message, done) = locked(&self.reached).clone();
+        let gone = format!("{} gone", time(elapsed));
+        let [reached, length] = [done, self.length].map(|part| exact(rounded(part, 4)));
+        if self.length <= 0.0 {
+            let count = if done > 0.0 {
+                format!("{reached} ")
+            } else {
+                String::new()
+            };
+            return format!("{count}{message}  {gone}");
+        }
+        let share = (done / self.length).clamp(0.0, 1.0);
+        let bar = "=".repeat((share * CELLS as f64) as usize) + ">";
+        let left = elapsed * (self.length - done) / (done - before);
+        let left = match self.is_timed && left.is_finite() && left >= 0.0 {
+            true => format!(", {} to go", time(left)),
+            false => String::new(),
+        };
+        format!("{message} [{bar:CELLS$.CELLS$}] {reached} of {length}  {gone}{left}")
+    }
+}
+
+/// Formats a time in its largest unit.
+fn time(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 120.0 => format!("{seconds:.0}s"),
+        seconds if seconds < 7200.0 => format!("{:.0}min", seconds / 60.0),
+        seconds => format!("{:.1}h", seconds / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_says_what_is_done_and_what_is_left() {
+        let bar = Bar::new("cycle", 200.0, TIMES, true);
+        bar.set_position(50.04);
+        let line = format!(
+            "cycle [========>{}] 50.04 of 200  10s gone, 30s to go",
+            " ".repeat(23)
+        );
+        assert_eq!(bar.state.line(10.0, 0.0), line);
+        let runs = Bar::new("runs", 0.0, COUNTS, true);
+        runs.inc();
+        assert_eq!(runs.state.line(130.0, 0.0), "1 runs  2min gone");
     }
 }

@@ -62,9 +62,8 @@ fn lines(
     let mut lines = Vec::new();
     for setting in settings.iter().copied().take_while(|_| go_on()) {
         bar.set_message(format!("{}, N = {}", setting.method, setting.points));
-        lines.push(study.line(setting, &wear_numbers, go_on, || bar.inc(1))?);
+        lines.push(study.line(setting, &wear_numbers, go_on, || bar.inc())?);
     }
-    bar.finish_and_clear();
     Ok(lines)
 }
 

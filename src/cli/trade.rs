@@ -117,7 +117,7 @@ fn run(
             break;
         }
         trials.push(Trial::new(setting.clone(), ended, &reference));
-        bar.inc(1);
+        bar.inc();
     }
     let mut notes = vec![
         format!(
@@ -135,7 +135,7 @@ fn run(
             notes.push(cost(accuracy, &reached, &trials, &reference));
         }
     }
-    bar.finish_and_clear();
+    drop(bar);
     if !go_on() {
         let (tried, all) = (trials.len(), settings.len());
         notes.push(format!("interrupted: {tried} of {all} settings were tried"));

@@ -43,12 +43,10 @@ fn run(tasks: &[Task], quiet: bool) -> Vec<Solved> {
         let (problem, method, points) = (task.problem, task.method, task.points);
         bar.set_message(format!("{problem}, {method}, N = {points}"));
         let outcome = task.run();
-        bar.inc(1);
+        bar.inc();
         outcome
     });
-    let outcomes = outcomes.collect();
-    bar.finish_and_clear();
-    outcomes
+    outcomes.collect()
 }
 
 /// Groups the outcomes by problem.

@@ -90,7 +90,8 @@ impl<'a> Forecast<'a> {
     /// Says how many cycles the rig runs per day.
     pub fn a_day(&self) -> String {
         let frequency = self.shift.angular_frequency() / TAU;
-        let [cycles, frequency] = [frequency * DAY, frequency].map(|value| exact(rounded(value, 7)));
+        let [cycles, frequency] =
+            [frequency * DAY, frequency].map(|value| exact(rounded(value, 7)));
         format!("a day on the rig is {cycles} cycles at {frequency} Hz")
     }
 }

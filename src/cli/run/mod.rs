@@ -12,7 +12,7 @@ use anyhow::{Result, anyhow};
 
 use super::args::{CycleAsGiven, Run};
 use super::job::{RunJob, file_of};
-use super::progress::Progress;
+use super::progress::{self, Bar};
 use super::{FAILED, UNFINISHED, accuracy, complain, stop};
 use crate::export::autosave::{Autosave, Work};
 use crate::export::file::WriteError;
@@ -217,14 +217,14 @@ impl Job<'_> {
     /// early.
     fn advance(&mut self, why_stop: &dyn Fn() -> Option<&'static str>) -> Result<Option<String>> {
         let end = self.job.cycles;
-        let progress = Progress::new(end, self.options.quiet);
+        let progress = Bar::new("cycle", end, progress::TIMES, self.options.quiet);
         // A bug may leave this clone half-stepped; the copy then replaces it.
         let mut session = self.session.clone();
         let (mut before, mut outcome) = (None, Ok(()));
         let goal = session.heading(end);
         let ended = session.advance_towards(goal, end, |session| {
             outcome = self.step_is_over(session, &mut before);
-            progress.at(session.simulation().cycle());
+            progress.set_position(session.simulation().cycle());
             outcome.is_ok() && why_stop().is_none()
         });
         self.session = session;

@@ -119,10 +119,10 @@ fn refuse_invalid(
     bar.set_message("checking");
     let start = Instant::now();
     let checked = engine::check(study, shard, pool, |checked| {
-        bar.set_position((checked * shard.count) as u64);
+        bar.set_position((checked * shard.count) as f64);
         start.elapsed() < patience
     });
-    bar.finish_and_clear();
+    drop(bar);
     Ok(checked.map_err(invalid)?)
 }
 
@@ -142,8 +142,7 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
     crate::panics::capture();
     let bar = progress::bar(mine, progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
-    bar.set_position(output.ledger.rows() as u64);
-    bar.reset_eta();
+    bar.set_position(output.ledger.rows() as f64);
     let mut points = shard.points(study.points()).peekable();
     // With --json, prints each row as soon as all rows before it are known.
     let mut print = |ledger: &Ledger| -> Result<()> {
@@ -168,11 +167,11 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
             let added = output.add(point, &row);
             let added = added.map_err(|error| anyhow!("{error}"));
             outcome = added.and_then(|()| print(&output.ledger));
-            bar.inc(1);
+            bar.inc();
             outcome.is_ok()
         });
     }
-    bar.finish_and_clear();
+    drop(bar);
     let kept = output.close();
     let (there, failed) = (output.ledger.rows(), output.ledger.failed());
     let hint = format!(

@@ -61,7 +61,7 @@ fn questions_are_asked_in_a_terminal_and_answered_at_once() {
     let text = dir.read("mine.toml");
     has(
         &text,
-        "title = \"Ball of bronze on steel, 20 N, stroke 20 um\"",
+        "title = \"ball of bronze on steel, 20 N, stroke 20 um\"",
     );
     has(&text, "mean = \"20 N\"");
     has(&text, "cycles = 50.0");

@@ -8,48 +8,26 @@ use crate::scenario::key::{Key, join};
 use crate::scenario::value::literal;
 use crate::scenario::{Refusal, Scenario, units, write};
 
-/// A question. The help of its option is its text.
-pub struct Question {
-    /// The option that answers it in advance.
-    pub option: &'static str,
-    /// The key, or the table of a body, that the answer is for.
-    key: &'static str,
-    /// The unit of a bare number.
-    unit: &'static str,
-    /// The default answer.
-    pub default: &'static str,
-}
-
-const fn ask(
-    option: &'static str,
-    key: &'static str,
-    unit: &'static str,
-    default: &'static str,
-) -> Question {
-    Question {
-        option,
-        key,
-        unit,
-        default,
-    }
-}
+/// A question: the option that answers it in advance, and whose help is its text; the key, or the table of a body, that
+/// the answer is for; the unit of a bare number; and the default answer.
+pub type Question = [&'static str; 4];
 
 /// All questions, in the order in which they are asked.
 pub const QUESTIONS: [Question; 14] = [
-    ask("ball", "indenter.radius", "mm", "5 mm"),
-    ask("punch", "indenter.radius", "mm", "1 mm"),
-    ask("cylinder", "indenter.radius", "mm", "6 mm"),
-    ask("length", "indenter.length", "mm", "10 mm"),
-    ask("material", "material.indenter", "", "steel"),
-    ask("against", "material.half_space", "", "steel"),
-    ask("load", "motion.normal.mean", "N", "10 N"),
-    ask("depth", "motion.normal.mean", "um", "1 um"),
-    ask("stroke", "motion.tangential.amplitude", "um", "20 um"),
-    ask("gauge", "motion.tangential.gauge_length", "mm", "10 mm"),
-    ask("friction", "friction.coefficient", "", "0.6"),
-    ask("frequency", "motion.tangential.frequency", "Hz", "10 Hz"),
-    ask("wear", "wear.coefficient_per_load", "mm3/Nm", "1e-6 mm3/Nm"),
-    ask("cycles", "run.cycles", "", "1000"),
+    ["ball", "indenter.radius", "mm", "5 mm"],
+    ["punch", "indenter.radius", "mm", "1 mm"],
+    ["cylinder", "indenter.radius", "mm", "6 mm"],
+    ["length", "indenter.length", "mm", "10 mm"],
+    ["material", "material.indenter", "", "steel"],
+    ["against", "material.half_space", "", "steel"],
+    ["load", "motion.normal.mean", "N", "10 N"],
+    ["depth", "motion.normal.mean", "um", "1 um"],
+    ["stroke", "motion.tangential.amplitude", "um", "20 um"],
+    ["gauge", "motion.tangential.gauge_length", "mm", "10 mm"],
+    ["friction", "friction.coefficient", "", "0.6"],
+    ["frequency", "motion.tangential.frequency", "Hz", "10 Hz"],
+    ["wear", "wear.coefficient_per_load", "mm3/Nm", "1e-6 mm3/Nm"],
+    ["cycles", "run.cycles", "", "1000"],
 ];
 
 /// The words that go with an option: the key, and its word.
@@ -88,64 +66,54 @@ pub struct Answer {
     sets: Vec<(String, Value)>,
 }
 
-impl Question {
-    /// Reads an answer; a bare number has the question's unit.
-    ///
-    /// # Errors
-    /// The rule that the answer breaks.
-    pub fn read(&self, text: &str) -> Result<Answer, String> {
-        let text = text.trim();
-        let mut answer = match self.option {
-            "material" | "against" => self.body(text)?,
-            "wear" if text == "none" => Answer {
-                text: text.to_owned(),
-                sets: Vec::new(),
-            },
-            option => {
-                let (text, value) = quantity(text, self.key, self.unit)?;
-                let value = match option {
-                    "stroke" => Value::Float(0.5 * value),
-                    _ if self.unit.is_empty() => Value::Float(value),
-                    _ => Value::String(text.clone()),
-                };
-                let sets = vec![(self.key.to_owned(), value)];
-                Answer { text, sets }
-            }
-        };
-        let words = WORDS.iter().filter(|(option, ..)| *option == self.option);
-        let words = words.map(|(_, key, word)| ((*key).to_owned(), Value::from(*word)));
-        answer.sets.extend(words);
-        Ok(answer)
-    }
-
-    /// Reads a material: a name of the list, or `E,NU` such as `200 GPa,0.3`.
-    fn body(&self, text: &str) -> Result<Answer, String> {
-        let mut known = MATERIALS.iter();
-        let known = known.find(|(name, _)| name.eq_ignore_ascii_case(text));
-        let key = |key: &str| join(self.key, key);
-        if let Some((name, "")) = known {
-            return Ok(Answer {
-                text: (*name).to_owned(),
-                sets: vec![(key("rigid"), true.into())],
-            });
+/// Reads the answer to a question; a bare number has the question's unit.
+///
+/// # Errors
+/// The rule that the answer breaks.
+pub fn read([option, key, unit, _]: Question, text: &str) -> Result<Answer, String> {
+    let text = text.trim();
+    let (text, mut sets) = match option {
+        "material" | "against" => body(key, text)?,
+        "wear" if text == "none" => (text.to_owned(), Vec::new()),
+        _ => {
+            let (text, value) = quantity(text, key, unit)?;
+            let value = match option {
+                "stroke" => Value::Float(0.5 * value),
+                _ if unit.is_empty() => Value::Float(value),
+                _ => Value::String(text.clone()),
+            };
+            (text, vec![(key.to_owned(), value)])
         }
-        let elastic = known.map_or(text, |(_, elastic)| elastic);
-        let Some((modulus, poisson)) = elastic.split_once(',') else {
-            let names = MATERIALS.map(|(name, _)| name).join(", ");
-            return Err(format!(
-                "must be one of {names}, or E,NU such as \"200 GPa,0.3\""
-            ));
-        };
-        let (modulus, _) = quantity(modulus, &key("youngs_modulus"), "GPa")?;
-        let (_, poisson) = quantity(poisson, &key("poisson"), "")?;
-        Ok(Answer {
-            text: known.map_or(format!("E = {modulus}"), |(name, _)| (*name).to_owned()),
-            sets: vec![
-                (key("youngs_modulus"), modulus.into()),
-                (key("poisson"), poisson.into()),
-            ],
-        })
+    };
+    let words = WORDS.iter().filter(|(of, ..)| *of == option);
+    sets.extend(words.map(|(_, key, word)| ((*key).to_owned(), Value::from(*word))));
+    Ok(Answer { text, sets })
+}
+
+/// Reads a material, a name of the list or `E,NU` such as `200 GPa,0.3`: its name, and the keys of its table.
+fn body(table: &str, text: &str) -> Result<(String, Vec<(String, Value)>), String> {
+    let known = MATERIALS
+        .iter()
+        .find(|(name, _)| name.eq_ignore_ascii_case(text));
+    let key = |key: &str| join(table, key);
+    if let Some((name, "")) = known {
+        return Ok(((*name).to_owned(), vec![(key("rigid"), true.into())]));
     }
+    let elastic = known.map_or(text, |(_, elastic)| elastic);
+    let Some((modulus, poisson)) = elastic.split_once(',') else {
+        let names = MATERIALS.map(|(name, _)| name).join(", ");
+        return Err(format!(
+            "must be one of {names}, or E,NU such as \"200 GPa,0.3\""
+        ));
+    };
+    let (modulus, _) = quantity(modulus, &key("youngs_modulus"), "GPa")?;
+    let (_, poisson) = quantity(poisson, &key("poisson"), "")?;
+    let name = known.map_or(format!("E = {modulus}"), |(name, _)| (*name).to_owned());
+    let sets = [
+        ("youngs_modulus", modulus.into()),
+        ("poisson", poisson.into()),
+    ];
+    Ok((name, sets.map(|(of, value)| (key(of), value)).into()))
 }
 
 /// Reads the value of a key: the text with its unit, and the number in SI units. A bare number has the unit `unit`.
@@ -208,20 +176,14 @@ impl Answers {
     }
 
     fn title(&self) -> String {
-        let text = |option: &str| self.0.get(option).map(|answer| answer.text.as_str());
-        let shapes = [
-            ("ball", "Ball"),
-            ("punch", "Flat punch"),
-            ("cylinder", "Cylinder"),
-        ];
-        let shape = shapes.iter().find(|(option, _)| text(option).is_some());
+        let text = |option: &str| self.0.get(option).map_or("", |answer| answer.text.as_str());
+        let [of, on, stroke] = ["material", "against", "stroke"].map(text);
+        let shapes = ["ball", "punch", "cylinder"].into_iter();
+        let shape: String = shapes.filter(|shape| !text(shape).is_empty()).collect();
         format!(
-            "{} of {} on {}, {}, stroke {}",
-            shape.map_or("", |(_, name)| name),
-            text("material").unwrap_or_default(),
-            text("against").unwrap_or_default(),
-            text("load").or(text("depth")).unwrap_or_default(),
-            text("stroke").unwrap_or_default()
+            "{shape} of {of} on {on}, {}{}, stroke {stroke}",
+            text("load"),
+            text("depth")
         )
     }
 }
@@ -230,16 +192,15 @@ impl Answers {
 mod tests {
     use super::*;
 
-    fn read(option: &str, text: &str) -> Result<Answer, String> {
-        let mut questions = QUESTIONS.iter();
-        let question = questions.find(|question| question.option == option);
-        question.expect("a question").read(text)
+    fn answer(option: &str, text: &str) -> Result<Answer, String> {
+        let found = QUESTIONS.iter().find(|[of, ..]| *of == option);
+        read(*found.expect("a question"), text)
     }
 
     #[test]
     fn every_default_is_an_answer() {
-        for question in &QUESTIONS {
-            question.read(question.default).expect(question.option);
+        for question in QUESTIONS {
+            read(question, question[3]).expect(question[0]);
         }
     }
 
@@ -247,7 +208,7 @@ mod tests {
     fn materials_are_names_or_two_numbers() {
         for (name, _) in MATERIALS {
             assert_eq!(
-                read("material", name).map(|body| body.text).as_deref(),
+                answer("material", name).map(|body| body.text).as_deref(),
                 Ok(name)
             );
         }
@@ -255,12 +216,12 @@ mod tests {
             (" 200 GPa , 0.28", "200 GPa", 0.28),
             ("70,0.2", "70 GPa", 0.2),
         ] {
-            let body = read("against", text).expect("two numbers");
+            let body = answer("against", text).expect("two numbers");
             let values = body.sets.into_iter().map(|(_, value)| value);
             assert!(values.eq([Value::from(modulus), Value::from(poisson)]));
         }
         for text in ["stone", "200 GPa", "200 GPa,0.7", "200 mm,0.3", "-1,0.3"] {
-            assert!(read("material", text).is_err(), "{text}");
+            assert!(answer("material", text).is_err(), "{text}");
         }
     }
 

@@ -19,7 +19,7 @@ use crate::tui::line::wrapped;
 mod answers;
 mod forecast;
 
-use answers::{Answer, Answers, QUESTIONS, Question};
+use answers::{Answer, Answers, QUESTIONS, Question, read};
 use forecast::Forecast;
 
 /// Writes a new scenario.
@@ -91,9 +91,9 @@ impl Interview {
         } else {
             self.choose(&["load", "depth"])?
         };
-        let is_open = |question: &&Question| match question.option {
-            "ball" | "punch" | "cylinder" => question.option == shape,
-            "load" | "depth" => question.option == press,
+        let is_open = |[option, ..]: &Question| match *option {
+            option @ ("ball" | "punch" | "cylinder") => option == shape,
+            option @ ("load" | "depth") => option == press,
             "length" | "gauge" => is_line,
             _ => true,
         };
@@ -104,13 +104,13 @@ impl Interview {
         }
         // What is not asked yet has its default, so that the contact can be described already.
         let mut answers = Answers::default();
-        for question in QUESTIONS.iter().filter(is_open) {
-            let usual = question.read(question.default).map_err(Refusal::from)?;
-            answers.0.insert(question.option, usual);
+        for question @ [option, .., usual] in QUESTIONS.into_iter().filter(is_open) {
+            let usual = read(question, usual).map_err(Refusal::from)?;
+            answers.0.insert(option, usual);
         }
-        for question in QUESTIONS.iter().filter(is_open) {
-            answers.0.insert(question.option, self.ask(question)?);
-            match question.option {
+        for question @ [option, ..] in QUESTIONS.into_iter().filter(is_open) {
+            answers.0.insert(option, self.ask(question)?);
+            match option {
                 "load" | "depth" => self.show(&answers, |of| of.contact())?,
                 "friction" => self.show(&answers, |of| of.regime())?,
                 "frequency" => self.show(&answers, |of| of.a_day())?,
@@ -141,20 +141,17 @@ impl Interview {
     }
 
     /// Returns the answer to a question; asks the user again if it breaks a rule.
-    fn ask(&self, question: &Question) -> Result<Answer> {
-        if self.asks && self.given(question.option).is_none() {
-            let prompt = help(question.option);
-            loop {
-                match question.read(&read_line(&prompt, question.default)?) {
-                    Ok(answer) => return Ok(answer),
-                    Err(rule) => say(&rule)?,
-                }
+    fn ask(&self, question: Question) -> Result<Answer> {
+        let [option, .., usual] = question;
+        while self.asks && self.given(option).is_none() {
+            match read(question, &read_line(&help(option), usual)?) {
+                Ok(answer) => return Ok(answer),
+                Err(rule) => say(&rule)?,
             }
         }
-        let text = self.given(question.option).unwrap_or(question.default);
-        let place = format!("--{} {}", question.option, printable(text));
-        let answer = question.read(text);
-        Ok(answer.map_err(|rule| Refusal::new(place, rule))?)
+        let text = self.given(option).unwrap_or(usual);
+        let place = format!("--{option} {}", printable(text));
+        Ok(read(question, text).map_err(|rule| Refusal::new(place, rule))?)
     }
 
     /// Shows the user what closed forms predict from the answers so far.

@@ -25,10 +25,7 @@ pub const COUNTS: bool = false;
 
 /// How far a command is, drawn by a separate thread, so that a terminal that stops reading does not stop the command. The
 /// line disappears when this is dropped.
-pub struct Bar {
-    state: Arc<State>,
-    drawer: Option<JoinHandle<()>>,
-}
+pub struct Bar(Arc<State>, Option<JoinHandle<()>>);
 
 struct State {
     length: f64,
@@ -58,34 +55,34 @@ impl Bar {
             let state = state.clone();
             thread::spawn(move || state.draw())
         });
-        Self { state, drawer }
+        Self(state, drawer)
     }
 
     /// Says what is being done.
     pub fn set_message(&self, message: impl Into<String>) {
-        locked(&self.state.reached).0 = message.into();
+        locked(&self.0.reached).0 = message.into();
     }
 
     /// Says how much is done.
     pub fn set_position(&self, position: f64) {
-        locked(&self.state.reached).1 = position;
+        locked(&self.0.reached).1 = position;
     }
 
     /// Says that one more is done.
     pub fn inc(&self) {
-        locked(&self.state.reached).1 += 1.0;
+        locked(&self.0.reached).1 += 1.0;
     }
 
     /// Returns how much is done.
     pub fn position(&self) -> f64 {
-        locked(&self.state.reached).1
+        locked(&self.0.reached).1
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.state.has_ended.store(true, Ordering::Relaxed);
-        if let Some(drawer) = self.drawer.take() {
+        self.0.has_ended.store(true, Ordering::Relaxed);
+        if let Some(drawer) = self.1.take() {
             without_waiting(true, move || {
                 drawer.thread().unpark();
                 let _ = drawer.join();
@@ -118,31 +115,28 @@ impl State {
         let (message, done) = locked(&self.reached).clone();
         let gone = format!("{} gone", time(elapsed));
         let [reached, length] = [done, self.length].map(|part| exact(rounded(part, 4)));
-        if self.length <= 0.0 {
-            let count = if done > 0.0 {
-                format!("{reached} ")
-            } else {
-                String::new()
-            };
-            return format!("{count}{message}  {gone}");
+        if self.length <= 0.0 && done > 0.0 {
+            return format!("{reached} {message}  {gone}");
+        } else if self.length <= 0.0 {
+            return format!("{message}  {gone}");
         }
         let share = (done / self.length).clamp(0.0, 1.0);
         let bar = "=".repeat((share * CELLS as f64) as usize) + ">";
         let left = elapsed * (self.length - done) / (done - before);
-        let left = match self.is_timed && left.is_finite() && left >= 0.0 {
-            true => format!(", {} to go", time(left)),
-            false => String::new(),
-        };
-        format!("{message} [{bar:CELLS$.CELLS$}] {reached} of {length}  {gone}{left}")
+        let mut line = format!("{message} [{bar:CELLS$.CELLS$}] {reached} of {length}  {gone}");
+        if self.is_timed && left.is_finite() {
+            line += &format!(", {} to go", time(left));
+        }
+        line
     }
 }
 
 /// Formats a time in its largest unit.
 fn time(seconds: f64) -> String {
     match seconds {
-        seconds if seconds < 120.0 => format!("{seconds:.0}s"),
-        seconds if seconds < 7200.0 => format!("{:.0}min", seconds / 60.0),
-        seconds => format!("{:.1}h", seconds / 3600.0),
+        seconds if seconds < 120.0 => format!("{seconds:.0} s"),
+        seconds if seconds < 7200.0 => format!("{:.0} min", seconds / 60.0),
+        seconds => format!("{:.1} h", seconds / 3600.0),
     }
 }
 
@@ -155,12 +149,12 @@ mod tests {
         let bar = Bar::new("cycle", 200.0, TIMES, true);
         bar.set_position(50.04);
         let line = format!(
-            "cycle [========>{}] 50.04 of 200  10s gone, 30s to go",
+            "cycle [========>{}] 50.04 of 200  10 s gone, 30 s to go",
             " ".repeat(23)
         );
-        assert_eq!(bar.state.line(10.0, 0.0), line);
+        assert_eq!(bar.0.line(10.0, 0.0), line);
         let runs = Bar::new("runs", 0.0, COUNTS, true);
         runs.inc();
-        assert_eq!(runs.state.line(130.0, 0.0), "1 runs  2min gone");
+        assert_eq!(runs.0.line(130.0, 0.0), "1 runs  2 min gone");
     }
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde::Serialize;
 
-use super::args::{self, Beside};
+use super::args;
 use super::progress::{self, Bar};
 use super::report::Report;
 use super::{complain, given};
@@ -17,7 +17,7 @@ use crate::plot::theme::Role;
 use crate::plot::units::reading;
 use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Fit, Fitted, Options, SetResult, Structure, Switch, Value};
+use crate::studies::fit::{Fit, Fitted, Options, SetResult, Structure, Value};
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
@@ -54,15 +54,10 @@ fn run(fit: &Fit, quiet: bool) -> Result<(Fitted, u64)> {
 
 /// Translates the command-line options into options of the fit.
 fn fit_options(options: &args::Fit) -> Options {
-    let switch = |beside: Beside| match beside {
-        Beside::Auto => Switch::Auto,
-        Beside::On => Switch::On,
-        Beside::Off => Switch::Off,
-    };
     Options {
         cycles: options.cycles,
         robust: options.robust,
-        nuisances: [options.level, options.shift, options.tilt].map(switch),
+        nuisances: [options.level, options.shift, options.tilt],
         takes_stroke: options.stroke == args::Stroke::FromData,
         budget: options.budget,
     }

@@ -21,7 +21,7 @@ mod sweep;
 mod values;
 
 pub use figure::{Figure, PaperFigure, on_paper};
-pub use studies::{Beside, Fit, Guard, Inspect, Naming, Output, Stability, Stroke, Trade, Verify};
+pub use studies::{Fit, Guard, Inspect, Naming, Output, Stability, Stroke, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::cycles;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};

@@ -11,6 +11,7 @@ use super::values::{budget, by_name, cycles, load, number_within, points};
 use crate::math::abel::AbelMethod;
 use crate::plot::Marker;
 use crate::scenario::columns::{self, Field};
+use crate::studies::fit::Switch;
 use crate::studies::measured::Pick;
 use crate::studies::verify::{LADDER, Problem};
 use crate::studies::{stability, trade};
@@ -171,13 +172,13 @@ pub struct Fit {
     pub robust: bool,
     /// Whether the zero of depths and forces is fitted; auto: where the data can show it.
     #[arg(long, value_enum, default_value_t)]
-    pub level: Beside,
+    pub level: Switch,
     /// Whether the centre of a scar and the zero of displacements are fitted.
     #[arg(long, value_enum, default_value_t)]
-    pub shift: Beside,
+    pub shift: Switch,
     /// Whether the tilt of a trace through the axis is fitted.
     #[arg(long, value_enum, default_value_t)]
-    pub tilt: Beside,
+    pub tilt: Switch,
     /// If loops and scenario differ in their stroke: refuse, or use the stroke of the loops.
     #[arg(long, value_enum, default_value_t)]
     pub stroke: Stroke,
@@ -199,18 +200,6 @@ pub struct Fit {
     /// Show no progress.
     #[arg(long)]
     pub quiet: bool,
-}
-
-/// Whether to fit, in addition to the keys, a quantity that no key describes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum Beside {
-    /// Where the data can show it.
-    #[default]
-    Auto,
-    /// Always.
-    On,
-    /// Never.
-    Off,
 }
 
 /// Whose stroke a fit takes.

@@ -56,7 +56,7 @@ pub use report::{Fitted, Nuisance, SetResult, Value};
 pub use structure::Structure;
 
 /// Whether a nuisance is fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
 pub enum Switch {
     /// Where the data can show it.
     #[default]

@@ -131,9 +131,9 @@ impl History {
     }
 
     /// Drops the rows that are not in memory unless they are in the file at `path`; returns whether any are lost.
-    pub fn loses_rows(&mut self, path: Option<&Path>) -> bool {
-        let length = |path: &Path| safe_open::read(path)?.metadata().map(|about| about.len());
-        let length = path.and_then(|path| length(path).ok()).unwrap_or(0);
+    pub fn loses_rows(&mut self, path: &Path) -> bool {
+        let about = safe_open::read(path).and_then(|file| file.metadata());
+        let length = about.map_or(0, |about| about.len());
         let is_lost = length < self.written;
         if is_lost {
             self.written = 0;

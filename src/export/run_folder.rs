@@ -51,6 +51,8 @@ impl RunFolder {
         let folder = Self::claim(path, is_new)?;
         if !force {
             folder.refuse_results()?;
+            // Rows without a checkpoint are nobody's.
+            remove(&folder.rows())?;
         }
         Ok(folder)
     }

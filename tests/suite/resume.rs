@@ -118,6 +118,10 @@ fn a_copy_of_a_checkpoint_leaves_the_run_that_took_its_place_alone() {
     let line = "run li2019-fig3 --cycles 20 --set numerics.points=30 --snapshot-at 1,8 --history every-step";
     dir.done(&format!("{line} --out whole --quiet"));
     dir.alike("whole", "z");
+    fs::create_dir(dir.path("alone")).expect("a directory");
+    fs::copy(dir.path("copy"), dir.path("alone/run.checkpoint")).expect("a copy");
+    dir.done("run --resume alone/run.checkpoint --cycles 20 --quiet");
+    dir.alike("whole", "alone");
     dir.done("run --resume x/run.checkpoint --cycles 20 --quiet");
     dir.alike("whole", "x");
 }

@@ -76,18 +76,17 @@ impl<'a> Job<'a> {
             Some(folder) => {
                 let rule =
                     "another run has used this folder since; continue in another one with --out";
-                let is_ours = run.is_none() || is_own || options.force;
-                ensure!(is_ours, Refusal::new(folder.path().display(), rule));
-                let is_ours = run.is_none() || is_own;
-                keep_rows(&mut job, is_ours.then_some(folder.path()));
+                let is_free = run.is_none() || is_own;
+                ensure!(is_free, Refusal::new(folder.path().display(), rule));
                 folder
             }
             None => {
                 let rule = "is resumed in the folder where it lies, without --out; to have it elsewhere, move that first";
                 ensure!(!is_own, Refusal::new(&name, rule));
-                without_a_folder(options, &session, &mut job)?
+                folder_for(options, &session, &job)?
             }
         };
+        bring_files(&mut job, &folder)?;
         // The session goes on here, so nobody needs to be told of it any more.
         autosave::forget_crash(file);
         let resumed = Self::new(options, name, session, job, folder);
@@ -123,45 +122,41 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Claims the folder in which a checkpoint that lies in none continues: the one that it names, or `--out`, into which
-/// the files written so far are copied.
-fn without_a_folder(options: &Run, session: &Session, job: &mut RunJob) -> Result<RunFolder> {
+/// Claims the folder in which a checkpoint that lies in none continues: the one that it names, or `--out`.
+fn folder_for(options: &Run, session: &Session, job: &RunJob) -> Result<RunFolder> {
     let (out, force) = (options.out.as_deref(), options.force);
-    let named = job.home.take();
-    let home = named.as_deref().filter(|home| home.is_dir());
-    let is_own = home.and_then(RunFolder::run_in).as_ref() == Some(&job.id);
-    let at_home = home.filter(|home| out.is_none_or(|out| is_same(home, out)));
-    let folder = match at_home.or(out) {
-        Some(home) if is_own && at_home.is_some() => {
-            let folder = RunFolder::open(home)?;
-            if !force {
-                refuse_going_back(&folder, session)?;
-            }
-            folder
-        }
-        Some(path) => {
-            let folder = RunFolder::create(path, force)?;
-            if force {
-                folder.clear()?;
-            }
-            folder
-        }
-        None => new_folder(session.loaded())?,
+    let home = job.home.as_deref().filter(|home| home.is_dir());
+    let home = home.filter(|home| out.is_none_or(|out| is_same(home, out)));
+    let Some(path) = home.or(out) else {
+        return Ok(new_folder(session.loaded())?);
     };
-    if let (true, None, Some(home)) = (is_own, at_home, home) {
-        let rows = [RUN_ROWS.to_owned()];
-        folder.copy_from(home, job.snapshot_files().chain(rows))?;
+    if home.is_some() && RunFolder::run_in(path).as_ref() == Some(&job.id) {
+        let folder = RunFolder::open(path)?;
+        if !force {
+            refuse_going_back(&folder, session)?;
+        }
+        return Ok(folder);
     }
-    keep_rows(job, is_own.then_some(folder.path()));
+    let folder = RunFolder::create(path, force)?;
+    if force {
+        folder.clear()?;
+    }
     Ok(folder)
 }
 
-/// Continues without the rows of the history in the file if they are not in `folder`, and says so.
-fn keep_rows(job: &mut RunJob, folder: Option<&Path>) {
-    let rows = folder.map(|folder| folder.join(RUN_ROWS));
-    if job.history.loses_rows(rows.as_deref()) {
+/// Copies the files that the run has written so far into `folder`, if they lie in another one, and tells if the rows of
+/// the history are lost.
+fn bring_files(job: &mut RunJob, folder: &RunFolder) -> Result<()> {
+    let is_of_run = |path: &Path| RunFolder::run_in(path).as_ref() == Some(&job.id);
+    let home = job.home.as_deref().filter(|home| is_of_run(home));
+    if let Some(home) = home.filter(|_| !is_of_run(folder.path())) {
+        let names = job.snapshot_files().chain([RUN_ROWS.to_owned()]);
+        folder.copy_from(home, names)?;
+    }
+    if job.history.loses_rows(&folder.rows()) {
         complain("the history so far no longer exists; the rows begin at the checkpoint");
     }
+    Ok(())
 }
 
 /// Refuses to undo what the run has done in its folder since the checkpoint of `session`.

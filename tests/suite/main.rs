@@ -83,6 +83,7 @@ mod stability;
 mod sweep;
 #[cfg(unix)]
 mod terminal;
+mod theory;
 mod trade;
 mod truth;
 mod two_at_once;

@@ -4,7 +4,6 @@
 use super::{Faults, Spec};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
-use crate::math::abel::AbelMethod;
 use crate::math::geometry::Geometry;
 use crate::scenario::spec;
 use crate::scenario::value::length;
@@ -37,7 +36,8 @@ pub(super) fn geometry(spec: &Spec, faults: &mut Faults, indenter: &Indenter) ->
             (None, None) => Some(Geometry::Round),
         };
     }
-    if spec.numerics.method != Some(AbelMethod::Product) {
+    let method = spec.numerics.method;
+    if !method.is_some_and(|method| method.traits().serves_lines) {
         let rule =
             "must be \"product\" with geometry = \"line\": the other methods are of round contacts";
         return faults.refuse(spec, "numerics.method", rule);

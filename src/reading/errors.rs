@@ -86,3 +86,22 @@ impl FromStr for Errors {
         Ok(errors)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_line_reads_back_as_the_same_errors() {
+        let errors = Errors {
+            accuracy: Some(1e-2),
+            warning: Some("not reached: 1 | 2".into()),
+            ..Errors::new(|of| (!of.is_of_wear()).then_some(1.23456e-3))
+        };
+        assert_eq!(errors.get(Quantity::Force), Some(1.2e-3));
+        assert!(errors.are_measured() && !Errors::default().are_measured());
+        let again: Errors = errors.to_string().parse().expect("errors");
+        let warning = Some("not reached: 1, 2".into());
+        assert_eq!(again, Errors { warning, ..errors });
+    }
+}

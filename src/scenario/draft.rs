@@ -170,7 +170,7 @@ impl Draft {
         let mut keys: Vec<Key> = Key::all().collect();
         keys.sort_by_key(|key| key.path);
         for key in keys {
-            if let Some(raw) = self.given.get(key.path).cloned() {
+            if let Some(raw) = self.given.remove(key.path) {
                 self.read_value(key, raw);
             } else if let Some(Err(rule)) = self.spec.get(key).map(|value| value.check(key)) {
                 self.refuse(key, rule);
@@ -221,12 +221,11 @@ impl Draft {
         let mut notes = Vec::new();
         for Embedded { key, lists } in &SCHEMA.files {
             let is_name = |raw: &Raw| raw.is_str() || raw.is_table();
-            if !self.given.get(key).is_some_and(is_name) {
-                continue;
-            }
-            let Some(value) = self.given.remove(key) else {
+            let given = self.given.get(key).filter(|raw| is_name(raw)).cloned();
+            let Some(value) = given else {
                 continue;
             };
+            self.given.remove(key);
             let place = self.faults.place(key, &show(&value));
             let (file, naming) = named_file(key, &value).ok_or_else(|| {
                 let example = "{ file = \"tip.csv\", fields = \"r=2,f=3\", units = \"um,nm\" }";
@@ -251,10 +250,8 @@ impl Draft {
 
     /// Reads `[[changes]]`: an array of tables, each with both of its keys.
     fn read_changes(&mut self) -> Vec<Planned> {
-        let raw = self
-            .lists
-            .remove("changes")
-            .unwrap_or(Raw::Array(Vec::new()));
+        let raw = self.lists.remove("changes");
+        let raw = raw.unwrap_or(Raw::Array(Vec::new()));
         let rule = "must be an array of tables, [[changes]] with at_cycle and set";
         let Raw::Array(list) = raw else {
             self.faults.refuse_value("changes", &show(&raw), rule);
@@ -291,9 +288,8 @@ impl Draft {
         let (Value::Number(at_cycle), Value::Text(set)) = (cycle?, set?) else {
             return None;
         };
-        let place = self
-            .faults
-            .place(&join(at, "set"), &format!("\"{}\"", echo(&set)));
+        let shown = format!("\"{}\"", echo(&set));
+        let place = self.faults.place(&join(at, "set"), &shown);
         let planned = Planned::read(at_cycle, &set, place.clone());
         let refused = |error| self.faults.note(&place, |_| error);
         planned.map_err(refused).ok()

@@ -28,7 +28,7 @@ impl Value {
     ///
     /// # Errors
     /// The rule that it breaks.
-    pub(super) fn read(raw: &mut Raw, key: Key, is_force: bool) -> Result<Self, String> {
+    pub fn read(raw: &mut Raw, key: Key, is_force: bool) -> Result<Self, String> {
         let text = raw.as_str().unwrap_or_default();
         match units::quantity(text, &key, is_force) {
             Some(Ok(number)) => *raw = Raw::Float(number),

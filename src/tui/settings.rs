@@ -202,4 +202,22 @@ mod tests {
                 .any(|known| known.key.path == "indenter.angle")
         );
     }
+
+    #[test]
+    fn keys_of_the_chosen_law_shape_and_waveform_are_listed_with_what_they_are() {
+        let fig3 = Scenario::load("li2019-fig3", &[]).expect("a preset");
+        let shown = |scenario: &Scenario, path: &str| {
+            let settings = Setting::all(scenario).into_iter();
+            let mut found = settings.filter(|known| known.key.path == path);
+            found.next().map(|known| known.shown(true))
+        };
+        for (key, word, used, value) in [
+            ("wear.law", "power", "wear.stress_exponent", "1.5"),
+            ("wear.law", "power", "wear.reference_slip_rate", "10 um/s"),
+        ] {
+            assert_eq!(shown(&fig3, used), None, "{used}");
+            let other = fig3.assigned(&[(key, word)]).expect("a word");
+            assert_eq!(shown(&other, used).as_deref(), Some(value), "{used}");
+        }
+    }
 }

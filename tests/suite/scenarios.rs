@@ -8,7 +8,7 @@ use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{RunPlan, Scenario, preset};
 use mdr_tui::simulation::drive::Control;
-use mdr_tui::simulation::{Scheme, Simulation, Spacing};
+use mdr_tui::simulation::{Scheme, Setup, Simulation, Spacing};
 use mdr_tui::wear::{Form, Law};
 use proptest::prelude::*;
 use strum::VariantNames;
@@ -59,6 +59,10 @@ fn every_preset_and_valid_fixture_presses_its_contact_and_reads_back() {
             Scenario::from_toml(&text, &name, &[]).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(again(&scenario), scenario, "{name}");
         assert_eq!(again(&scenario).to_toml(), scenario.to_toml());
+        assert_eq!(
+            Setup::try_from(scenario.spec()).as_ref(),
+            Ok(scenario.setup())
+        );
         let preset = preset::find(&name);
         assert!(preset.is_none_or(|preset| preset.title() == scenario.title()));
         if scenario.setup().grid.cells() < 1000 && name != "narrow-domain.toml" {

@@ -294,8 +294,8 @@ mod tests {
             let known = Key::find(path).expect("a key");
             assert_eq!(known.kind.words().as_deref(), Some(names), "{path}");
         }
-        let method = Key::find("numerics.method").expect("a key").default.value();
-        let method = method.and_then(|word| word.as_str());
+        let key = Key::find("numerics.method").expect("a key");
+        let method = key.default.value().and_then(|word| word.as_str());
         assert_eq!(method, Some(AbelMethod::default().name()));
         let points = Key::find("numerics.points").expect("a key").range;
         assert_eq!(points, Range::Within(MIN_CELLS as f64, MAX_CELLS as f64));

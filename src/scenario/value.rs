@@ -185,62 +185,48 @@ pub(super) fn show(value: &Raw) -> String {
     }
 }
 
-/// A type that a field can hold.
-pub trait Held: Sized {
-    /// As a value.
-    fn value(&self) -> Value;
-    /// Of a value of the kind of its key.
-    fn held(value: Value) -> Option<Self>;
+/// A field that holds the value of a key, or none.
+pub trait Field {
+    /// Returns the value.
+    fn get(&self) -> Option<Value>;
+    /// Replaces it; a value of another kind is none.
+    fn put(&mut self, value: Option<Value>);
 }
 
-macro_rules! held {
+macro_rules! values {
     ($($type:ty: $variant:ident, $($as:ty)?;)*) => {$(
-        impl Held for $type {
-            fn value(&self) -> Value {
-                Value::$variant(self.clone() $(as $as)?)
+        impl Field for Option<$type> {
+            fn get(&self) -> Option<Value> {
+                self.clone().map(|value| Value::$variant(value $(as $as)?))
             }
-            fn held(value: Value) -> Option<Self> {
-                let Value::$variant(value) = value else { return None };
-                value.try_into().ok()
+            fn put(&mut self, value: Option<Value>) {
+                *self = match value {
+                    Some(Value::$variant(value)) => value.try_into().ok(),
+                    _ => None,
+                };
             }
         }
     )*};
 }
 
-held! { f64: Number,; usize: Whole, i64; u32: Whole, i64; bool: Flag,; String: Text,; Vec<f64>: Numbers,; }
+values! { f64: Number,; usize: Whole, i64; u32: Whole, i64; bool: Flag,; String: Text,; Vec<f64>: Numbers,; }
 
 macro_rules! words {
     ($($type:ty),* $(,)?) => {$(
-        impl Held for $type {
-            fn value(&self) -> Value {
-                Value::Word((*self).into())
+        impl Field for Option<$type> {
+            fn get(&self) -> Option<Value> {
+                self.map(|word| Value::Word(word.into()))
             }
-            fn held(value: Value) -> Option<Self> {
-                let Value::Word(word) = value else { return None };
-                word.parse().ok()
+            fn put(&mut self, value: Option<Value>) {
+                *self = match value {
+                    Some(Value::Word(word)) => word.parse().ok(),
+                    _ => None,
+                };
             }
         }
     )*};
 }
 pub(super) use words;
-
-/// A field that holds the value of a key, or none.
-pub trait Field {
-    /// The value.
-    fn get(&self) -> Option<Value>;
-    /// Replaces it.
-    fn put(&mut self, value: Option<Value>);
-}
-
-impl<T: Held> Field for Option<T> {
-    fn get(&self) -> Option<Value> {
-        self.as_ref().map(Held::value)
-    }
-
-    fn put(&mut self, value: Option<Value>) {
-        *self = value.map(|value| Held::held(value).expect("a value of the key's kind"));
-    }
-}
 
 impl Field for Vec<f64> {
     fn get(&self) -> Option<Value> {
@@ -248,7 +234,10 @@ impl Field for Vec<f64> {
     }
 
     fn put(&mut self, value: Option<Value>) {
-        *self = value.and_then(Held::held).unwrap_or_default();
+        *self = match value {
+            Some(Value::Numbers(list)) => list,
+            _ => Vec::new(),
+        };
     }
 }
 

@@ -25,9 +25,11 @@ pub fn guide(options: &Guide) -> Result<()> {
     Ok(shown?)
 }
 
-/// Returns the width of the terminal, in cells.
+/// Returns the width of the terminal, in cells; 80 if it is unknown.
 pub(super) fn columns() -> usize {
-    crossterm::terminal::size().map_or(80, |(columns, _)| usize::from(columns))
+    let size = crossterm::terminal::size().ok();
+    let columns = size.map(|(columns, _)| usize::from(columns));
+    columns.filter(|columns| *columns > 0).unwrap_or(80)
 }
 
 fn list() -> String {

@@ -186,7 +186,7 @@ fn read_line(prompt: &str, default: &str) -> Result<String> {
 
 /// Writes a text between the questions, in lines that fit the terminal.
 fn say(text: &str) -> io::Result<()> {
-    for line in wrapped(text, columns().saturating_sub(3)) {
+    for line in wrapped(text, columns().max(20) - 3) {
         writeln!(io::stderr(), "  {line}")?;
     }
     Ok(())

@@ -30,6 +30,25 @@
 //! receive owned [`reading::Observation`]s. The explorer and the headless commands drive the same session, so the same
 //! scenario and the same changes give bit-for-bit the same results.
 //!
+//! # To add something
+//!
+//! The compiler and the tests ask for what is missing; these are the places to begin.
+//!
+//! | to add | where |
+//! |---|---|
+//! | a wear law | `wear.rs`: a variant of [`wear::Form`] with its [`wear::Traits`]; its word and keys in `scenario/keys.toml`; the law itself in `guide/physics.md` |
+//! | a shape | `contact/indenter.rs`: a word of [`contact::indenter::Shape`], its profile and 1D image; word and keys in `keys.toml` |
+//! | a waveform | `simulation/waveform.rs`: a word of [`simulation::waveform::Wave`]; word and keys in `keys.toml`; `guide/rigs.md` |
+//! | a transform method | a file in `math/abel` with its weights, a variant of [`math::abel::AbelMethod`] with its traits; its word in `keys.toml`; `UPDATE_ORDERS=1 cargo test conformance::` |
+//! | a key of scenarios | its block in `keys.toml`, a field of that name in `scenario/spec.rs`, what is made of it in `scenario/setup` |
+//! | a column | its row in `reading/column.rs`: name, symbol, meaning, how it is read and merged; new ones come last |
+//! | a chart | a file in `charts` with its [`charts::Recipe`], which names the columns it needs, and its entry in `charts/mod.rs` |
+//! | a panel | the recipe's row in `tui/panels/mod.rs` |
+//! | a command of the explorer | its row in `tui/command.rs`: keys, name, help, action; help and palette are made from it |
+//! | a command of the program | a variant in `cli/args`, its file in `cli`, and a line in `tests/suite/commands.txt` |
+//!
+//! `UPDATE_DOCS=1 cargo test guide::` writes the lists of the guide again; look at the difference before keeping it.
+//!
 //! # Symbols (SI)
 //!
 //! | symbol | meaning | unit | equation |

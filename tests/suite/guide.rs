@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use mdr_tui::guide::TOPICS;
+use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::key::{Default, Key, Kind, Parameter};
 use mdr_tui::tui::command::{COMMANDS, Row};
@@ -339,4 +340,24 @@ fn row(parameter: &Parameter) -> String {
         _ => String::new(),
     };
     format!("| `{}` | {meaning} | {default} |\n", parameter.key())
+}
+
+/// The page on methods says of each what the program asks of its traits.
+#[test]
+fn the_table_of_methods_is_that_of_their_traits() {
+    let page = include_str!("../../src/guide/methods.md");
+    for method in AbelMethod::ALL {
+        let begins = format!("| `{method}` ");
+        let row = page.lines().find(|line| line.starts_with(&begins));
+        let row = row.unwrap_or_else(|| panic!("no row of {method}"));
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let traits = method.traits();
+        let keeps = if traits.is_causal { "yes" } else { "**no**" };
+        let runs = if traits.is_published {
+            "uniform, euler"
+        } else {
+            "graded, trapezoid"
+        };
+        assert_eq!(cells[3..5], [keeps, runs], "{method}");
+    }
 }

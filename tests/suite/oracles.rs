@@ -3,18 +3,21 @@
 //! The constants are about 1.5 times what was measured at N = 50 … 800.
 
 use crate::closed_forms::dual_oscillation::{DualOscillation, Frequencies};
+use crate::closed_forms::flat_punch::FlatPunch;
 use crate::closed_forms::fretting_loop::Branch;
 use crate::closed_forms::limiting_profile::LimitingProfile;
 use crate::closed_forms::partial_slip::stiffness_ratio;
 use crate::closed_forms::power_law::PowerLaw;
+use crate::closed_forms::truncated::TruncatedParaboloid;
 use crate::common::{
     PUBLISHED, Scene, cattaneo, fig3_motion, force, holds, largest, limit, near, run, swing,
 };
 use mdr_tui::contact::indenter::Indenter;
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad, Product};
 use mdr_tui::reading::Curves;
+use mdr_tui::scenario::Scenario;
 use mdr_tui::simulation::Simulation;
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use std::ops::Range;
 
 /// A displacement in shares of the one at which everything slips.
@@ -100,6 +103,49 @@ fn quartic() {
     let shape = Indenter::power(0.375, 4.0).expect("a shape");
     let bounds = [(11.0, 1.5), (0.7, 1.5), (1.2, 1.5), (0.6, 0.5)];
     check_normal(&PUBLISHED, shape, PowerLaw::quartic(0.375), bounds);
+}
+
+/// A punch exactly; a flat tip but for a tenth of a about its edge, where p is infinite.
+#[test]
+fn flat_faces() {
+    for (cells, bound) in [("50", 6e-3), ("200", 1e-3)] {
+        let pressed = |preset| {
+            let sets = [
+                format!("numerics.points={cells}"),
+                "numerics.grid=uniform".into(),
+            ];
+            let scenario = Scenario::load(preset, &sets).expect("a scenario");
+            Simulation::new(scenario.setup().clone()).expect("a contact")
+        };
+        let simulation = pressed("flat-punch");
+        let (setup, seen) = (simulation.setup(), simulation.observe(Curves::PRESSURE));
+        let punch = FlatPunch {
+            e_star: setup.material.normal_modulus(),
+            g_star: setup.material.tangential_modulus(),
+            mu: setup.material.friction(),
+            radius: setup.indenter.rim().expect("a punch"),
+            depth: seen.moment.depth,
+        };
+        let a = punch.radius;
+        let mean = punch.force() / (PI * a * a);
+        let inside = 0.0..a * (1.0 - 1e-9);
+        let error = worst(seen.radii(), seen.pressure(), inside, |r| punch.pressure(r));
+        holds(format!("p of a punch, N={cells}"), error / mean, 1e-12);
+
+        let simulation = pressed("truncated-paraboloid");
+        let (setup, seen) = (simulation.setup(), simulation.observe(Curves::PRESSURE));
+        let tip = TruncatedParaboloid {
+            e_star: setup.material.normal_modulus(),
+            radius: 0.01,
+            tip_radius: setup.indenter.tip_radius(),
+        };
+        let (a, b) = (tip.contact_radius(seen.moment.depth), tip.tip_radius);
+        let mean = tip.force(a) / (PI * a * a);
+        for range in [0.0..b - 0.1 * a, b + 0.1 * a..a] {
+            let error = worst(seen.radii(), seen.pressure(), range, |r| tip.pressure(a, r));
+            holds(format!("p of a flat tip, N={cells}"), error / mean, bound);
+        }
+    }
 }
 
 #[test]

@@ -4,8 +4,9 @@
 use crate::common::{begin, load, rehearsed, rehearsed_on};
 use crate::hostile::fuzzed::strokes;
 use crate::random::Random;
+use crate::random_kinds::words;
 use crate::screen_table::{hold, part_of};
-use crate::test_dir::{Said, TestDir, has};
+use crate::test_dir::{Said, TestDir, has, names};
 
 /// The screen in 80 by 24 after `keys` on a scenario.
 fn shot_of(dir: &TestDir, scenario: &str, keys: &str) -> String {
@@ -214,4 +215,23 @@ fn themes_and_markers_change_the_look_and_nothing_else() {
     let text = on_console(&[]);
     assert!(!braille(&text) && text.contains('▄'), "{text}");
     assert!(braille(&on_console(&["--marker", "braille"])));
+}
+
+/// The status line and the files call each law by its word in `keys.toml`.
+#[test]
+fn w_goes_through_every_law_by_its_word() {
+    let mut laws = words("wear.law");
+    laws.rotate_left(1);
+    for (at, law) in laws.into_iter().enumerate() {
+        let keys = format!(",{}", "w".repeat(at + 1));
+        let screen = rehearsed("li2019-fig3", &keys, (200, 50));
+        has(&part_of(&screen, "status"), &format!("│ {law} "));
+        let dir = TestDir::new();
+        dir.screen(&["li2019-fig3"], &format!("{keys}s"), (200, 50));
+        let [name] = &names(&dir.path(""))[..] else {
+            panic!("not one snapshot");
+        };
+        let table = dir.table(&format!("{name}/state.csv"));
+        assert_eq!(table.header("law"), law);
+    }
 }

@@ -68,6 +68,14 @@ fn wear_ends_on_the_limiting_profile() {
     meets("line", theory.limiting_profile(&radii(b)), b, profile);
 }
 
+/// What the traits of a law say decides: here, that nothing wears.
+#[test]
+fn a_law_that_never_gets_there_has_no_limiting_profile() {
+    let (setup, theory) = load("limit-shape", &["wear.coefficient=0"]);
+    let b = setup.grid.nodes().last().expect("a domain");
+    assert_eq!(theory.limiting_profile(&radii(*b)), None);
+}
+
 #[test]
 fn pressures_are_those_of_power_laws() {
     let cone = ["indenter.shape=cone", "indenter.angle=0.01"];

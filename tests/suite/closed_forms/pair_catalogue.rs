@@ -39,8 +39,10 @@ enum Source {
     CutGauss,
 }
 
-use Source::{CutDifference, CutGauss, CutPower, Dimple, Gauss, Power, Ramp, SquareRamp};
-use Transform::{LineToSurface, LoadToStress, ProfileToMdr};
+use super::pair_catalogue::Source::{
+    CutDifference, CutGauss, CutPower, Dimple, Gauss, Power, Ramp, SquareRamp,
+};
+use super::pair_catalogue::Transform::{LineToSurface, LoadToStress, ProfileToMdr};
 
 /// σ of the Gaussians.
 const SIGMA: f64 = 0.5;

@@ -89,8 +89,12 @@ mod tests {
         let broken = "one two\nthree\n| `a` | b\n|\n";
         assert_eq!(fitted(&text, 9), format!("# A\n{code}{broken}"));
         for topic in TOPICS {
+            // Rules of tables may be wider than the terminal.
+            let is_word = |word: &&str| word.contains(char::is_alphanumeric);
             let shown = fitted(topic.text, 80);
-            assert!(shown.split_whitespace().eq(topic.text.split_whitespace()));
+            let shown = shown.split_whitespace().filter(is_word);
+            let whole = topic.text.split_whitespace().filter(is_word);
+            assert!(shown.eq(whole), "{}", topic.name);
         }
     }
 

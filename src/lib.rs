@@ -10,7 +10,7 @@
 //!
 //! | layer | holds | knows |
 //! |---|---|---|
-//! | [`math`] | grids, root finding, the three Abel transforms and the ways to compute them | no physics |
+//! | [`math`] | grids, root finding, the three Abel transforms and the ways to compute them, numbers as text | no physics |
 //! | [`contact`] | materials, indenters, normal and tangential springs | no time |
 //! | [`wear`] | wear laws | one step |
 //! | [`simulation`] | motion, state, stepping | no scenario, no file, no screen |

@@ -8,13 +8,12 @@ use super::cycles::Cycles;
 use super::fit::at_cycle;
 use super::given;
 use super::report::Report;
-use crate::math::number::shown;
 use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
-use crate::reading::column::unit_of;
 use crate::scenario::columns::Columns;
 use crate::studies::measured::{Kind, Measured};
+use crate::studies::table::Rows;
 use crate::traces::Axes;
 
 /// How a table is understood.
@@ -26,20 +25,11 @@ struct Understood {
     /// The kind of data.
     kind: &'static str,
     rows: usize,
-    columns: Vec<Column>,
+    /// Each with the name that this program uses, in SI units, and its ends.
+    columns: Rows,
     notes: Vec<String>,
     #[serde(flatten)]
     cycles: Cycles,
-}
-
-#[derive(Serialize)]
-struct Column {
-    name: String,
-    /// The name that this program uses, in SI units.
-    read_as: String,
-    least: f64,
-    largest: f64,
-    missing: usize,
 }
 
 /// Prints and draws how a file is understood.
@@ -74,29 +64,21 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         understood.notes.extend(understood.cycles.trends());
     }
     let mut report = understood.report();
-    report.charts(&[chart(&measured)], options.marker);
-    report.charts(&understood.cycles.charts(), options.marker);
+    let mut charts = vec![chart(&measured)];
+    charts.extend(understood.cycles.charts());
+    report.charts(&charts, options.marker);
     report.print(options.json.then_some(&understood))
 }
 
 fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Understood {
     let all = columns.all();
-    let described = columns
-        .described()
-        .zip(&all)
-        .filter(|(_, (_, values))| values.iter().any(|value| value.is_finite()));
-    let described = described.map(|((name, own, _), (_, values))| {
+    let mut described = Rows::with_columns(&[("", "name read_as least largest missing")]);
+    for ((name, own, _), (_, values)) in columns.described().zip(&all) {
         let finite = values.iter().copied().filter(|value| value.is_finite());
-        let [least, largest] = range(finite.clone()).unwrap_or_default();
-        let missing = values.len() - finite.count();
-        Column {
-            name: name.to_owned(),
-            read_as: own.to_owned(),
-            least,
-            largest,
-            missing,
+        if let Some([least, largest]) = range(finite.clone()) {
+            described.push((name, own, least, largest, values.len() - finite.count()));
         }
-    });
+    }
     let mut notes = measured.notes.clone();
     if measured.axes.over_r() {
         notes.extend(of_trace(measured));
@@ -112,7 +94,7 @@ fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Unde
             _ => "a history",
         },
         rows: columns.len(),
-        columns: described.collect(),
+        columns: described,
         notes,
         cycles: Cycles::default(),
     }
@@ -156,20 +138,7 @@ impl Understood {
         let mut report = Report::default();
         report.line(format!("{}: {}", self.file, self.kind));
         report.line(format!("{} rows, {}", self.rows, self.written));
-        let row = |column: &Column| {
-            let (read_as, unit) = (&column.read_as, unit_of(&column.read_as));
-            let [least, largest] = [column.least, column.largest].map(|end| shown(end, 4));
-            let gaps = match column.missing {
-                0 => String::new(),
-                missing => format!(", {missing} missing"),
-            };
-            format!("read as {read_as}: {least} to {largest} {unit}{gaps}")
-        };
-        let rows = self.columns.iter();
-        let rows: Vec<_> = rows
-            .map(|column| (column.name.as_str(), row(column)))
-            .collect();
-        report.rows(&rows);
+        report.table(&self.columns, 4);
         report.lines(&self.notes);
         self.cycles.add_to(&mut report);
         report

@@ -118,7 +118,7 @@ fn the_chapter_on_measuring_finds_mu_and_k() {
     for part in [
         "windows-1252, separated by semicolons, decimal commas",
         "3 whole cycles",
-        "read as Displacement_m",
+        "Displacement Displacement_m",
     ] {
         has(&record, part);
     }

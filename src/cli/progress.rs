@@ -35,7 +35,7 @@ struct State {
     has_ended: AtomicBool,
 }
 
-/// Makes a bar of `length` (0 if it is unknown), with the remaining time if it is `timed`; hidden if `quiet` or if stderr
+/// Makes a bar of `length`, 0 if it is unknown, with the remaining time if `is_timed`; hidden if `quiet` or if stderr
 /// is not a terminal.
 pub fn bar(length: usize, is_timed: bool, quiet: bool) -> Bar {
     Bar::new("", length as f64, is_timed, quiet)

@@ -61,9 +61,12 @@ impl Rows {
             .map(|at| self.is_words(at))
             .collect();
         let spans = |row: &[Value], at: usize| !is_words[at] && row[at].is_string();
-        let aligned = |at: usize, text: &str, width: usize| match is_words[at] {
-            true => format!("{text:width$}"),
-            false => format!("{text:>width$}"),
+        let aligned = |at: usize, text: &str, width: usize| {
+            if is_words[at] {
+                format!("{text:width$}")
+            } else {
+                format!("{text:>width$}")
+            }
         };
         let width = |(at, (_, name)): (usize, &(String, String))| {
             let cells = self.rows.iter().filter(|row| !spans(row, at));

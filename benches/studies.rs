@@ -10,8 +10,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use mdr_tui::studies::sweep::{Study, engine};
-use rayon::ThreadPoolBuilder;
+use mdr_tui::studies::sweep::{Status, Study, engine};
 
 fn study(side: usize) -> Study {
     let text = format!(
@@ -26,17 +25,14 @@ fn study(side: usize) -> Study {
 
 /// The study's time on `threads` threads, s, and the number of failed points.
 fn seconds(study: &Study, threads: usize) -> (f64, usize) {
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .expect("threads");
-    let todo = 0..study.points();
+    let todo = Vec::from_iter(0..study.points());
     let mut failed = 0;
     let start = Instant::now();
-    engine::run(study, todo, &pool, &|| true, |_, row| {
-        failed += usize::from(row.last().is_some_and(|status| status != "ok"));
+    let ran = engine::run(study, &todo, threads, &|| true, |row| {
+        failed += usize::from(row.status != Status::Ok);
         true
     });
+    ran.expect("threads");
     (start.elapsed().as_secs_f64(), failed)
 }
 

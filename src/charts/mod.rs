@@ -27,6 +27,7 @@ pub mod scar_growth;
 mod simulated;
 pub mod springs;
 pub mod stresses;
+pub mod study;
 mod view;
 pub mod volume;
 

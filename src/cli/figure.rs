@@ -10,6 +10,7 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::args::{Figure, PaperFigure, on_paper};
 use super::{accuracy, given, job};
+use crate::charts::study::Slice;
 use crate::charts::{Recipe, Run, USUAL, depth, scar_depth, volume};
 use crate::export::target::Target;
 use crate::figure::look::FigureStyle;
@@ -21,7 +22,7 @@ use crate::scenario::columns::{Columns, Naming};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::ghost::Ghost;
 use crate::studies::sweep::record::Record;
-use crate::studies::sweep::slice::Slice;
+use crate::studies::sweep::{Results, Shard};
 use crate::traces::Table;
 
 /// The largest table header to be read, in bytes.
@@ -177,13 +178,8 @@ fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
         let rule = format!("is for a run; {source} is the table of a sweep, which has --column");
         bail!(Refusal::new(name, rule));
     }
-    let mut slice = Slice::new(record.study()?, source)?;
-    slice.renew(record, source)?;
-    for set in &options.changes.set {
-        let (key, value) = set.split_once('=').unwrap_or((set, ""));
-        let held = slice.fix_axis(key.trim(), value.trim());
-        held.map_err(|why| Refusal::new(format_args!("--set {}", printable(set)), why))?;
-    }
+    let (results, _) = Results::read(record.study()?, Shard::WHOLE, &[record])?;
+    let slice = Slice::new(results, &options.changes.set).map_err(Refusal::from)?;
     Ok(figure_of_study::sheet(&slice, &options.column, source).map_err(Refusal::from)?)
 }
 

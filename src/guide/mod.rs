@@ -65,7 +65,7 @@ topics! {
     comparing = "comparing.md": "measured data, other runs and earlier states over the plots";
     paper = "paper.md": "from a test to a paper: fit, sheet, map and supplement in one sitting";
     figures = "figures.md": "figures for a paper, and the figures of the paper";
-    studies = "studies.md": "many runs at once: maps, sensitivities, clusters";
+    studies = "studies.md": "many runs at once: maps, samples, clusters";
     python = "python.md": "runs and figures from Python";
     rigs = "rigs.md": "real rigs: waveforms, load blocks, compliance, measured profiles, fits";
     lines = "lines.md": "line contacts: a cylinder on a flat";

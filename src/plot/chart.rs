@@ -143,7 +143,7 @@ impl Curve {
     }
 
     /// Returns the points of the curve, including gaps.
-    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub fn points(&self) -> impl DoubleEndedIterator<Item = (f64, f64)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
 
@@ -207,7 +207,7 @@ pub struct Chart {
     pub marks: Vec<Mark>,
     /// A remark at the right end of the title row, in a terminal.
     pub note: String,
-    /// The map below the curves, on paper.
+    /// The map below the curves.
     pub map: Option<Map>,
     /// Free space at both ends of the abscissa on paper, relative to the data's extent.
     pub margin: f64,

@@ -1,11 +1,13 @@
 //! Values over two axes, drawn as colours.
 
 use ratatui::style::Color;
+use ratatui::text::{Line, Span};
 
 use super::axis::{Axis, Scale};
 use super::colormap::{ColorMap, indexed};
-use super::shades::{self, SHADES};
+use super::shades::{self, SHADES, has_blocks};
 use super::theme::{Look, Role, Theme};
+use super::units::range_ends;
 use crate::math::scan::range;
 
 /// Maximum number of words that a map can distinguish.
@@ -61,6 +63,34 @@ impl Map {
         (scale.spread(value) - low) / (high - low)
     }
 
+    /// Returns the key to its colours: the quantity between the ends of the colours, or the words.
+    pub(super) fn key(&self, theme: &Theme) -> Vec<Line<'static>> {
+        let words = SWATCHES.into_iter().zip(&self.words);
+        let words = words.map(|((sign, role), word)| {
+            let swatch = if has_blocks(theme) { '█' } else { sign };
+            let swatch = Span::styled(swatch.to_string(), theme.style(role));
+            Line::from_iter([swatch, Span::raw(format!(" {word}"))])
+        });
+        if !self.words.is_empty() {
+            return words.collect();
+        }
+        let name = theme.printable(&self.quantity.label);
+        let mut line = Line::from(Span::styled(name, theme.style(Role::Focus)));
+        let is_shown = |value: &f64| self.quantity.scale.has(*value);
+        if self.values.iter().any(is_shown) {
+            let [low, high] = range_ends(self.range(), self.quantity.unit, 3);
+            let log = if self.quantity.scale == Scale::Log {
+                "  log"
+            } else {
+                ""
+            };
+            let ends = [format!("  {low} "), format!(" {high}{log}")];
+            let ends = ends.map(|end| theme.printable(&end));
+            line.extend(shades::key(theme, self.colors, SIGNS, ends));
+        }
+        vec![line]
+    }
+
     /// Returns the colour of a value in a terminal, and the character that replaces it without colours.
     pub(super) fn look(&self, value: f64, range: [f64; 2], theme: &Theme) -> (Option<Color>, char) {
         if !self.quantity.scale.has(value) {
@@ -76,6 +106,25 @@ impl Map {
         let (sign, role) = SWATCHES[value as usize % WORDS];
         (theme.style(role).fg, sign)
     }
+}
+
+/// Puts parts side by side, in as many lines of this width as they need.
+pub fn side_by_side(
+    parts: impl IntoIterator<Item = Line<'static>>,
+    width: u16,
+) -> Vec<Line<'static>> {
+    let mut lines: Vec<Line> = Vec::new();
+    for part in parts {
+        let fits = |line: &&mut Line| line.width() + 2 + part.width() <= usize::from(width);
+        match lines.last_mut().filter(fits) {
+            Some(line) => {
+                line.push_span("  ");
+                line.extend(part);
+            }
+            None => lines.push(part),
+        }
+    }
+    lines
 }
 
 /// Returns the colour of text on a map: white on its dark blues, black on bright colours.

@@ -48,6 +48,7 @@ pub use axis::{Axis, Scale, nice_bounds, sticky_bounds};
 pub use chart::{Chart, Curve, Mark, Point};
 pub use map::Map;
 pub use marker::Marker;
+
 use ratatui::layout::Rect;
 use theme::Theme;
 

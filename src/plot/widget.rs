@@ -2,14 +2,15 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::buffer::Cell;
-use ratatui::layout::{self, Rect, Size};
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{self, Layout, Rect, Size};
 use ratatui::style::Style;
+use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::Widget;
 
-use super::Plot;
 use super::axis::Axis;
 use super::legend::cells;
-use super::map::{Map, ink_on};
+use super::map::{Map, ink_on, side_by_side};
 use super::marker::Under;
 use super::raster::{Position, Raster};
 use super::shades::{has_blocks, paint_halves};
@@ -17,6 +18,7 @@ use super::stroke::Stroke;
 use super::theme::{Role, look_of};
 use super::ticks::{Labels, Ruler};
 use super::window::Window;
+use super::{Curve, Plot, Point};
 
 /// The smallest area that gets axes, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
@@ -33,6 +35,24 @@ impl Plot<'_> {
         let column = cell.x.checked_sub(frame.inner.x)?;
         frame.inner.contains(cell).then(|| window.middle(column, 1))
     }
+
+    /// Draws the key to the colours and lines of a map; returns the area below it.
+    fn key(&self, area: Rect, buf: &mut Buffer) -> Rect {
+        let map = self.chart.map.as_ref().filter(|_| !is_bare(area));
+        let colors = map.map(|map| map.key(self.theme));
+        let names = self.chart.named_curves().filter(|_| map.is_some());
+        let names = names.map(|curve| {
+            let name = format!("{} {}", letter(curve), curve.name);
+            let quiet = self.theme.style(Role::Quiet);
+            Line::from(Span::styled(self.theme.printable(&name), quiet))
+        });
+        let mut lines = side_by_side(colors.into_iter().flatten().chain(names), area.width);
+        lines.truncate(usize::from(area.height / 4));
+        let layout = Layout::vertical([Length(lines.len() as u16), Fill(1)]);
+        let [key, below] = layout.areas(area);
+        Text::from(lines).render(key, buf);
+        below
+    }
 }
 
 impl Widget for Plot<'_> {
@@ -41,6 +61,7 @@ impl Widget for Plot<'_> {
         if area.is_empty() {
             return;
         }
+        let area = self.key(area, buf);
         let frame = PlotLayout::new(&self, area);
         let mut raster = frame.raster();
         if !is_bare(area) {
@@ -59,6 +80,12 @@ impl Widget for Plot<'_> {
         }
         frame.signs(buf);
     }
+}
+
+/// Returns the letter that marks a curve on a map: the first of its name.
+fn letter(curve: &Curve) -> char {
+    let first = curve.name.chars().next().unwrap_or(' ');
+    first.to_ascii_uppercase()
 }
 
 /// Whether an area is too small for axes.
@@ -239,7 +266,22 @@ impl<'p> PlotLayout<'p> {
                 glyph(buf, place, self.sign('▲'), style);
             }
         }
-        for point in &plot.chart.points {
+        let lines = plot.chart.named_curves();
+        let lines = lines.filter(|_| plot.chart.map.is_some());
+        let ends = lines.filter_map(|line| {
+            let mut points = line
+                .points()
+                .filter(|(x, y)| x.is_finite() && y.is_finite());
+            let (x, y) = points.next_back()?;
+            let (sign, role) = (letter(line), Role::Title);
+            Some(Point {
+                at: [x, y],
+                sign,
+                role,
+            })
+        });
+        let ends = Vec::from_iter(ends);
+        for point in ends.iter().chain(&plot.chart.points) {
             if let (Some(column), Some(row)) = (x.cell(point.at[0]), y.cell(point.at[1])) {
                 let place = (self.inner.x + column, self.inner.bottom() - 1 - row);
                 let style = plot.theme.style(point.role);

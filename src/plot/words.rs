@@ -18,12 +18,14 @@ impl PlotLayout<'_> {
         let (plot, area, inner) = (self.plot, self.area, self.inner);
         let (theme, units) = (plot.theme, [&self.x.unit, &self.y.unit]);
         let quiet = theme.style(Role::Quiet);
-        let legend = Legend::arrange(plot, units, raster);
+        // A map has its key above.
+        let is_map = plot.chart.map.is_some();
+        let legend = Legend::arrange(plot, units, raster).filter(|_| !is_map);
         // If the legend would cover a curve, the curves are named at their ends instead; without room for a legend, those
         // that have room there.
         let is_read = plot.cursor.is_some();
         let at_ends = match &legend {
-            _ if is_read => None,
+            _ if is_read || is_map => None,
             Some(legend) if legend.covered == 0 => None,
             Some(_) => self.names_at_ends(raster, true),
             None => self.names_at_ends(raster, false),

@@ -5,11 +5,13 @@ use std::f64::consts::PI;
 use crate::closed_forms::half_space::by_point_forces;
 use crate::common::{Scene, holds, ours, run_setup};
 use crate::test_dir::TestDir;
+use mdr_tui::charts::study::Slice;
+use mdr_tui::charts::study::lines::criteria;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
 use mdr_tui::reading::subsurface::Stress;
 use mdr_tui::studies::sweep::record::Record;
-use mdr_tui::studies::sweep::slice::Slice;
+use mdr_tui::studies::sweep::{Results, Shard};
 
 /// p₀ of the default scene: E* = R = d = 1 and a = 1.
 const P0: f64 = 2.0 / PI;
@@ -250,17 +252,19 @@ fn the_fatigue_limit_is_a_line_on_the_map() {
     dir.write("study.toml", study.as_bytes());
     dir.line("sweep study.toml --out map.csv --quiet")
         .ends(0, "");
-    let file = std::fs::File::open(dir.path("map.csv")).expect("the table");
-    let record = Record::open(file, "map.csv").expect("a table");
+    let record = Record::of_file(&dir.path("map.csv")).expect("a table");
     let study = record.study().expect("a study");
-    let mut slice = Slice::new(study, "map.csv").expect("two axes");
-    slice.renew(record, "map.csv").expect("its rows");
-    let lines = slice.criteria();
+    let results = Results::read(study, Shard::WHOLE, &[record]);
+    let (results, _) = results.expect("its rows");
+    let slice = Slice::new(results, &[]).expect("two axes");
+    let lines = criteria(&slice);
     let [line] = &lines[..] else {
         panic!("{lines:?}")
     };
-    // Every row is crossed once, and the pieces join them all.
-    let rows = line.at.iter().filter(|[_, y]| y.fract() == 0.0);
+    // Every row is crossed once, and the line has no gap.
+    let depths = slice.y().expect("two axes");
+    let depths: Vec<f64> = (0..4).filter_map(|place| depths.number(place)).collect();
+    let rows = line.ys.iter().filter(|y| depths.contains(y));
     assert_eq!(rows.count(), 4, "{line:?}");
-    assert_eq!(line.parts().count(), 1, "{line:?}");
+    assert!(line.ys.iter().all(|y| y.is_finite()), "{line:?}");
 }

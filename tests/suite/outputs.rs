@@ -95,7 +95,6 @@ fn a_study_under_way_is_refused_to_others_before_they_compute_even_by_force() {
         for line in [
             "sweep a.toml --out x.csv --force",
             "sweep long.toml --out x.csv --resume",
-            "sweep --sensitivity a.toml --out x.csv --force",
             "verify --csv x.csv --force",
         ] {
             let said = &together(&dir, &[line], Duration::ZERO, fault)[0];

@@ -134,31 +134,29 @@ fn many(points: usize) -> String {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn memory_does_not_grow_with_the_number_of_points_and_the_first_row_comes_soon() {
-    let peak = |points: usize| {
-        let dir = dir_with(&many(points));
-        let start = std::time::Instant::now();
-        let child = dir.start("sweep study.toml --threads 2 --quiet", &[]);
-        let rows = || fs::metadata(dir.path("study.csv")).map_or(0, |about| about.len());
-        while rows() < 4000 {
-            assert!(start.elapsed() < Duration::from_secs(20), "no row");
-            thread::sleep(Duration::from_millis(5));
-        }
-        let first = start.elapsed();
-        while rows() < 100_000 {
-            thread::sleep(Duration::from_millis(5));
-        }
-        let memory = memory_of(&child) as f64;
-        signal(&child, "TERM");
-        let said = end(child);
-        assert!([0, 75].contains(&said.code), "{}", said.err);
-        (memory, first)
+fn of_a_million_points_the_first_row_comes_soon_and_none_takes_much_memory() {
+    let dir = dir_with(&many(1_000_000));
+    let start = std::time::Instant::now();
+    let child = dir.start("sweep study.toml --threads 2 --quiet", &[]);
+    let rows = || match fs::read(dir.path("study.csv")) {
+        Ok(text) => text.iter().filter(|&&byte| byte == b'\n').count(),
+        Err(_) => 0,
     };
-    let (few, _) = peak(10_000);
-    let (many, first) = peak(1_000_000);
-    assert!(many < 1.2 * few, "{few} bytes, {many} bytes");
+    while rows() < 100 {
+        assert!(start.elapsed() < Duration::from_secs(20), "no row");
+        thread::sleep(Duration::from_millis(5));
+    }
     // Two seconds, on a machine that others use too.
-    assert!(first < Duration::from_secs(8), "{first:?}");
+    assert!(start.elapsed() < Duration::from_secs(8));
+    let before = (rows(), memory_of(&child) as f64);
+    while rows() < before.0 + 4000 {
+        thread::sleep(Duration::from_millis(50));
+    }
+    let taken = memory_of(&child) as f64 - before.1;
+    let per_row = taken / (rows() - before.0) as f64;
+    signal(&child, "TERM");
+    end(child).ends(75, "of 1000000 points are in study.csv");
+    assert!(per_row < 400.0, "{per_row} bytes");
 }
 
 /// The screen that `--view` prints, line by line.
@@ -197,64 +195,16 @@ fn the_map_shows_two_axes_and_reads_points() {
 }
 
 #[test]
-fn sensitivities_are_those_of_the_closed_forms() {
-    // Hertz: F = 4/3 E* √R d^1.5, a = √(R d).
-    let study = "base = \"hertz\"\ncolumns = [\"F_z_N\", \"contact_radius_m\", \"wear_volume_m3\"]\n\
-        [set]\n\"run.cycles\" = 0.0\n\"motion.normal.amplitude\" = 0.0\n[sensitivity]\n\"indenter.radius\" = 1e-3\n\
-        \"motion.normal.mean\" = 0\n\"material.effective_modulus\" = 2.3077e10\n";
-    let dir = dir_with(study);
-    let json = dir.done("sweep study.toml --sensitivity --json");
-    let rows: Vec<serde_json::Value> = serde_json::from_str(&json).expect("JSON");
-    let find = |key: &str, column: &str, name: &str| {
-        let mut found = rows.iter();
-        let row = found.find(|row| row["key"] == key && row["column"] == column);
-        row.unwrap_or_else(|| panic!("{key} {column}: {json}"))[name].clone()
-    };
-    for (key, force, radius) in [
-        ("indenter.radius", 0.5, 0.5),
-        ("motion.normal.mean", 1.5, 0.5),
-        ("material.effective_modulus", 1.0, 0.0),
-    ] {
-        for (column, expected) in [("F_z_N", force), ("contact_radius_m", radius)] {
-            let found = find(key, column, "elasticity").as_f64().expect("a number");
-            let error = find(key, column, "error").as_f64().expect("a number");
-            assert!((found - expected).abs() < 2e-3, "{key} {column}: {found}");
-            assert!(error < 0.01, "{key} {column}: {error}");
-        }
-        // Nothing wears: there is nothing to take a logarithm of.
-        assert!(find(key, "wear_volume_m3", "elasticity").is_null());
-    }
-    // 10 % of R and of E*: √((0.5·0.1)² + (1·0.1)²).
-    let spread = find("all", "F_z_N", "relative_spread")
-        .as_f64()
-        .expect("a spread");
-    assert!((spread - 0.05f64.hypot(0.1)).abs() < 1e-3, "{spread}");
-    let text = dir.done("sweep study.toml --sensitivity --out s.csv");
-    has(&text, "elasticity");
-    has(&dir.read("s.csv"), "\nindenter.radius,");
-    dir.refuse_line("sweep study.toml", "the study has no axis");
-    let none = study.replace("indenter.radius", "motion.normal.phase");
-    dir.write("none.toml", none.as_bytes());
-    let rule = "motion.normal.phase: must be a number greater than 0";
-    dir.refuse_line("sweep none.toml --sensitivity", rule);
-}
-
-#[test]
 fn the_studies_of_the_guide_are_studies() {
     let topic = mdr_tui::guide::Topic::find("studies").expect("the topic");
     let blocks = topic.text.split("```toml study\n").skip(1);
     let blocks: Vec<&str> = blocks.filter_map(|rest| rest.split("```").next()).collect();
-    assert_eq!(blocks.len(), 2);
     let dir = TestDir::new();
-    let few = "--set numerics.points=12 --set numerics.steps_per_cycle=12 --set run.cycles=1";
-    for block in blocks {
+    for block in &blocks {
         dir.write("study.toml", block.as_bytes());
-        let line = match block.contains("[[axis]]") {
-            true => "sweep study.toml --point 0".to_owned(),
-            false => format!("sweep study.toml --sensitivity --quiet {few}"),
-        };
-        dir.line(&line).ends(0, "");
+        dir.line("sweep study.toml --point 0").ends(0, "");
     }
+    assert!(!blocks.is_empty());
 }
 
 /// By its own command: `tests/slurm/run.sh PROGRAM`.

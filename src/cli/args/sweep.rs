@@ -72,8 +72,8 @@ pub struct Sweep {
     /// Show this table as a map.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["study", "set", "out", "resume", "force", "skip_invalid", "threads", "shard", "shards", "merge", "json"])]
     pub view: Option<PathBuf>,
-    /// Print how sensitive the columns are to the keys of [sensitivity], or of the axes.
-    #[arg(long, conflicts_with_all = ["resume", "shard", "shards", "merge", "view", "point", "slurm", "skip_invalid"])]
+    /// Refused, with a line that names what takes its place.
+    #[arg(long, hide = true)]
     pub sensitivity: bool,
     /// Print the rows as JSON lines, in the order of the axes, as soon as they are known.
     #[arg(long)]

@@ -3,26 +3,21 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 use std::{env, thread};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Parser;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::args::{Arguments, Sweep};
 use super::{UNFINISHED, complain, explore, progress, stop, succeeded};
 use crate::export::file::shell_path;
 use crate::scenario::{Refusal, bounded_read, printable};
-use crate::studies::sweep::engine;
-use crate::studies::sweep::ledger::Ledger;
-use crate::studies::sweep::record::{self};
-use crate::studies::sweep::{Shard, Study, Success};
+use crate::studies::sweep::{Results, Shard, Status, Study, engine};
 use crate::tui::map::live::LiveStudy;
 
 mod merge;
 mod output;
-mod sensitivity;
 mod slurm;
 
 use output::Output;
@@ -35,6 +30,10 @@ const SLURM_INDEX: &str = "SLURM_ARRAY_TASK_ID";
 
 /// Runs the command.
 pub fn sweep(options: &Sweep) -> Result<ExitCode> {
+    if options.sensitivity {
+        let rule = "is gone; points = \"file.csv\" takes points around a scenario: see mdr-tui guide studies";
+        bail!(Refusal::new("--sensitivity", rule));
+    }
     if let Some(directory) = &options.merge {
         return merge::merge(directory, options).map(|()| ExitCode::SUCCESS);
     }
@@ -45,18 +44,12 @@ pub fn sweep(options: &Sweep) -> Result<ExitCode> {
     let study = read(&path, &options.changes.set)?;
     if let Some(point) = options.point {
         print_point(&study, point)?;
-    } else if options.sensitivity {
-        sensitivity::sensitivity(options, &study)?;
-    } else if study.axes.is_empty() {
-        let rule = "the study has no axis (only --sensitivity works without one)";
-        bail!(Refusal::new(path.display(), rule));
     } else if options.slurm {
-        let pool = pool(options, study.points())?;
-        refuse_invalid(options, &study, Shard::WHOLE, &pool, Duration::MAX)?;
+        refuse_invalid(options, &study, Shard::WHOLE)?;
         let script = slurm::script(&path, options, study.points());
         io::stdout().write_all(script.as_bytes())?;
     } else {
-        return run(options, &path, &study);
+        return run(options, &path, study);
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -67,15 +60,6 @@ fn view(file: &Path, options: &Sweep) -> Result<()> {
     let mut explorer = Arguments::try_parse_from(["mdr-tui"])?.explore;
     explorer.screen = options.screen.clone();
     explore::explore(&explorer, Some(map))
-}
-
-/// Starts the threads for this many `points`: the number asked for, or one per processor, but no idle ones.
-fn pool(options: &Sweep, points: usize) -> Result<ThreadPool> {
-    let processors = || thread::available_parallelism().map_or(1, usize::from);
-    let threads = options.threads.map_or_else(processors, usize::from);
-    let threads = threads.clamp(1, points.max(1));
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.context("cannot start the threads")
 }
 
 /// Reads a study and applies the assignments of the command line.
@@ -100,29 +84,13 @@ fn print_point(study: &Study, point: usize) -> Result<()> {
     Ok(writeln!(io::stdout(), "# {name}\n{scenario}")?)
 }
 
-/// Maximum time for checking points before the first one runs.
-const CHECKED_FIRST: Duration = Duration::from_secs(1);
-
-/// Refuses a study with an invalid point, unless invalid points are skipped. Points not checked within `patience` are
-/// checked when they run.
-fn refuse_invalid(
-    options: &Sweep,
-    study: &Study,
-    shard: Shard,
-    pool: &ThreadPool,
-    patience: Duration,
-) -> Result<()> {
-    if options.skip_invalid {
-        return Ok(());
-    }
-    let bar = progress::bar(study.points(), progress::TIMES, options.quiet);
-    bar.set_message("checking");
-    let start = Instant::now();
-    let checked = engine::check(study, shard, pool, |checked| {
-        bar.set_position((checked * shard.count) as f64);
-        start.elapsed() < patience
-    });
-    drop(bar);
+/// Refuses a study with an invalid point, unless invalid points are skipped.
+fn refuse_invalid(options: &Sweep, study: &Study, shard: Shard) -> Result<()> {
+    let checked = if options.skip_invalid {
+        Ok(())
+    } else {
+        engine::check(study, shard)
+    };
     Ok(checked.map_err(invalid)?)
 }
 
@@ -130,50 +98,50 @@ fn invalid(refusal: Refusal) -> Refusal {
     refusal.or("--skip-invalid runs the other points")
 }
 
-fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
+fn run(options: &Sweep, path: &Path, study: Study) -> Result<ExitCode> {
     let shard = shard(options)?;
     let out = options.out.clone();
     let out = out.unwrap_or_else(|| default_out(path, shard));
-    let mine = shard.points(study.points()).count();
-    let pool = pool(options, mine)?;
-    refuse_invalid(options, study, shard, &pool, CHECKED_FIRST)?;
+    refuse_invalid(options, &study, shard)?;
     let mut output = Output::open(&out, study, shard, options)?;
     let go_on = stop::signal().map(stop::until_stopped)?;
     crate::panics::capture();
-    let bar = progress::bar(mine, progress::TIMES, options.quiet);
+    let study = Arc::clone(&output.results.study);
+    let (mine, todo) = (shard.points(study.points()), output.results.missing(shard));
+    let bar = progress::bar(mine.len(), progress::TIMES, options.quiet);
     bar.set_message(printable(&out.display().to_string()));
-    bar.set_position(output.ledger.rows() as f64);
-    let mut points = shard.points(study.points()).peekable();
+    bar.set_position(output.results.rows().len() as f64);
+    let (mine, mut points) = (mine.len(), mine.peekable());
     // With --json, prints each row as soon as all rows before it are known.
-    let mut print = |ledger: &Ledger| -> Result<()> {
+    let mut print = |results: &Results| -> Result<()> {
         let mut out = io::stdout().lock();
         while options.json
-            && let Some(point) = points.next_if(|&point| ledger.has(point))
+            && let Some(row) = points.peek().and_then(|&point| results.row(point))
         {
-            let row = record::json(&study.columns(), &ledger.row(point)?);
-            writeln!(out, "{row}")?;
+            writeln!(out, "{}", results.json(row))?;
+            points.next();
         }
         Ok(())
     };
-    let mut outcome = print(&output.ledger);
-    let mut checked = Ok(());
+    let (mut outcome, mut checked) = (print(&output.results), Ok(()));
+    let processors = || thread::available_parallelism().map_or(1, usize::from);
+    let threads = options.threads.map_or_else(processors, usize::from);
     if outcome.is_ok() {
-        let todo = output.ledger.missing(study, shard);
-        engine::run(study, todo, &pool, &go_on, |point, row| {
-            if !options.skip_invalid && Success::from_row(&row) == Success::Invalid {
-                checked = engine::validated(study, point);
+        let started = engine::run(&study, &todo, threads, &go_on, |row| {
+            if !options.skip_invalid && matches!(row.status, Status::Invalid(_)) {
+                checked = engine::validated(&study, row.point);
                 return false;
             }
-            let added = output.add(point, &row);
-            let added = added.map_err(|error| anyhow!("{error}"));
-            outcome = added.and_then(|()| print(&output.ledger));
+            let added = output.add(row).map_err(|error| anyhow!("{error}"));
+            outcome = added.and_then(|()| print(&output.results));
             bar.inc();
             outcome.is_ok()
         });
+        started.context("cannot start the threads")?;
     }
     drop(bar);
     let kept = output.close();
-    let (there, failed) = (output.ledger.rows(), output.ledger.failed());
+    let there = output.results.rows().len();
     let hint = format!(
         "{there} of {mine} points are in {}; continue with the same command and --resume",
         shell_path(&out)
@@ -186,31 +154,35 @@ fn run(options: &Sweep, path: &Path, study: &Study) -> Result<ExitCode> {
         complain(&format!("{why}: {hint}"));
         return Ok(ExitCode::from(UNFINISHED));
     }
-    let inaccurate = output.ledger.count(Success::Inaccurate);
-    if inaccurate > 0 && !options.quiet {
-        complain(&format!(
-            "{inaccurate} of {there} points did not reach numerics.accuracy; their status says what they reached"
-        ));
-    }
-    let unchecked = output.ledger.count(Success::Unchecked);
-    if unchecked > 0 && !options.quiet {
-        complain(&format!(
-            "{unchecked} of {there} points fail a check; their status says which, and by how much"
-        ));
-    }
-    if failed > 0 {
-        complain(&format!(
-            "{failed} of {there} points failed; their status says why, and --resume --failed runs \
-             them again"
-        ));
-        // Invalid points do not count as failures: they were to be skipped.
-        let is_failure = failed == there || output.ledger.count(Success::Failed) > 0;
-        return Ok(succeeded(!is_failure));
-    }
-    if !options.quiet && !options.json && !output.target.is_stdout() {
+    let is_told = !options.quiet && !options.json && !output.target.is_stdout();
+    if complain_of_points(&output.results, options.quiet) && is_told {
         writeln!(io::stdout(), "{there} points in {}", shell_path(&out))?;
     }
-    Ok(ExitCode::SUCCESS)
+    // Invalid points do not count as failures: they were to be skipped.
+    let failed = output
+        .results
+        .count(|status| matches!(status, Status::Failed(_)));
+    Ok(succeeded(failed == 0 && output.results.failed() < there))
+}
+
+/// Says how many points of a finished study are not as they should be; returns whether all have a result.
+fn complain_of_points(results: &Results, quiet: bool) -> bool {
+    let (there, failed) = (results.rows().len(), results.failed());
+    let is_inaccurate = |status: &Status| matches!(status, Status::Inaccurate(_));
+    let is_unchecked = |status: &Status| matches!(status, Status::Unchecked(_));
+    let inaccurate = "did not reach numerics.accuracy; their status says what they reached";
+    let unchecked = "fail a check; their status says which, and by how much";
+    let without = "failed; their status says why, and --resume --failed runs them again";
+    for (count, is_told, what) in [
+        (results.count(is_inaccurate), !quiet, inaccurate),
+        (results.count(is_unchecked), !quiet, unchecked),
+        (failed, true, without),
+    ] {
+        if count > 0 && is_told {
+            complain(&format!("{count} of {there} points {what}"));
+        }
+    }
+    failed == 0
 }
 
 /// Returns the part of the study to run.

@@ -1,100 +1,100 @@
-//! The output file: rows are appended as they finish, and sorted at the end. Memory use does not grow with its size.
+//! The output file: rows are appended as they finish, and sorted at the end.
 
-use std::env;
+use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, ensure};
 
 use crate::cli::args::Sweep;
 use crate::export::file::{WriteError, write_with};
+use crate::export::header;
 use crate::export::target::Target;
-use crate::export::{header, safe_open};
 use crate::scenario::Refusal;
-use crate::scenario::bounded_read::Unread;
-use crate::studies::sweep::ledger::Ledger;
 use crate::studies::sweep::record::{self, Arithmetic, Record};
-use crate::studies::sweep::{Shard, Study, Success};
+use crate::studies::sweep::{Results, Row, Shard, Study};
 
 /// Interval for flushing rows to disk. A killed process loses none, since the system already has them; a crash of the
 /// machine loses at most this much.
 const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
-/// The rows of a study in a file.
+/// The rows of a study, in memory and in a file.
 pub struct Output {
     /// The file.
     pub target: Target,
-    head: String,
     /// The rows.
-    pub ledger: Ledger,
+    pub results: Results,
+    head: String,
+    /// Where rows are appended, and its length up to the last complete row; `None` for stdout, which gets its rows at the
+    /// end.
+    file: Option<(File, u64)>,
     /// Whether all rows could be written so far.
     is_whole: bool,
     flushed: Instant,
 }
 
 impl Output {
-    /// Creates the file, or continues it, and claims it. An existing file is replaced only when its rows have been
-    /// copied, so that new ones can be appended.
-    pub fn open(path: &Path, study: &Study, shard: Shard, options: &Sweep) -> Result<Self> {
+    /// Creates the file, or continues it, and claims it.
+    pub fn open(path: &Path, study: Study, shard: Shard, options: &Sweep) -> Result<Self> {
         let target = Target::claim_in_new_directory(path)?;
         let mut arithmetic: Arithmetic = [header::arithmetic().to_owned()].into();
-        let mut rows = None;
+        let mut results = Results::new(study);
         if target.exists() && !options.force {
             let refuse = |why: String| Refusal::new(path.display(), why);
             let rule = "already exists; --resume continues it, --force starts over, --out names another file";
             ensure!(options.resume, refuse(rule.into()));
-            let file = safe_open::read(path);
-            let unread = |error| Refusal::unread(path.display(), &Unread::Io(error));
-            let file = file.map_err(unread)?;
-            let record = Record::open(file, &path.display().to_string())?;
-            record.expect(study, "the study now")?;
+            let record = Record::of_file(path)?;
+            record.expect(&results.study, "the study now")?;
             let rule = format!("holds shard {}, not {shard}", record.shard);
             ensure!(record.shard == shard, refuse(rule));
             arithmetic.extend(record.arithmetic.iter().cloned());
-            rows = Some(record.rows(study)?);
+            let (there, doubles) = Results::read(results.study, shard, &[record])?;
+            if let Some(double) = doubles.differing.first() {
+                let rule = format!("has two rows that differ: {double}");
+                return Err(refuse(rule).into());
+            }
+            results = there;
+            if options.failed {
+                results.drop_failed();
+            }
         }
-        let head = record::head(study, shard, &arithmetic);
-        let ledger = if target.is_stdout() {
-            // For stdout, rows are collected in a temporary file and printed in order at the end.
-            let directory = env::temp_dir();
-            let rows = tempfile::tempfile_in(&directory);
-            let ledger = rows.and_then(|rows| Ledger::new(study, rows, &directory));
-            ledger.with_context(|| directory.display().to_string())?
-        } else {
-            write_with(path, |file| -> Result<Ledger> {
+        let head = record::head(&results.study, shard, &arithmetic);
+        let mut file = None;
+        if !target.is_stdout() {
+            let rows = results.rows().map(|row| results.line(row));
+            let text = rows.fold(head.clone(), |text, line| text + &line);
+            file = Some(write_with(path, |file| -> Result<_, WriteError> {
                 let failed = WriteError::io(path);
-                file.write_all(head.as_bytes()).map_err(failed)?;
-                let file = file.try_clone().map_err(failed)?;
-                let mut ledger = Ledger::new(study, file, target.directory()).map_err(failed)?;
-                for row in rows.into_iter().flatten() {
-                    let row = row?;
-                    if options.failed && !Success::from_row(&row).has_result() {
-                        continue;
-                    }
-                    let begins = row.join(",");
-                    if let Err(why) = ledger.add_foreign(study, row).map_err(failed)? {
-                        let why = format!("row {begins} does not belong to the study ({why:?})");
-                        bail!(Refusal::new(path.display(), why));
-                    }
-                }
-                Ok(ledger)
-            })?
-        };
+                file.write_all(text.as_bytes()).map_err(failed)?;
+                Ok((file.try_clone().map_err(failed)?, text.len() as u64))
+            })?);
+        }
         Ok(Self {
             target,
+            results,
             head,
-            ledger,
+            file,
             is_whole: true,
             flushed: Instant::now(),
         })
     }
 
     /// Adds the row of a point. On an error the file ends with the last complete row.
-    pub fn add(&mut self, point: usize, fields: &[String]) -> Result<(), WriteError> {
-        let mut written = self.ledger.add(point, fields);
+    pub fn add(&mut self, row: Row) -> Result<(), WriteError> {
+        let line = self.results.line(&row);
+        self.results.add(row);
+        let Some((file, length)) = &mut self.file else {
+            return Ok(());
+        };
+        let mut written = file.write_all(line.as_bytes());
+        if written.is_ok() {
+            *length += line.len() as u64;
+        } else {
+            let _ = file.set_len(*length);
+        }
         if self.flushed.elapsed() >= FLUSH_INTERVAL {
-            written = written.and_then(|()| self.ledger.sync());
+            written = written.and_then(|()| file.sync_data());
             self.flushed = Instant::now();
         }
         self.is_whole &= written.is_ok();
@@ -107,9 +107,15 @@ impl Output {
         if !self.is_whole {
             return Ok(());
         }
-        self.target.write_with(|out| {
-            out.write_all(self.head.as_bytes())?;
-            self.ledger.each(|line| out.write_all(line))
-        })
+        write(&self.target, &self.head, &self.results)
     }
+}
+
+/// Writes a whole table.
+pub fn write(target: &Target, head: &str, results: &Results) -> Result<(), WriteError> {
+    target.write_with(|out| {
+        out.write_all(head.as_bytes())?;
+        let mut rows = results.rows();
+        rows.try_for_each(|row| out.write_all(results.line(row).as_bytes()))
+    })
 }

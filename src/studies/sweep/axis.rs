@@ -2,84 +2,49 @@
 
 use toml::Value;
 
-use super::design::Spacing;
 use crate::math::number::exact;
 use crate::math::scale::Scale;
-use crate::scenario::Refusal;
 use crate::scenario::key::{Key, Kind};
 use crate::scenario::value;
 
 /// A key that a study varies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyAxis {
-    /// The dotted path of the key.
-    pub key: String,
+    /// The key.
+    pub key: Key,
     /// Its values: numbers, words or flags, in order.
-    pub values: Values,
+    pub values: Vec<Value>,
     /// Their scale.
     pub spread: Scale,
     /// Keys that move with it, each with its value relative to the axis's.
-    pub tied: Vec<(String, f64)>,
-}
-
-/// The values of an axis. Values between two ends are computed on demand, so that an axis of millions takes no memory.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Values {
-    /// As written in the study.
-    Listed(Vec<Value>),
-    /// This many between two ends.
-    Between([f64; 2], usize, Spacing),
+    pub tied: Vec<(Key, f64)>,
 }
 
 impl StudyAxis {
     /// Makes an axis of `count` values at equal distances on its scale.
-    ///
-    /// # Errors
-    ///
-    /// If the key is unknown.
-    pub fn between(
-        key: &str,
-        ends: [f64; 2],
-        count: usize,
-        spread: Scale,
-    ) -> Result<Self, Refusal> {
-        known_key(key, "sweep")?;
-        Ok(Self {
-            key: key.to_owned(),
-            values: Values::Between(ends, count, Spacing::Even),
+    pub fn between(key: Key, ends: [f64; 2], count: usize, spread: Scale) -> Self {
+        Self {
+            key,
+            values: spaced(key, ends, count, spread),
             spread,
             tied: Vec::new(),
-        })
+        }
     }
 
     /// Returns the number of values.
     pub fn count(&self) -> usize {
-        match &self.values {
-            Values::Listed(values) => values.len(),
-            Values::Between(_, count, _) => *count,
-        }
-    }
-
-    /// Returns the value at `index`.
-    pub fn value(&self, index: usize) -> Value {
-        match &self.values {
-            Values::Listed(values) => values[index].clone(),
-            Values::Between([from, to], count, spacing) => {
-                let share = spacing.share(index, *count);
-                value_of(&self.key, between(self.spread, *from, *to, share))
-            }
-        }
+        self.values.len()
     }
 
     /// Returns the value at `index` as for `--set` and in its column: numbers in the shortest form that reads back to
     /// the same bits, words bare.
     pub fn text(&self, index: usize) -> String {
-        text(&self.value(index))
+        text(&self.values[index])
     }
 
     /// Returns the value at `index` as a number, if it is one.
     pub fn number(&self, index: usize) -> Option<f64> {
-        value::number(&self.value(index))
+        value::number(&self.values[index])
     }
 
     /// Returns the place of a value on the axis, between the indices of its neighbours, on the axis's scale. `None`
@@ -103,12 +68,13 @@ impl StudyAxis {
     }
 
     /// Returns the assignments for `value`: the key's own value, then the tied keys' values.
-    pub fn assignments(&self, value: &Value) -> Vec<(&str, String)> {
-        let own = (self.key.as_str(), text(value));
+    pub fn assignments(&self, value: &Value) -> Vec<(&'static str, String)> {
+        let own = (self.key.path, text(value));
         let number = value::number(value);
-        let tied = self.tied.iter().filter_map(|(key, factor)| {
-            Some((key.as_str(), text(&value_of(key, number? * factor))))
-        });
+        let tied = self
+            .tied
+            .iter()
+            .filter_map(|(key, factor)| Some((key.path, text(&value_of(*key, number? * factor)))));
         std::iter::once(own).chain(tied).collect()
     }
 }
@@ -122,17 +88,34 @@ pub(super) fn text(value: &Value) -> String {
     }
 }
 
-/// Refuses an unknown key.
-pub(super) fn known_key(key: &str, place: &str) -> Result<(), Refusal> {
-    Key::named(key, place).map(|_| ())
-}
-
 /// Converts a number to a value of `key`: an integer if the key takes whole numbers.
-pub(super) fn value_of(key: &str, value: f64) -> Value {
-    match Key::find(key).map(|parameter| parameter.kind) {
-        Some(Kind::Whole) => Value::Integer(value.round() as i64),
+pub(super) fn value_of(key: Key, value: f64) -> Value {
+    match key.kind {
+        Kind::Whole => Value::Integer(value.round() as i64),
         _ => Value::Float(value),
     }
+}
+
+/// Returns `count` values of `key` at equal distances on a scale.
+pub(super) fn spaced(key: Key, ends: [f64; 2], count: usize, spread: Scale) -> Vec<Value> {
+    let last = (count - 1).max(1) as f64;
+    at_shares(
+        key,
+        ends,
+        spread,
+        (0..count).map(|index| index as f64 / last),
+    )
+}
+
+/// Returns values of `key` at `shares` (0 to 1) of the way between two ends on a scale.
+pub(super) fn at_shares(
+    key: Key,
+    [from, to]: [f64; 2],
+    spread: Scale,
+    shares: impl Iterator<Item = f64>,
+) -> Vec<Value> {
+    let values = shares.map(|share| value_of(key, between(spread, from, to, share)));
+    values.collect()
 }
 
 /// Returns the value a `share` (0 to 1) of the way from `from` to `to`; both ends are exact.
@@ -154,6 +137,10 @@ pub(super) fn between(spread: Scale, from: f64, to: f64, share: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn key(path: &str) -> Key {
+        Key::find(path).expect("a key")
+    }
+
     #[test]
     fn both_ends_are_met_to_the_bit() {
         for spread in [Scale::Linear, Scale::Log] {
@@ -168,8 +155,8 @@ mod tests {
     fn values_between_points_lie_between_places() {
         let values = [1e-8, 1e-7, 1e-6].map(Value::Float).to_vec();
         let axis = |spread| StudyAxis {
-            key: "wear.coefficient".into(),
-            values: Values::Listed(values.clone()),
+            key: key("wear.coefficient"),
+            values: values.clone(),
             spread,
             tied: Vec::new(),
         };
@@ -188,18 +175,18 @@ mod tests {
     #[test]
     fn tied_keys_follow_by_their_factor_and_whole_keys_are_rounded() {
         let axis = StudyAxis {
-            key: "motion.normal.mean".into(),
-            values: Values::Listed(vec![Value::Float(2e-6)]),
+            key: key("motion.normal.mean"),
+            values: vec![Value::Float(2e-6)],
             spread: Scale::Linear,
             tied: vec![
-                ("motion.normal.amplitude".into(), 0.25),
-                ("numerics.points".into(), 50.2e6),
+                (key("motion.normal.amplitude"), 0.25),
+                (key("numerics.points"), 50.2e6),
             ],
         };
-        let set = axis.assignments(&axis.value(0));
+        let set = axis.assignments(&axis.values[0]);
         assert_eq!(set[0], ("motion.normal.mean", "2e-6".to_owned()));
         assert_eq!(set[1], ("motion.normal.amplitude", "5e-7".to_owned()));
         assert_eq!(set[2], ("numerics.points", "100".to_owned()));
-        assert_eq!(value_of("numerics.points", 9.7), Value::Integer(10));
+        assert_eq!(value_of(key("numerics.points"), 9.7), Value::Integer(10));
     }
 }

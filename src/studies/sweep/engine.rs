@@ -1,48 +1,38 @@
 //! Runs many points on several threads. Each thread takes the next free point, so all threads end at about the same
 //! time, and rows arrive nearly in order.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
-
-use rayon::ThreadPool;
-use rayon::prelude::*;
+use std::io;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use super::point;
-use super::{Shard, Study};
+use super::{Row, Shard, Study};
 use crate::scenario::Refusal;
 
-/// Number of points checked between two looks at the clock.
-const CHUNK: usize = 256;
+/// Maximum time for checking points before the first one runs.
+const CHECKED_FIRST: Duration = Duration::from_secs(1);
 
-/// Checks on the threads of `pool` that the points of a shard are valid scenarios, while `go_on`, called with the
-/// number checked so far, returns true. Invalid points are usually at the end of an axis, so in a large study the
-/// points at the ends of all axes come first.
+/// Number of points from which the ends of the axes are checked first.
+const MANY: usize = 256;
+
+/// Checks for a second that the points of a shard are valid scenarios. Invalid points are usually at the end of an
+/// axis, so in a large study the points at the ends of all axes come first.
 ///
 /// # Errors
 ///
 /// The first invalid point, and why it is invalid.
-pub fn check(
-    study: &Study,
-    shard: Shard,
-    pool: &ThreadPool,
-    mut go_on: impl FnMut(usize) -> bool,
-) -> Result<(), Refusal> {
-    let all = shard.points(study.points());
-    let first = if all.len() > CHUNK {
+pub fn check(study: &Study, shard: Shard) -> Result<(), Refusal> {
+    let (start, all) = (Instant::now(), shard.points(study.points()));
+    let first = if all.len() > MANY {
         edges(study, shard)
     } else {
         Vec::new()
     };
-    let mut left = first.into_iter().chain(all).peekable();
-    let mut checked = 0;
-    while left.peek().is_some() && go_on(checked) {
-        let chunk: Vec<usize> = left.by_ref().take(CHUNK).collect();
-        checked += chunk.len();
-        let invalid = |point| validated(study, point).err();
-        let refused = pool.install(|| chunk.into_par_iter().find_map_first(invalid));
-        refused.map_or(Ok(()), Err)?;
-    }
-    Ok(())
+    let points = first.into_iter().chain(all);
+    let mut points = points.take_while(|_| start.elapsed() < CHECKED_FIRST);
+    points.try_for_each(|point| validated(study, point))
 }
 
 /// Returns the points of a shard at the ends of each axis, with the other axes at one of their ends.
@@ -69,29 +59,43 @@ pub fn validated(study: &Study, point: usize) -> Result<(), Refusal> {
     study.scenario(point).map(drop).map_err(refused)
 }
 
-/// Runs the points `todo` of `study` on the threads of `pool`, and passes each row to
-/// `finished` on the calling thread as soon as it is there. If `go_on` or `finished`
-/// returns false, stops after the current steps and loses unfinished points.
+/// Runs the points `todo` of `study` on as many `threads`, and passes each row to `finished` on the calling thread as
+/// soon as it is there. If `go_on` or `finished` returns false, stops after the current steps and loses unfinished
+/// points.
+///
+/// # Errors
+///
+/// If the system cannot start a thread.
 pub fn run(
     study: &Study,
-    todo: impl Iterator<Item = usize> + Send,
-    pool: &ThreadPool,
+    todo: &[usize],
+    threads: usize,
     go_on: &(dyn Fn() -> bool + Sync),
-    mut finished: impl FnMut(usize, Vec<String>) -> bool,
-) {
-    let (send, rows) = mpsc::channel();
-    let is_halted = AtomicBool::new(false);
+    finished: impl FnMut(Row) -> bool,
+) -> io::Result<()> {
+    let (next, is_halted) = (AtomicUsize::new(0), AtomicBool::new(false));
     let go_on = || go_on() && !is_halted.load(Ordering::Relaxed);
-    pool.in_place_scope(|scope| {
-        scope.spawn(|_| {
-            let todo = todo.take_while(|_| go_on()).par_bridge();
-            let row_of = |point| Some((point, point::run(study, point, &go_on)?));
-            let _ = todo.try_for_each_with(send, |send, point| send.send(row_of(point)?).ok());
+    let work = |send: Sender<Row>| {
+        while go_on()
+            && let Some(&point) = todo.get(next.fetch_add(1, Ordering::Relaxed))
+            && let Some(row) = point::run(study, point, &go_on)
+            && send.send(row).is_ok()
+        {}
+    };
+    let work = &work;
+    thread::scope(|scope| {
+        let (send, rows) = mpsc::channel();
+        let started = (0..threads.min(todo.len())).try_for_each(|_| {
+            let send = send.clone();
+            let thread = thread::Builder::new().spawn_scoped(scope, move || work(send));
+            thread.map(drop)
         });
-        for (point, row) in &rows {
-            if !finished(point, row) {
-                return is_halted.store(true, Ordering::Relaxed);
-            }
+        drop(send);
+        if started.is_ok() {
+            // Ends with the last thread, which drops the last sender.
+            let _ = rows.into_iter().map(finished).find(|go_on| !go_on);
         }
-    });
+        is_halted.store(true, Ordering::Relaxed);
+        started
+    })
 }

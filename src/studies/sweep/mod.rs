@@ -1,9 +1,9 @@
 //! Studies of many points: one scenario, run for many values of some of its keys.
 //!
-//! A [`Study`] is read from a TOML file: a base scenario, settings for all points, the axes, the columns, and when a
-//! point ends. Its points are numbered in the order of the axes, with the last one fastest. [`engine::run`] runs some
-//! of them on several threads, and a [`record::Record`] is the table of their rows as text, which can be read back,
-//! merged and continued.
+//! A [`Study`] is read from a TOML file: a base scenario, settings for all points, the axes, and the columns. Its points
+//! are numbered in the order of the axes, with the last one fastest. [`engine::run`] runs some of them on several
+//! threads and gives a [`Row`] for each; [`Results`] hold the rows of a study, and a [`record::Record`] is a table as
+//! text, which can be read back, merged and continued.
 //!
 //! Points do not depend on each other or on threads, so a row is the same bit for bit in whatever order, on however
 //! many threads and in however many pieces the study is run.
@@ -12,19 +12,18 @@ mod axis;
 pub mod border;
 mod design;
 pub mod engine;
-mod finder;
-pub mod ledger;
 mod point;
+mod points;
 mod read;
 pub mod record;
-pub mod sensitivity;
+mod results;
+mod row;
 mod shard;
-mod shuffle;
-pub mod slice;
 mod study;
 
 pub use axis::StudyAxis;
 pub use design::Design;
-pub use point::Success;
+pub use results::{Doubles, Results};
+pub use row::{Row, Status};
 pub use shard::Shard;
-pub use study::{Stop, Study};
+pub use study::Study;

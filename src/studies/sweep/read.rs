@@ -7,10 +7,10 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::axis::{self, StudyAxis, Values, known_key};
-use super::design::{Design, MOST_POINTS, MOST_SOBOL_AXES, Spacing};
-use super::study::{Stop, Study};
-use crate::math::number::exact;
+use super::axis::{self, StudyAxis};
+use super::design::{self, Design, MOST_POINTS, MOST_SAMPLED_AXES, MOST_SAMPLES};
+use super::points;
+use super::study::Study;
 use crate::math::scale::Scale;
 use crate::reading::Column;
 use crate::scenario::blocks::flatten;
@@ -27,7 +27,10 @@ const COLUMNS: [Column; 4] = [
     Column::WornDepthError,
 ];
 
-type Result<T> = std::result::Result<T, Refusal>;
+/// The way to points that no design makes.
+const BY_FILE: &str = "two lines of Python write such points into a file for points = \"file.csv\": see mdr-tui guide studies";
+
+pub(super) type Result<T> = std::result::Result<T, Refusal>;
 
 /// A study as written.
 #[derive(Debug, Deserialize)]
@@ -36,15 +39,12 @@ struct Written {
     title: Option<String>,
     base: String,
     columns: Option<Vec<String>>,
-    #[serde(default)]
-    design: Design,
+    design: Option<Design>,
+    points: Option<String>,
     samples: Option<usize>,
     seed: Option<u32>,
     #[serde(default)]
     set: Table,
-    #[serde(default)]
-    stop: Stop,
-    sensitivity: Option<Table>,
     #[serde(default)]
     axis: Vec<WrittenAxis>,
 }
@@ -62,15 +62,23 @@ struct WrittenAxis {
     tied: Table,
 }
 
+/// The number of samples of a design that draws them, and its seed.
+#[derive(Debug, Clone, Copy)]
+struct Samples {
+    count: usize,
+    seed: u32,
+}
+
 impl Study {
-    /// Reads a study from a text, called `origin` in messages; the path of its base is relative to `directory`.
+    /// Reads a study from a text, called `origin` in messages; the paths of its base and of its points are relative to
+    /// `directory`.
     ///
     /// # Errors
     ///
     /// If the text is not TOML, has unknown keys or columns (suggests the nearest known one) or values that break a
-    /// rule, or if the base cannot be loaded.
+    /// rule, or if the base or the points cannot be read.
     pub fn read(text: &str, origin: &str, directory: &Path) -> Result<Self> {
-        Self::read_on(text, origin, |name| {
+        Self::read_on(text, origin, directory, |name| {
             let path = if preset::is_path(name) {
                 directory.join(name).to_string_lossy().into_owned()
             } else {
@@ -86,58 +94,102 @@ impl Study {
     ///
     /// As [`read`](Self::read).
     pub fn read_with_base(text: &str, origin: &str, base: &str) -> Result<Self> {
-        Self::read_on(text, origin, |name| Scenario::from_toml(base, name, &[]))
+        let load = |name: &str| Scenario::from_toml(base, name, &[]);
+        Self::read_on(text, origin, Path::new(""), load)
     }
 
     fn read_on(
         text: &str,
         origin: &str,
+        directory: &Path,
         load: impl FnOnce(&str) -> Result<Scenario>,
     ) -> Result<Self> {
         let origin = printable(origin);
         let refused = |why: Refusal| Refusal::new(&origin, why);
-        let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let written: Table = typed::read(text).map_err(|why| refused(why.into()))?;
+        refuse_gone(&written).map_err(refused)?;
+        let given: Written = typed::read(text).map_err(|why| refused(why.into()))?;
         let base = load(&given.base)?;
-        given.study(base, written).map_err(refused)
+        given.study(base, written, directory).map_err(refused)
     }
 }
 
 impl Written {
     /// Builds the study on its base.
-    fn study(self, base: Scenario, written: Table) -> Result<Study> {
-        let samples = samples(&self)?;
-        check_stop(self.stop)?;
-        let varied = self.sensitivity.as_ref().map(sensitivity).transpose()?;
+    fn study(self, base: Scenario, written: Table, directory: &Path) -> Result<Study> {
+        let samples = self.samples()?;
+        let set = flat("set", &self.set)?.into_iter();
         let mut study = Study {
             title: self.title.as_deref().map(printable),
-            set: flat("set", &self.set)?.into_iter().collect(),
-            design: self.design,
-            stop: self.stop,
-            sensitivity: varied.unwrap_or_default(),
+            set: set.map(|(key, value)| (key.to_string(), value)).collect(),
+            design: self.design.unwrap_or_default(),
             written,
             ..Study::new(base, columns(self.columns.as_deref())?)
         };
-        let has_purpose = !self.axis.is_empty() || self.sensitivity.is_some();
-        let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
-        ensure(has_purpose, rule)?;
-        let is_many = study.design == Design::Sobol && self.axis.len() > MOST_SOBOL_AXES;
-        let rule = format!("design = \"sobol\" takes {MOST_SOBOL_AXES} axes or fewer");
-        ensure(!is_many, rule)?;
-        let mut taken: BTreeSet<String> = study.set.keys().cloned().collect();
+        let mut axes = Vec::new();
+        if let Some(file) = &self.points {
+            let alone = self.axis.is_empty() && self.design.is_none();
+            ensure(
+                alone,
+                "points names the values of all keys: leave out design and [[axis]]",
+            )?;
+            axes = points::read(&directory.join(file), &study)?;
+            study.set_points(&axes);
+        }
         for (at, axis) in self.axis.into_iter().enumerate() {
-            let place = format!("axis[{at}]");
-            let axis = read_axis(axis, &place, &study, samples)?;
+            axes.push(read_axis(axis, at, &study, samples)?);
+        }
+        let rule = "there is no axis: add [[axis]] with key and values, linspace or logspace";
+        ensure(!axes.is_empty(), rule)?;
+        let mut taken: BTreeSet<&str> = study.set.keys().map(String::as_str).collect();
+        for (at, axis) in axes.iter().enumerate() {
             for key in std::iter::once(&axis.key).chain(axis.tied.iter().map(|(key, _)| key)) {
                 let rule = "[set], the axes and tied keys must name different keys";
-                let why = format!("{place}: {key} is given twice; {rule}");
-                ensure(taken.insert(key.clone()), why)?;
+                let why = format!("axis[{at}]: {key} is given twice; {rule}");
+                ensure(taken.insert(key.path), why)?;
             }
-            study.axes.push(axis);
         }
+        study.axes = axes;
         check_count(&study)?;
         Ok(study)
     }
+
+    /// Returns the number of samples and the seed of a sampled design.
+    fn samples(&self) -> Result<Option<Samples>> {
+        if self.design != Some(Design::Sobol) {
+            let is_sampled = self.samples.is_some() || self.seed.is_some();
+            let why = "samples and seed go with design = \"sobol\"";
+            return ensure(!is_sampled, why).map(|()| None);
+        }
+        let why = format!("design = \"sobol\" takes {MOST_SAMPLED_AXES} axes or fewer");
+        ensure(self.axis.len() <= MOST_SAMPLED_AXES, why)?;
+        match self.samples {
+            None => error("samples is missing: the number of points that design = \"sobol\" draws"),
+            Some(count) if (1..=MOST_SAMPLES).contains(&count) => Ok(Some(Samples {
+                count,
+                seed: self.seed.unwrap_or(0),
+            })),
+            Some(count) => {
+                let rule = format!("must be a whole number from 1 to {MOST_SAMPLES}");
+                refuse("samples", count, rule)
+            }
+        }
+    }
+}
+
+/// Refuses what studies asked for in earlier versions, and names the new way.
+fn refuse_gone(written: &Table) -> Result<()> {
+    let design = written.get("design").and_then(Value::as_str);
+    if let Some(word @ ("latin-hypercube" | "pairwise")) = design {
+        let rule = format!("is gone; design = \"sobol\" fills the space evenly, and {BY_FILE}");
+        return refuse("design", format_args!("\"{word}\""), rule);
+    }
+    let by_table = "make run.cycles an axis, and read from the table where the limit is reached";
+    for (key, instead) in [("sensitivity", BY_FILE), ("stop", by_table)] {
+        let why = format!("[{key}] is gone; {instead}");
+        ensure(!written.contains_key(key), why)?;
+    }
+    Ok(())
 }
 
 fn error<T>(why: impl Display) -> Result<T> {
@@ -148,38 +200,19 @@ fn ensure(holds: bool, why: impl Display) -> Result<()> {
     if holds { Ok(()) } else { error(why) }
 }
 
-fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> {
+pub(super) fn refuse<T>(place: &str, value: impl Display, rule: impl Display) -> Result<T> {
     Err(Refusal::of_value(place, value, rule))
 }
 
-/// Returns the number of samples and the seed of a sampled design.
-fn samples(written: &Written) -> Result<Option<(usize, u32)>> {
-    let (design, seed) = (written.design, written.seed);
-    let Some(most) = design.most_samples() else {
-        let rule = "samples and seed go with design = \"latin-hypercube\" or \"sobol\"";
-        return ensure(written.samples.is_none() && seed.is_none(), rule).map(|()| None);
-    };
-    match written.samples {
-        None => error(format!(
-            "samples is missing: the number of points that design = \"{design}\" draws"
-        )),
-        Some(samples) if (1..=most).contains(&samples) => Ok(Some((samples, seed.unwrap_or(0)))),
-        Some(samples) => {
-            let rule = format!("must be a whole number from 1 to {most}");
-            refuse("samples", samples, rule)
-        }
-    }
-}
-
 /// Returns the scenario keys of a table at `place` and their values, from dotted keys and nested tables alike.
-fn flat(place: &str, table: &Table) -> Result<Vec<(String, Value)>> {
+fn flat(place: &str, table: &Table) -> Result<Vec<(Key, Value)>> {
     let mut found = Vec::new();
     for (key, value) in table {
         flatten(key, value, &mut found);
     }
-    let mut keys = found.iter().map(|(key, _)| key);
-    keys.try_for_each(|key| known_key(key, place))?;
-    Ok(found)
+    let found = found.into_iter();
+    let found = found.map(|(key, value)| Ok((Key::named(&key, place)?, value)));
+    found.collect()
 }
 
 fn columns(names: Option<&[String]>) -> Result<Vec<Column>> {
@@ -198,50 +231,16 @@ fn columns(names: Option<&[String]>) -> Result<Vec<Column>> {
     Ok(columns)
 }
 
-fn check_stop(stop: Stop) -> Result<()> {
-    for (name, value) in [
-        ("worn_depth", stop.worn_depth),
-        ("volume", stop.volume),
-        ("settled", stop.settled),
-    ] {
-        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-            let place = format!("stop.{name}");
-            return refuse(&place, exact(value), "must be a number greater than 0");
-        }
-    }
-    Ok(())
-}
-
-fn sensitivity(table: &Table) -> Result<Vec<(String, f64)>> {
-    let rule = "must be a standard deviation, 0 if it is not known";
-    numbers("sensitivity", table, rule, |number| number >= 0.0)
-}
-
-/// Returns the scenario keys of a table at `place` and their values, finite numbers that satisfy a `rule`.
-fn numbers(
-    place: &str,
-    table: &Table,
-    rule: &str,
-    keeps: fn(f64) -> bool,
-) -> Result<Vec<(String, f64)>> {
-    let values = flat(place, table)?.into_iter();
-    let values = values.map(|(key, value)| match value::number(&value) {
-        Some(number) if keeps(number) => Ok((key, number)),
-        _ => refuse(&format!("{place}.{key}"), value, rule),
-    });
-    values.collect()
-}
-
-/// Reads the next axis of a study.
+/// Reads axis number `at` of a study.
 fn read_axis(
     axis: WrittenAxis,
-    place: &str,
+    at: usize,
     study: &Study,
-    samples: Option<(usize, u32)>,
+    samples: Option<Samples>,
 ) -> Result<StudyAxis> {
-    let key = axis.key;
-    known_key(&key, place)?;
-    let (name, mut list, spread) = match (axis.values, axis.linspace, axis.logspace) {
+    let place = format!("axis[{at}]");
+    let key = Key::named(&axis.key, &place)?;
+    let (name, list, spread) = match (axis.values, axis.linspace, axis.logspace) {
         (Some(list), None, None) => ("values", list, axis.scale.unwrap_or(Scale::Linear)),
         (None, Some(list), None) => ("linspace", list, Scale::Linear),
         (None, None, Some(list)) => ("logspace", list, Scale::Log),
@@ -253,23 +252,24 @@ fn read_axis(
     let why = format!("{place}.scale: goes with values, not with {name}");
     ensure(axis.scale.is_none() || name == "values", why)?;
     let named = format!("{place}.{name}");
-    // Texts may be numbers with units.
-    for value in &mut list {
-        let text = value.as_str().unwrap_or_default();
-        let quantity = |known: Key| units::quantity(text, &known, study.is_force(&key));
-        match Key::find(&key).and_then(quantity) {
-            Some(Ok(number)) => *value = Value::Float(number),
-            Some(Err(rule)) => return refuse(&named, value, rule),
-            None => {}
-        }
-    }
+    let quantities = list
+        .into_iter()
+        .map(|value| quantity(key, value, study, &named));
+    let list: Vec<Value> = quantities.collect::<Result<_>>()?;
     let values = match name {
-        "values" => Values::Listed(listed(&key, &named, list)?),
+        "values" if list.is_empty() => {
+            return refuse(&named, "[]", "must be a list of one value or more");
+        }
+        "values" => list.into_iter().map(|value| normal(key, value)).collect(),
         _ => {
-            let at = study.axes.len();
-            let sampled =
-                samples.map(|(count, seed)| (count, Spacing::new(study.design, at, seed)));
-            between(&named, &list, spread, sampled)?
+            let (ends, count) = ends_and_count(&named, &list, spread, samples)?;
+            match samples {
+                None => axis::spaced(key, ends, count, spread),
+                Some(Samples { seed, .. }) => {
+                    let shares = (0..count).map(|index| design::sample(index, at, seed));
+                    axis::at_shares(key, ends, spread, shares)
+                }
+            }
         }
     };
     Ok(StudyAxis {
@@ -280,35 +280,42 @@ fn read_axis(
     })
 }
 
-fn listed(key: &str, place: &str, list: Vec<Value>) -> Result<Vec<Value>> {
-    if list.is_empty() {
-        return refuse(place, "[]", "must be a list of one value or more");
+/// Converts a text that is a number with a unit to SI, and refuses lists and tables.
+pub(super) fn quantity(key: Key, value: Value, study: &Study, place: &str) -> Result<Value> {
+    if matches!(value, Value::Array(_) | Value::Table(_)) {
+        return refuse(place, value, "must be a number, a text or a flag");
     }
-    let nested = |value: &Value| matches!(value, Value::Array(_) | Value::Table(_));
-    if list.iter().any(nested) {
-        let rule = "its values must be numbers, texts or flags";
-        return refuse(place, Value::Array(list), rule);
+    let text = value.as_str().unwrap_or_default();
+    match units::quantity(text, &key, study.is_force(key)) {
+        Some(Ok(number)) => Ok(Value::Float(number)),
+        Some(Err(rule)) => refuse(place, value, rule),
+        None => Ok(value),
     }
-    // 100 and 100.0 are one value, and are written alike.
-    let normal = |value: Value| match value {
-        Value::Integer(whole) => axis::value_of(key, whole as f64),
-        value => value,
-    };
-    Ok(list.into_iter().map(normal).collect())
 }
 
-/// Reads the values from a list [from, to, number], or [from, to] for samples.
-fn between(
+/// Writes whole numbers alike: 100 and 100.0 are one value.
+pub(super) fn normal(key: Key, value: Value) -> Value {
+    match value {
+        Value::Integer(whole) => axis::value_of(key, whole as f64),
+        value => value,
+    }
+}
+
+/// Reads the ends of an axis and the number of its values: [from, to, number], or [from, to] for samples.
+fn ends_and_count(
     place: &str,
     list: &[Value],
     spread: Scale,
-    sampled: Option<(usize, Spacing)>,
-) -> Result<Values> {
+    samples: Option<Samples>,
+) -> Result<([f64; 2], usize)> {
     let refuse = |rule: &str| refuse(place, Value::from(list.to_vec()), rule);
-    let (from, to, number) = match (list, sampled) {
-        ([from, to], Some(_)) => (from, to, None),
+    let (from, to, number) = match (list, samples) {
+        ([from, to], Some(samples)) => (from, to, Some(samples.count)),
         (_, Some(_)) => return refuse("must be [from, to]; samples gives the number"),
-        ([from, to, number], None) => (from, to, number.as_integer()),
+        ([from, to, number], None) => {
+            let number = number.as_integer();
+            (from, to, number.and_then(|number| number.try_into().ok()))
+        }
         (_, None) => return refuse("must be [from, to, number]"),
     };
     let (Some(from), Some(to)) = (value::number(from), value::number(to)) else {
@@ -317,26 +324,28 @@ fn between(
     if spread == Scale::Log && from.min(to) <= 0.0 {
         return refuse("must begin with two numbers greater than 0");
     }
-    let number = number.and_then(|number| usize::try_from(number).ok());
-    let number = number.filter(|number| (1..=MOST_POINTS).contains(number));
-    match sampled.or(number.map(|number| (number, Spacing::Even))) {
-        Some((number, spacing)) => Ok(Values::Between([from, to], number, spacing)),
-        None => refuse(&format!(
-            "the third must be a whole number from 1 to {MOST_POINTS}"
-        )),
+    match number.filter(|number| (1..=MOST_POINTS).contains(number)) {
+        Some(number) => Ok(([from, to], number)),
+        None => {
+            let rule = format!("the third must be a whole number from 1 to {MOST_POINTS}");
+            refuse(&rule)
+        }
     }
 }
 
-fn read_tied_keys(table: &Table, place: &str, values: &Values) -> Result<Vec<(String, f64)>> {
-    if let Values::Listed(values) = values {
-        let are_numbers = values.iter().all(|value| value::number(value).is_some());
-        let why = format!("{place}: needs an axis of numbers");
-        ensure(table.is_empty() || are_numbers, why)?;
-    }
-    numbers(place, table, "must be a finite factor", |_| true)
+fn read_tied_keys(table: &Table, place: &str, axis: &[Value]) -> Result<Vec<(Key, f64)>> {
+    let are_numbers = axis.iter().all(|value| value::number(value).is_some());
+    let why = format!("{place}: needs an axis of numbers");
+    ensure(table.is_empty() || are_numbers, why)?;
+    let factors = flat(place, table)?.into_iter();
+    let factors = factors.map(|(key, value)| match value::number(&value) {
+        Some(factor) => Ok((key, factor)),
+        None => refuse(&format!("{place}.{key}"), value, "must be a finite factor"),
+    });
+    factors.collect()
 }
 
-/// Refuses too many points, and zipped axes of different lengths.
+/// Refuses too many points, and axes of different lengths that are not combined.
 fn check_count(study: &Study) -> Result<()> {
     if study.design == Design::Grid {
         let points: f64 = study.axes.iter().map(|axis| axis.count() as f64).product();
@@ -347,8 +356,8 @@ fn check_count(study: &Study) -> Result<()> {
     let Some(axis) = study.axes.iter().find(|axis| axis.count() != length) else {
         return Ok(());
     };
-    let (key, count, design) = (&axis.key, axis.count(), study.design);
+    let (key, count) = (&axis.key, axis.count());
     error(format!(
-        "axis {key}: has {count} values, the first axis {length}; design = \"{design}\" needs the same number on each"
+        "axis {key}: has {count} values, the first axis {length}; without a grid, all need the same number"
     ))
 }

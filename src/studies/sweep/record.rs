@@ -19,18 +19,16 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::{Shard, Study};
 use crate::scenario::bounded_read::{self, Unread};
-use crate::scenario::escape::{self, csv_line};
-use crate::scenario::scalars::Value;
+use crate::scenario::escape::csv_line;
 use crate::scenario::{Refusal, printable};
-use crate::studies::table::Object;
 
-/// Maximum length of a line, and of the header, in bytes.
-const LONGEST: u64 = 1 << 26;
+/// The largest table to be read, in bytes.
+const LARGEST: u64 = 1 << 33;
 
 /// The arithmetic of each machine that has run some of the rows: their last digits depend on it.
 pub type Arithmetic = BTreeSet<String>;
@@ -63,98 +61,77 @@ pub fn header(study: &Study) -> String {
     text
 }
 
-/// Splits one line of a CSV file into fields.
-pub(super) fn split(line: &str) -> Vec<String> {
-    let mut reader = csv::ReaderBuilder::new();
-    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
-    let mut row = csv::StringRecord::new();
-    // Reading from memory cannot fail.
-    let _ = reader.read_record(&mut row);
-    row.iter().map(str::to_owned).collect()
-}
-
-/// Returns a row as one JSON object: numbers as numbers, empty fields as null.
-pub fn json<'a>(columns: &[&str], fields: impl IntoIterator<Item = &'a String>) -> String {
-    let value = |field: &String| match field.parse::<f64>() {
-        _ if field.is_empty() => Value::Null,
-        Ok(number) if number.is_finite() => number.into(),
-        _ => field.clone().into(),
-    };
-    let values: Vec<Value> = fields.into_iter().map(value).collect();
-    escape::json(&Object(columns, &values), false).unwrap_or_default()
-}
-
-/// A table read back row by row.
+/// A table read back.
 pub struct Record {
     /// Name in messages.
-    name: String,
+    pub name: String,
     /// The header without arithmetic and shard.
     header: String,
-    /// The arithmetic of its rows.
+    /// The arithmetic of the machines that have run its points.
     pub arithmetic: Arithmetic,
-    /// The shard of the study that it contains.
+    /// The part of the study that it holds.
     pub shard: Shard,
-    /// The names of the columns, in the file's order.
-    columns: Vec<String>,
-    lines: Box<dyn BufRead>,
+    /// The names of the columns, and the rows.
+    body: String,
 }
 
 impl Record {
-    /// Starts reading the table in a file.
+    /// Reads the table in a file.
     ///
     /// # Errors
     ///
-    /// As for [`open`](Self::open), and if the file cannot be opened.
+    /// As for [`read`](Self::read), and if the file cannot be opened.
     pub fn of_file(path: &Path) -> Result<Self, Refusal> {
         let name = path.display();
         let file = bounded_read::open(path).map_err(|why| Refusal::unread(&name, &why))?;
-        Self::open(file, &name.to_string())
+        Self::read(file, &name.to_string())
     }
 
-    /// Starts reading a table, called `name` in messages.
+    /// Reads a table, called `name` in messages.
     ///
     /// # Errors
     ///
-    /// If the file is not the table of a study.
-    pub fn open(source: impl Read + 'static, name: &str) -> Result<Self, Refusal> {
+    /// If the file cannot be read, or is not the table of a study.
+    pub fn read(from: impl Read, name: &str) -> Result<Self, Refusal> {
         let name = printable(name);
         let refuse = |why: &str| Refusal::new(&name, why);
-        let unread = |error: io::Error| Refusal::unread(&name, &Unread::Io(error));
-        let mut lines: Box<dyn BufRead> = Box::new(BufReader::new(source));
+        let unread = |error| Refusal::unread(&name, &Unread::Io(error));
+        let mut lines = BufReader::new(from.take(LARGEST));
         let (mut header, mut shard) = (String::new(), Shard::WHOLE);
         let mut arithmetic = Arithmetic::new();
-        let columns = loop {
-            let line = next_line(&mut *lines).map_err(unread)?.unwrap_or_default();
-            let line = line.trim_start_matches('\u{feff}');
-            if line.starts_with("\"#") {
+        let mut line = String::new();
+        let mut body = loop {
+            line.clear();
+            lines.read_line(&mut line).map_err(unread)?;
+            let text = line.trim_start_matches('\u{feff}').trim_end();
+            if text.starts_with("\"#") {
                 let rule = "a spreadsheet has put the lines of its header in quotes";
                 return Err(refuse(rule).or("take them from the original"));
             }
-            if !line.starts_with('#') {
-                break split(line);
+            if !text.starts_with('#') {
+                break line;
             }
-            if let Some(given) = line.strip_prefix("# shard: ") {
+            if let Some(given) = text.strip_prefix("# shard: ") {
                 shard = given.parse().map_err(|why: String| refuse(&why))?;
-            } else if let Some(given) = line.strip_prefix("# arithmetic: ") {
+            } else if let Some(given) = text.strip_prefix("# arithmetic: ") {
                 arithmetic.extend(given.split("; ").map(printable));
             } else {
-                header.push_str(line);
+                header += text;
                 header.push('\n');
-            }
-            if header.len() as u64 > LONGEST {
-                return Err(refuse("its header is too long"));
             }
         };
         if !header.contains("# study: ") {
             let rule = "is not a table of mdr-tui sweep: its header has no study";
             return Err(refuse(rule));
         }
+        lines.read_to_string(&mut body).map_err(unread)?;
+        // A last line without a line end was cut short.
+        body.truncate(body.rfind('\n').map_or(0, |end| end + 1));
         Ok(Self {
             header,
             arithmetic,
             shard,
-            columns,
-            lines,
+            body,
             name,
         })
     }
@@ -193,74 +170,41 @@ impl Record {
         Err(Refusal::new(&self.name, rule))
     }
 
-    /// Iterates over the remaining rows, with the columns in the order of `study`.
+    /// Returns the rows, with the columns in the order of `study`.
     ///
     /// # Errors
     ///
-    /// If the columns differ from the study's.
-    pub fn rows(
-        mut self,
+    /// If the columns differ from the study's; for a row, if it has another number of fields.
+    pub(super) fn rows(
+        &self,
         study: &Study,
-    ) -> Result<impl Iterator<Item = Result<Vec<String>, Refusal>> + use<>, Refusal> {
+    ) -> Result<impl Iterator<Item = Result<Vec<String>, Refusal>>, Refusal> {
         let refuse = |why: String| Refusal::new(&self.name, why);
+        let mut reader = csv::ReaderBuilder::new();
+        let mut reader = reader.comment(Some(b'#')).from_reader(self.body.as_bytes());
+        let names = reader
+            .headers()
+            .map_err(|error| refuse(error.to_string()))?;
         let wanted = study.columns();
-        if let Some(more) = self.columns.iter().find(|name| !wanted.contains(&&***name)) {
+        if let Some(more) = names.iter().find(|name| !wanted.contains(name)) {
             let more = printable(more);
             return Err(refuse(format!(
                 "has a column {more}, which the study does not have"
             )));
         }
         let place = |name: &&str| {
-            let at = self.columns.iter().position(|column| column == name);
+            let at = names.iter().position(|column| column == *name);
             at.ok_or_else(|| refuse(format!("has no column {name}")))
         };
         let order: Vec<usize> = wanted.iter().map(place).collect::<Result<_, _>>()?;
-        if self.columns.len() > wanted.len() {
-            return Err(refuse("has a column twice".into()));
-        }
-        let unread = move |error| Refusal::unread(&self.name, &Unread::Io(error));
-        Ok(std::iter::from_fn(move || {
-            loop {
-                let line = match next_line(&mut *self.lines) {
-                    Ok(line) => line?,
-                    Err(error) => return Some(Err(unread(error))),
-                };
-                if line.trim_end().is_empty() || line.starts_with('#') {
-                    continue;
-                }
-                let mut row = split(&line);
-                if row.len() == order.len() {
-                    let order = order.iter();
-                    row = order.map(|&at| std::mem::take(&mut row[at])).collect();
-                }
-                return Some(Ok(row));
-            }
+        let in_order = move |row: csv::StringRecord| {
+            let fields = order.iter().map(|&at| row[at].to_owned());
+            fields.collect()
+        };
+        let rows = reader.into_records();
+        Ok(rows.map(move |row| {
+            let row = row.map_err(|error| Refusal::new(&self.name, error));
+            row.map(&in_order)
         }))
     }
-}
-
-/// Returns the next line without its line end; a line without one does not count.
-fn next_line(lines: &mut dyn BufRead) -> io::Result<Option<String>> {
-    let mut line = Vec::new();
-    let read = lines.take(LONGEST).read_until(b'\n', &mut line)?;
-    if line.pop() != Some(b'\n') {
-        return match read as u64 {
-            LONGEST => Err(io::Error::other("a line is too long")),
-            _ => Ok(None),
-        };
-    }
-    line.pop_if(|last| *last == b'\r');
-    let line = String::from_utf8(line).map_err(|_| io::Error::other("is not UTF-8"))?;
-    Ok(Some(line))
-}
-
-/// Why a row is not accepted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refused {
-    /// It has another number of fields, or no point has these values.
-    Foreign,
-    /// All points with these values have their rows, and one of them equals this row.
-    Double,
-    /// All points with these values have their rows, and they differ from this one.
-    Contradiction,
 }

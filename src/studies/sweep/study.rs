@@ -2,29 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::Design;
-use super::axis::{self, StudyAxis, known_key};
+use super::axis::{self, StudyAxis};
 use crate::reading::Column;
 use crate::scenario::escape::cell;
-use crate::scenario::key::{Key, join, split};
+use crate::scenario::key::{Key, join};
 use crate::scenario::value::literal;
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::scenario::{change, units};
-
-/// When a point ends before its `run.cycles`: at the end of the first cycle in which one of these is reached.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Stop {
-    /// The largest worn depth, m.
-    pub worn_depth: Option<f64>,
-    /// The worn volume, m³.
-    pub volume: Option<f64>,
-    /// Wear has settled: the second half of the cycles added at most this share of the worn volume.
-    pub settled: Option<f64>,
-}
 
 /// One scenario for many values of some of its keys.
 #[derive(Debug, Clone)]
@@ -41,10 +28,6 @@ pub struct Study {
     pub design: Design,
     /// The columns after the axes' columns.
     pub columns: Vec<Column>,
-    /// When a point ends.
-    pub stop: Stop,
-    /// Keys of a sensitivity study, each with its standard deviation in its unit; 0 if unknown.
-    pub sensitivity: Vec<(String, f64)>,
     /// The study as written.
     pub(super) written: Table,
 }
@@ -59,8 +42,6 @@ impl Study {
             axes: Vec::new(),
             design: Design::Grid,
             columns,
-            stop: Stop::default(),
-            sensitivity: Vec::new(),
             written: Table::new(),
         }
     }
@@ -104,7 +85,7 @@ impl Study {
 
     /// Returns the names of all columns, in order: the keys of the axes, the columns, `status`.
     pub fn columns(&self) -> Vec<&str> {
-        let axes = self.axes.iter().map(|axis| axis.key.as_str());
+        let axes = self.axes.iter().map(|axis| axis.key.path);
         let columns = self.columns.iter().map(|column| column.name());
         axes.chain(columns).chain(["status"]).collect()
     }
@@ -118,8 +99,7 @@ impl Study {
         self.scenario_at(&self.places(point), None)
     }
 
-    /// Builds the scenario with the first axes at `places`, except
-    /// for an axis with another value; further axes are not set.
+    /// Builds the scenario with the axes at `places`, except for an axis with another value.
     ///
     /// # Errors
     ///
@@ -134,9 +114,9 @@ impl Study {
         let axes = self.axes.iter().zip(places).enumerate();
         let axes = axes.flat_map(|(at, (axis, &place))| match other {
             Some((along, value)) if along == at => {
-                axis.assignments(&axis::value_of(&axis.key, value))
+                axis.assignments(&axis::value_of(axis.key, value))
             }
-            _ => axis.assignments(&axis.value(place)),
+            _ => axis.assignments(&axis.values[place]),
         });
         let all: Vec<(&str, String)> = set.chain(axes).collect();
         let scenario = self.base.assigned(&all)?;
@@ -150,16 +130,15 @@ impl Study {
 
     /// Returns the unit of an axis.
     pub fn unit(&self, axis: &StudyAxis) -> &'static str {
-        let is_force = self.is_force(&axis.key);
-        Key::find(&axis.key).map_or("", |known| units::unit_of(&known, is_force))
+        units::unit_of(&axis.key, self.is_force(axis.key))
     }
 
     /// Whether the motion of `key` prescribes a force, by the settings for all points or by the base.
-    pub(super) fn is_force(&self, key: &str) -> bool {
-        let control = self.set.get(&join(split(key).0, "control"));
+    pub(super) fn is_force(&self, key: Key) -> bool {
+        let control = self.set.get(&join(key.section(), "control"));
         match control {
             Some(control) => control.as_str() == Some("force"),
-            None => self.base.prescribes_force(key),
+            None => self.base.prescribes_force(key.path),
         }
     }
 
@@ -171,15 +150,15 @@ impl Study {
     pub fn assign(&mut self, set: &str) -> Result<(), Refusal> {
         let place = format!("--set {}", printable(set));
         let (key, value) = change::split(set, &place)?;
-        known_key(key, &place)?;
+        let key = Key::named(key, &place)?;
         let varied =
-            |axis: &StudyAxis| axis.key == key || axis.tied.iter().any(|(tied, _)| tied == key);
+            |axis: &StudyAxis| axis.key == key || axis.tied.iter().any(|(tied, _)| *tied == key);
         if self.axes.iter().any(varied) {
             let rule = format!("{key} is varied by an axis of the study");
             return Err(Refusal::new(place, rule));
         }
         let value: Value = value.parse().unwrap_or_else(|_| value.into());
-        self.set.insert(key.to_owned(), value);
+        self.set.insert(key.path.to_owned(), value);
         Ok(())
     }
 

@@ -7,15 +7,12 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, SystemTime};
 use std::{fs, thread};
 
-use rayon::ThreadPoolBuilder;
-
 use super::range::Range;
 use super::view::MapView;
 use crate::panics::locked;
 use crate::scenario::{Refusal, Scenario};
-use crate::studies::sweep::Shard;
-use crate::studies::sweep::engine;
 use crate::studies::sweep::record::Record;
+use crate::studies::sweep::{Results, Shard, engine};
 
 /// Interval for checking the table.
 const LOOK_INTERVAL: Duration = Duration::from_millis(300);
@@ -43,9 +40,9 @@ impl LiveStudy {
     ///
     /// In one line: the file cannot be read, or is not the table of a study.
     pub fn of_file(file: &Path) -> Result<Self, Refusal> {
-        let (record, name) = (Record::of_file(file)?, file.display().to_string());
-        let mut view = MapView::new(record.study()?, &name)?;
-        view.slice.renew(record, &name)?;
+        let record = Record::of_file(file)?;
+        let (results, _) = Results::read(record.study()?, Shard::WHOLE, &[record])?;
+        let view = MapView::new(results, &file.display().to_string());
         Ok(Self::new(view, Some(file.into())))
     }
 
@@ -74,8 +71,11 @@ impl LiveStudy {
                     continue;
                 }
                 // A file that is just being replaced is read again the next time.
-                let _ = Record::of_file(&file)
-                    .map(|rows| shared.with_view(|view| view.slice.renew(rows, &view.name)));
+                let study = shared.with_view(|view| Arc::clone(&view.slice.results.study));
+                let read = Record::of_file(&file)
+                    .and_then(|record| Results::read(study, Shard::WHOLE, &[record]));
+                let _ =
+                    read.map(|(results, _)| shared.with_view(|view| view.slice.results = results));
                 if !tell() {
                     return;
                 }
@@ -94,20 +94,19 @@ impl LiveStudy {
         cycles: f64,
         tell: impl Fn() + Send + 'static,
     ) -> Result<Self, Refusal> {
-        let study = range.study(scenario, cycles)?;
+        let results = Results::new(range.study(scenario, cycles)?);
+        let study = Arc::clone(&results.study);
+        engine::check(&study, Shard::WHOLE)?;
         let title = format!("{} at {cycles} cycles", scenario.title());
-        let pool = ThreadPoolBuilder::new()
-            .build()
-            .map_err(|error| Refusal::from(error.to_string()))?;
-        engine::check(&study, Shard::WHOLE, &pool, |_| true)?;
-        let live = Self::new(MapView::new(study.clone(), &title)?, None);
+        let live = Self::new(MapView::new(results, &title), None);
         let shared = live.clone();
         thread::spawn(move || {
-            let todo = 0..study.points();
-            // All points have been checked already.
+            let todo = Vec::from_iter(0..study.points());
+            let threads = thread::available_parallelism().map_or(1, usize::from);
             let go_on = || !shared.halt.load(Ordering::Relaxed);
-            engine::run(&study, todo, &pool, &go_on, |point, row| {
-                shared.with_view(|view| view.slice.rows[point] = Some(row));
+            // Without threads, the map stays empty.
+            let _ = engine::run(&study, &todo, threads, &go_on, |row| {
+                shared.with_view(|view| view.slice.results.add(row));
                 tell();
                 true
             });

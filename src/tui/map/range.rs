@@ -73,8 +73,9 @@ impl Range {
         let (ends, ratio) = ([self.from, self.to], self.to / self.from);
         let is_wide = ends[0].min(ends[1]) > 0.0 && !(1.0 / DECADES..DECADES).contains(&ratio);
         let spread = if is_wide { Scale::Log } else { Scale::Linear };
+        let key = Key::named(&self.key, "sweep")?;
         let mut study = Study::new(base, COLUMNS.to_vec());
-        study.axes = vec![StudyAxis::between(&self.key, ends, POINTS, spread)?];
+        study.axes = vec![StudyAxis::between(key, ends, POINTS, spread)];
         Ok(study)
     }
 }

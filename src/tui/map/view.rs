@@ -1,15 +1,10 @@
 //! The view of a study: axes, column and cursor.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
-
-use crate::figure::study;
-use crate::math::scan;
-use crate::plot::{self, Chart, Scale};
+use crate::charts::study::lines::borders;
+use crate::charts::study::{Slice, chart};
+use crate::plot::{Chart, Curve, Scale};
 use crate::reading::Column;
-use crate::scenario::Refusal;
-use crate::studies::sweep::slice::{Contour, Slice};
-use crate::studies::sweep::{Design, Study, StudyAxis};
+use crate::studies::sweep::{Design, Results, StudyAxis};
 use crate::tui::keys::{Key, Named};
 
 /// A study, and the state of its view.
@@ -22,27 +17,25 @@ pub struct MapView {
     /// The index of the shown column.
     column: usize,
     /// Whether borders and criteria are drawn.
-    pub with_overlays: bool,
+    with_lines: bool,
     /// Whether the user has switched the column's scale from the default.
     is_flipped: bool,
-    borders: RefCell<HashMap<Vec<usize>, Vec<Contour>>>,
+    /// The borders in closed form on the shown axes.
+    borders: Vec<Curve>,
 }
 
 impl MapView {
-    /// Makes a view of a study without rows.
-    ///
-    /// # Errors
-    ///
-    /// If the study has no axis.
-    pub fn new(study: Study, name: &str) -> Result<Self, Refusal> {
-        Ok(Self {
-            slice: Slice::new(study, name)?,
+    /// Makes a view of a study.
+    pub fn new(results: Results, name: &str) -> Self {
+        let slice = Slice::new(results, &[]).expect("no axis is held");
+        Self {
+            borders: borders(&slice),
+            slice,
             name: name.to_owned(),
             column: 0,
-            with_overlays: true,
+            with_lines: true,
             is_flipped: false,
-            borders: RefCell::default(),
-        })
+        }
     }
 
     /// Handles a key that changes the view.
@@ -54,11 +47,9 @@ impl MapView {
             Key::Char('j') | Key::Named(Named::Down) => self.move_by(self.slice.y, -1),
             Key::Named(Named::Home) => self.move_by(Some(self.slice.x), isize::MIN / 2),
             Key::Named(Named::End) => self.move_by(Some(self.slice.x), isize::MAX / 2),
-            Key::Named(Named::Tab) => self.column = (self.column + 1) % self.columns(),
-            Key::Named(Named::BackTab) => {
-                self.column = (self.column + self.columns() - 1) % self.columns();
-            }
-            Key::Char('t') => self.with_overlays = !self.with_overlays,
+            Key::Named(Named::Tab) => self.turn_column(1),
+            Key::Named(Named::BackTab) => self.turn_column(self.columns() - 1),
+            Key::Char('t') => self.with_lines = !self.with_lines,
             Key::Char('L') => self.is_flipped = !self.is_flipped,
             Key::Char('x') => self.turn_x(),
             Key::Char('y') => self.turn_y(),
@@ -66,19 +57,26 @@ impl MapView {
             Key::Char('[') => self.move_others(-1),
             _ => {}
         }
+        if matches!(key, Key::Char('x' | 'y' | '[' | ']')) {
+            self.borders = borders(&self.slice);
+        }
     }
 
     fn columns(&self) -> usize {
-        self.slice.study.columns.len().max(1)
+        self.slice.results.study.columns.len().max(1)
+    }
+
+    fn turn_column(&mut self, by: usize) {
+        self.column = (self.column + by) % self.columns();
     }
 
     fn move_by(&mut self, axis: Option<usize>, by: isize) {
         let Some(axis) = axis else {
             return;
         };
-        let last = self.slice.study.axes[axis].count() - 1;
+        let last = self.slice.results.study.axes[axis].count() - 1;
         let place = self.slice.at[axis].saturating_add_signed(by).min(last);
-        if self.slice.study.design == Design::Grid {
+        if self.slice.results.study.design == Design::Grid {
             self.slice.at[axis] = place;
         } else {
             self.slice.at.fill(place);
@@ -88,14 +86,14 @@ impl MapView {
     /// Shows the next axis horizontally; if it was the vertical one, swaps the two.
     fn turn_x(&mut self) {
         let before = self.slice.x;
-        self.slice.x = (self.slice.x + 1) % self.slice.study.axes.len();
+        self.slice.x = (self.slice.x + 1) % self.slice.at.len();
         if self.slice.y == Some(self.slice.x) {
             self.slice.y = Some(before);
         }
     }
 
     fn turn_y(&mut self) {
-        let (x, axes) = (self.slice.x, self.slice.study.axes.len());
+        let (x, axes) = (self.slice.x, self.slice.at.len());
         let next = |y: usize| (1..=axes).map(|by| (y + by) % axes).find(|y| *y != x);
         self.slice.y = self.slice.y.and_then(next);
     }
@@ -104,7 +102,7 @@ impl MapView {
     fn move_others(&mut self, by: isize) {
         let hidden: Vec<usize> = self.slice.hidden().collect();
         for axis in hidden.into_iter().rev() {
-            let length = self.slice.study.axes[axis].count() as isize;
+            let length = self.slice.results.study.axes[axis].count() as isize;
             let place = self.slice.at[axis] as isize + by;
             self.slice.at[axis] = place.rem_euclid(length) as usize;
             if (0..length).contains(&place) {
@@ -113,49 +111,28 @@ impl MapView {
         }
     }
 
-    /// Returns the cursor's position on the horizontal and the vertical axis.
-    pub fn cursor(&self) -> [usize; 2] {
-        let y = self.slice.y.map_or(0, |y| self.slice.at[y]);
-        [self.slice.at[self.slice.x], y]
-    }
-
     /// The column that is shown; the cycle, which has no values, if the study has none.
     pub fn column(&self) -> Column {
-        let column = self.slice.study.columns.get(self.column);
+        let column = self.slice.results.study.columns.get(self.column);
         column.copied().unwrap_or(Column::Cycle)
     }
 
     /// Returns the point under the cursor.
     pub fn point(&self) -> usize {
-        let [x, y] = self.cursor();
-        self.slice.point_at(x, y)
+        self.slice.point_at(self.slice.cursor())
     }
 
-    /// Whether the column holds words.
-    pub fn is_regime(&self) -> bool {
-        self.column() == Column::Regime
-    }
-
-    /// Returns the chart of the column, as on paper. Its colours end at the shown values, and its scale is switched if
-    /// the user wants that.
+    /// Returns the chart of the column, as on paper; its scale is switched if the user wants that.
     pub fn chart(&self) -> Chart {
-        let lines = if self.with_overlays {
-            [self.borders(), self.slice.criteria()]
-        } else {
-            Default::default()
-        };
-        let mut chart = study::chart(&self.slice, self.column(), lines);
+        let borders = self.with_lines.then_some(&*self.borders);
+        let mut chart = chart(&self.slice, self.column(), borders);
         let quantity = chart.map.as_mut().map(|map| &mut map.quantity);
         let quantity = quantity.unwrap_or(&mut chart.y);
-        if self.is_flipped && !self.is_regime() {
+        if self.is_flipped && self.column() != Column::Regime {
             quantity.scale = match quantity.scale {
                 Scale::Linear => Scale::Log,
                 Scale::Log => Scale::Linear,
             };
-        }
-        let (_, range) = shown(&chart);
-        if let Some(map) = &mut chart.map {
-            map.quantity.bounds = range;
         }
         chart
     }
@@ -163,7 +140,7 @@ impl MapView {
     /// Returns the values of the base scenario on the shown axes, if they are on the map.
     pub fn position(&self) -> Option<[f64; 2]> {
         let value = |axis: &StudyAxis| {
-            let value = self.slice.study.base.number(&axis.key)?;
+            let value = self.slice.results.study.base.number(axis.key.path)?;
             axis.place_of(value).map(|_| value)
         };
         let y = match self.slice.y() {
@@ -172,29 +149,4 @@ impl MapView {
         };
         Some([value(self.slice.x())?, y])
     }
-
-    /// Returns the closed forms, computed once per position on the hidden axes.
-    fn borders(&self) -> Vec<Contour> {
-        let mut key = self.slice.at.clone();
-        for axis in [Some(self.slice.x), self.slice.y].into_iter().flatten() {
-            key[axis] = 0;
-            key.push(axis);
-        }
-        let mut known = self.borders.borrow_mut();
-        known
-            .entry(key)
-            .or_insert_with(|| self.slice.borders())
-            .clone()
-    }
-}
-
-/// Returns the quantity that a chart of a study shows, with its smallest and largest value; `None` without any.
-pub fn shown(chart: &Chart) -> (&plot::Axis, Option<[f64; 2]>) {
-    let (quantity, values) = match &chart.map {
-        Some(map) => (&map.quantity, Some(&map.values)),
-        None => (&chart.y, chart.curves.first().map(|curve| &curve.ys)),
-    };
-    let values = values.into_iter().flatten().copied();
-    let range = scan::range(values.filter(|value| quantity.scale.has(*value)));
-    (quantity, range)
 }

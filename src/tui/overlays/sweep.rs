@@ -26,7 +26,7 @@ pub(super) fn press(live: &LiveStudy, key: Key, explorer: &mut Explorer) -> Answ
             return Answer::Close;
         }
         (Key::Named(Named::Enter), _) => {
-            match live.with_view(|view| view.slice.study.scenario(view.point())) {
+            match live.with_view(|view| view.slice.results.study.scenario(view.point())) {
                 Ok(scenario) => {
                     live.halt();
                     explorer.notice = Some(OPENING.to_owned());

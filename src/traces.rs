@@ -1,9 +1,10 @@
 //! The data of a run, or of another source, as named columns in SI units: over the radius, over cycles, over a loop. A
 //! column has the same name in a file, in memory and on an axis.
 
-use crate::reading::Column;
 pub use crate::reading::Table;
+use crate::reading::{Column, Recorder};
 use crate::scenario::columns::Columns;
+use crate::scenario::scalars;
 
 /// Two columns that make a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,10 +49,18 @@ impl Axes {
 }
 
 impl Table {
-    /// The known columns of a file, in SI units; fields that are no numbers become NaN.
+    /// The known columns of a file, in SI units; fields that are no numbers become NaN, and regimes their numbers.
     pub fn of_file(file: &Columns) -> Self {
+        let regime = Column::Regime;
+        let regimes = || {
+            file.words(regime.name())
+                .map(|word| scalars::parse(regime, word))
+        };
         let columns = file.all().into_iter();
-        let columns = columns.filter_map(|(name, values)| Some((Column::find(&name)?, values)));
+        let columns = columns.filter_map(|(name, values)| match Column::find(&name)? {
+            column if column == regime => Some((column, regimes().collect())),
+            column => Some((column, values)),
+        });
         Self::of_columns(file.header.clone(), columns)
     }
 }
@@ -103,14 +112,8 @@ impl Loop {
         })
     }
 
-    /// Makes a loop from steps: cycle, u_x⁽⁰⁾, F_x and the actuator's displacement.
-    pub fn of_rows<'a>(end: f64, rows: impl Iterator<Item = &'a [f64; 4]> + Clone) -> Self {
-        let column = |k: usize| rows.clone().map(|row| row[k]).collect();
-        Self {
-            end,
-            shifts: column(1),
-            forces: column(2),
-            sensed: column(3),
-        }
+    /// Makes the loop of recorded moments; `None` if there are none, or without its columns.
+    pub fn recorded(moments: &Recorder) -> Option<Self> {
+        Self::from_table(&moments.table(moments.columns()), None)
     }
 }

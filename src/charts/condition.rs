@@ -16,6 +16,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "running-condition map",
     needs: Curves::SPRINGS,
     subject: Subject::Motion,
+    history: &[Column::ShiftAmplitude, Column::MeanNormalForce],
     text: "Load and displacement amplitude of the cycles so far. Right of the border the whole contact slips \
            in each cycle; left of it the middle sticks. The border is dashed for the unworn shape, solid for \
            the present one.",

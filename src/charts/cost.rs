@@ -12,6 +12,7 @@ pub static RECIPE: Recipe = Recipe {
     can_be_log: true,
     has_spikes: true,
     is_calm: true,
+    history: &[Column::StepCost],
     text: "How long one step of the simulation takes on this machine.",
     symbols: &[("t", "time per step")],
     ..Recipe::new(make)

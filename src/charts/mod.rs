@@ -81,6 +81,8 @@ pub struct Recipe<M: ?Sized = Make> {
     pub can_be_log: bool,
     /// The curves that it needs.
     pub needs: Curves,
+    /// The columns of the history that it shows.
+    pub history: &'static [Column],
     /// Whether it needs the stress field inside the half-space.
     pub needs_field: bool,
     /// Whether the range of the abscissa is kept between frames like the ordinate's, so that a loop's axes do not move.
@@ -111,6 +113,7 @@ impl<M> Recipe<M> {
             title: "",
             can_be_log: false,
             needs: Curves::empty(),
+            history: &[],
             needs_field: false,
             keeps_abscissa: false,
             has_spikes: false,
@@ -171,6 +174,44 @@ impl Recipe {
         let mut overlays = self.overlays.iter();
         overlays.any(|axes| ghost.trace(*axes).is_some())
     }
+}
+
+/// All charts, in the order of lists.
+pub static ALL: &[&Recipe] = &[
+    &profile::RECIPE,
+    &stresses::RECIPE,
+    &fretting_loop::RECIPE,
+    &radii::RECIPE,
+    &springs::RECIPE,
+    &depth::RECIPE,
+    &volume::RECIPE,
+    &rate::RECIPE,
+    &residual::RECIPE,
+    &cost::RECIPE,
+    &fretting_log::RECIPE,
+    &condition::RECIPE,
+    &scar_depth::RECIPE,
+    &scar_growth::RECIPE,
+    &field::VON_MISES,
+    &field::PRINCIPAL,
+    &field::SWT,
+];
+
+/// Returns the charts that a paper can have.
+pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
+    let all = ALL.iter().copied();
+    all.filter(|recipe| !recipe.name.is_empty())
+}
+
+/// Returns the columns of the history that `charts` show, after the cycle; each once.
+pub fn history_columns(charts: impl IntoIterator<Item = &'static Recipe>) -> Vec<Column> {
+    let mut columns = vec![Column::Cycle];
+    for column in charts.into_iter().flat_map(|chart| chart.history) {
+        if !columns.contains(column) {
+            columns.push(*column);
+        }
+    }
+    columns
 }
 
 /// Default charts; those without data are skipped.

@@ -13,6 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     title: "radii over cycles",
     is_calm: true,
     overlays: &[Axes::CONTACT, Axes::STICK],
+    history: &[Column::ContactRadius, Column::PermanentStickRadius],
     text: "The largest contact radius and the smallest stick radius of each cycle. As the ring wears, a grows; \
            c settles, because what has stuck through a whole cycle keeps sticking.",
     symbols: &[

@@ -13,6 +13,7 @@ pub static RECIPE: Recipe = Recipe {
     has_spikes: true,
     is_calm: true,
     subject: Subject::Wear,
+    history: &[Column::EnergyResidual],
     text: "V = k E_d holds exactly in theory: V comes from the 3D profile, E_d from the 1D springs. The \
            difference shows how consistent the numerics are.",
     symbols: &[V, ("k", "wear coefficient"), E_D],

@@ -16,6 +16,7 @@ pub static RECIPE: Recipe = Recipe {
     is_calm: true,
     subject: Subject::Wear,
     overlays: &[Axes::DEPTH],
+    history: &[Column::ScarDepth],
     text: "The largest worn depth of the profile over cycles: what a profilometer reads in the deepest point \
            of the scar. Measured depths lie over it with --overlay.",
     symbols: &[("depth", "largest f - f0 over the radius")],

@@ -18,6 +18,11 @@ pub static RECIPE: Recipe = Recipe {
     is_calm: true,
     subject: Subject::Wear,
     overlays: &[DEPTH, RADIUS],
+    history: &[
+        Column::DissipatedEnergy,
+        Column::ScarRadius,
+        Column::ScarDepth,
+    ],
     text: "The outer radius of the wear scar and its depth over the energy that friction has dissipated. At \
            first the ring deepens where it is; then it grows outwards, and the depth per energy falls. The \
            depth is drawn magnified by the factor in the legend, which a logarithmic scale does not need.",

@@ -1,28 +1,17 @@
 //! Data for charts from a session: its present state, or everything that a run of it to the end yields.
 
-use super::Run;
+use super::{Run, history_columns, on_paper};
 use crate::export::{field, header, last_loop};
-use crate::reading::{Column, Curves};
+use crate::reading::{Curves, Recorder};
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::traces::{Loop, Table};
-
-/// What the charts over cycles show.
-const OVER_CYCLES: [Column; 7] = [
-    Column::Cycle,
-    Column::ContactRadius,
-    Column::PermanentStickRadius,
-    Column::WearVolume,
-    Column::ScarDepth,
-    Column::ScarRadius,
-    Column::DissipatedEnergy,
-];
 
 impl Run {
     /// Adds the present state of `session`.
     pub fn add_state(&mut self, session: &Session) {
         let seen = session.simulation().observe(Curves::all());
-        let table = seen.columns.with_header(header::entries(session));
+        let table = Table::clone(&seen.columns).with_header(header::entries(session));
         self.states.push(table.into());
     }
 
@@ -37,12 +26,11 @@ impl Run {
         with_field: bool,
     ) -> Result<Self, SessionError> {
         let mut data = Self::default().with_scenario(session.scenario());
-        let mut seen: Vec<[f64; OVER_CYCLES.len()]> = Vec::new();
+        let mut past = Recorder::of_moments(history_columns(on_paper()));
         let mut record = |session: &Session| {
             let reading = Reading::new(session);
-            let row = OVER_CYCLES.map(|column| reading.number(column));
-            if seen.last().is_none_or(|last| last[0] < row[0]) {
-                seen.push(row);
+            if past.last_cycle() < Some(session.simulation().cycle()) {
+                past.record(|column| reading.number(column));
             }
         };
         for &end in cycles {
@@ -61,16 +49,15 @@ impl Run {
                 })?;
             }
             data.add_state(session);
-            let rows = last_loop::rows(session.simulation());
-            data.loops.push(Loop::of_rows(end, rows.iter()));
+            let last = last_loop::record(session.simulation());
+            data.loops.extend(Loop::recorded(&last));
         }
         if session.simulation().cycle() < 1.0 {
             record(session);
         }
         let header = || header::entries(session);
-        data.history = Some(Table::of_rows(header(), OVER_CYCLES, &seen).into());
-        data.field =
-            with_field.then(|| Table::of_rows(header(), field::COLUMNS, &field::rows(session)));
+        data.history = Some(past.table(past.columns()).with_header(header()).into());
+        data.field = with_field.then(|| field::table(session).with_header(header()));
         Ok(data)
     }
 }

@@ -17,6 +17,7 @@ pub static RECIPE: Recipe = Recipe {
     is_calm: true,
     subject: Subject::Wear,
     overlays: &[Axes::VOLUME],
+    history: &[Column::WearVolume],
     text: "The wear volume since the start. It grows by k times the energy that friction dissipates.",
     symbols: &[V, E_D],
     ..Recipe::new(make)

@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::args::{Figure, PaperFigure, on_paper};
+use super::args::{Figure, PaperFigure};
 use super::{accuracy, given, job};
 use crate::charts::study::Slice;
-use crate::charts::{Recipe, Run, USUAL, depth, scar_depth, volume};
+use crate::charts::{Recipe, Run, USUAL, depth, on_paper, scar_depth, volume};
 use crate::export::target::Target;
 use crate::figure::look::FigureStyle;
 use crate::figure::{DATA_COLUMNS, Format, Sheet, paper, study as figure_of_study};

@@ -2,9 +2,8 @@
 //! steady-state cycle, one row per point.
 
 use super::header;
-use crate::math::number::exact;
 use crate::reading::fatigue::{Fatigue, StressCycle};
-use crate::reading::{Column, Curves};
+use crate::reading::{Column, Curves, Table};
 use crate::scenario::session::Session;
 
 /// The columns, in order.
@@ -29,16 +28,14 @@ const DEPTH: i32 = 100;
 /// Extent of the plane to either side and downwards, in contact radii.
 const REACH: f64 = 1.5;
 
-/// Returns the whole file for the present state of `session`: rows from the surface down, in each x from −1.5 a to 1.5
-/// a. Without contact the domain's radius replaces a, and all stresses are zero.
-pub fn table(session: &Session) -> String {
-    let rows = rows(session).into_iter();
-    let fields = rows.map(|row| row.into_iter().map(exact).collect::<Vec<_>>());
-    header::table(session, &COLUMNS, fields)
+/// Returns the whole file for the present state of `session`.
+pub fn file(session: &Session) -> String {
+    header::file(session, &table(session))
 }
 
-/// Returns the rows of the file; the fatigue parameters are NaN if the motion has no steady-state cycle.
-pub fn rows(session: &Session) -> Vec<Vec<f64>> {
+/// Returns the stresses and fatigue parameters, from the surface down, in each x from −1.5 a to 1.5 a; the parameters are
+/// NaN if the motion has no steady-state cycle. Without contact the domain's radius replaces a, and all stresses are zero.
+pub fn table(session: &Session) -> Table {
     let simulation = session.simulation();
     let seen = simulation.observe(Curves::SPRINGS);
     let load = seen.spring_load(simulation.setup().material.poisson());
@@ -48,7 +45,7 @@ pub fn rows(session: &Session) -> Vec<Vec<f64>> {
     };
     let cycle = StressCycle::simulate(simulation);
     let step = REACH * radius / f64::from(HALF_WIDTH);
-    let mut rows = Vec::new();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
     for k in 0..=DEPTH {
         let z = REACH * radius * f64::from(k) / f64::from(DEPTH);
         let radii = (0..=HALF_WIDTH).map(|i| step * f64::from(i));
@@ -73,5 +70,7 @@ pub fn rows(session: &Session) -> Vec<Vec<f64>> {
             .concat()
         }));
     }
-    rows
+    let columns = COLUMNS.into_iter().enumerate();
+    let columns = columns.map(|(k, column)| (column, rows.iter().map(|row| row[k]).collect()));
+    Table::of_columns(Vec::new(), columns)
 }

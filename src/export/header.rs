@@ -2,8 +2,9 @@
 
 use crate::math::grid::RadialGrid;
 use crate::math::number::exact;
-use crate::reading::Column;
+use crate::reading::{Column, Table};
 use crate::scenario::escape::{csv_line, printable};
+use crate::scenario::scalars::text;
 use crate::scenario::session::Session;
 use crate::simulation::{Setup, Spacing};
 
@@ -14,14 +15,22 @@ pub fn head(session: &Session, columns: &[Column]) -> String {
     lines.collect::<String>() + &csv_line(columns.iter().map(|column| column.name()))
 }
 
-/// Returns a whole file, given the fields of each row.
-pub fn table<R: AsRef<[String]>>(
-    session: &Session,
-    columns: &[Column],
-    rows: impl IntoIterator<Item = R>,
-) -> String {
-    let rows = rows.into_iter().map(|row| csv_line(row.as_ref()));
-    rows.fold(head(session, columns), |text, row| text + &row)
+/// Returns the rows of a table as lines of a file.
+pub fn lines(table: &Table) -> String {
+    let columns: Vec<_> = table.columns().collect();
+    let line = |row: usize| {
+        let fields = columns
+            .iter()
+            .map(|(column, values)| text(*column, values[row]));
+        fields.collect::<Vec<_>>().join(",") + "\n"
+    };
+    (0..table.rows()).map(line).collect()
+}
+
+/// Returns a whole file.
+pub fn file(session: &Session, table: &Table) -> String {
+    let columns: Vec<Column> = table.columns().map(|(column, _)| column).collect();
+    head(session, &columns) + &lines(table)
 }
 
 /// Returns one line of a header.

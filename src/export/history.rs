@@ -9,25 +9,37 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::header::head;
+use super::header::{head, lines};
 use super::safe_open;
-use crate::reading::Column;
-use crate::scenario::scalars::{self, Reading, Value};
+use crate::reading::{Column, Recorder};
+use crate::scenario::scalars::{self, Reading};
 use crate::scenario::session::Session;
 
-/// Rows buffered in memory before they are written, bytes.
+/// Rows kept in memory before they are written.
+const ROWS: usize = 256;
+
+/// Bytes of the file that are read at once.
 const CHUNK: usize = 64 << 10;
 
-/// The rows recorded so far, as text.
-#[derive(Debug, Default, Clone, Serialize, Deserialize)]
+/// The rows recorded so far.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct History {
     /// The newest rows, not yet in the file.
-    rows: String,
+    rows: Recorder,
     /// The length of this history's part of the file, in bytes.
     written: u64,
     last_cycle: Option<f64>,
-    /// Columns after the ones that every history has.
-    further: Vec<Column>,
+}
+
+impl Default for History {
+    /// Makes an empty history that records the standard columns.
+    fn default() -> Self {
+        Self {
+            rows: Recorder::of_moments(Column::HISTORY),
+            written: 0,
+            last_cycle: None,
+        }
+    }
 }
 
 impl History {
@@ -37,9 +49,12 @@ impl History {
     ///
     /// Names, in one line, the first of them that is not a scalar or is already a column.
     pub fn with_columns(further: &[String]) -> Result<Self, String> {
-        let further = further.iter().map(|name| scalars::find_scalar(name));
+        let mut columns = Column::HISTORY.to_vec();
+        for name in further {
+            columns.push(scalars::find_scalar(name)?);
+        }
         let history = Self {
-            further: further.collect::<Result<_, _>>()?,
+            rows: Recorder::of_moments(columns),
             ..Self::default()
         };
         history.check_columns()?;
@@ -48,7 +63,7 @@ impl History {
 
     /// Refuses a column that stands twice.
     fn check_columns(&self) -> Result<(), String> {
-        let columns: Vec<Column> = self.columns().collect();
+        let columns = self.columns();
         let mut further = columns.iter().enumerate().skip(Column::HISTORY.len());
         match further.find(|(at, column)| columns[..*at].contains(column)) {
             Some((_, column)) => Err(format!(
@@ -59,43 +74,30 @@ impl History {
         }
     }
 
-    fn columns(&self) -> impl Iterator<Item = Column> {
-        Column::HISTORY
-            .into_iter()
-            .chain(self.further.iter().copied())
-    }
-
-    /// The columns of the present moment of `session` with their values.
-    pub fn values(&self, session: &Session) -> Vec<(Column, Value)> {
-        let reading = Reading::new(session);
-        let values = self.columns().map(|column| (column, reading.value(column)));
-        values.collect()
-    }
-
-    fn row(&self, session: &Session) -> String {
-        let values = self.values(session).into_iter();
-        let fields: Vec<String> = values.map(|(_, value)| scalars::cell(&value)).collect();
-        fields.join(",")
+    /// The columns.
+    pub fn columns(&self) -> &[Column] {
+        self.rows.columns()
     }
 
     /// Whether nothing is recorded yet.
     pub fn is_empty(&self) -> bool {
-        self.length() == 0
+        self.written == 0 && self.rows.rows().is_empty()
     }
 
-    /// Returns the size of all recorded rows, in bytes.
-    fn length(&self) -> u64 {
-        self.written + self.rows.len() as u64
+    /// Returns the buffered rows as lines of the file.
+    fn text(&self) -> String {
+        lines(&self.rows.table(self.columns()))
     }
 
     /// Drops what was recorded after `earlier` was copied from this history.
     pub fn rewind(&mut self, earlier: &Self) {
-        match earlier.length().checked_sub(self.written) {
-            Some(kept) => self.rows.truncate(kept as usize),
-            None => {
-                self.written = earlier.length();
-                self.rows.clear();
-            }
+        if self.written == earlier.written {
+            let count = earlier.rows.rows().len();
+            self.rows.keep(|row| row < count);
+        } else {
+            // The rows that the copy holds have been written since.
+            self.written = earlier.written + earlier.text().len() as u64;
+            self.rows.keep(|_| false);
         }
         self.last_cycle = earlier.last_cycle;
     }
@@ -107,26 +109,27 @@ impl History {
             return;
         }
         self.last_cycle = Some(simulation.cycle());
-        self.rows += &(self.row(session) + "\n");
+        let reading = Reading::new(session);
+        self.rows.record(|column| reading.number(column));
     }
 
     /// Whether there are enough buffered rows to [`spill`](Self::spill).
     pub fn is_full(&self) -> bool {
-        self.rows.len() >= CHUNK
+        self.rows.rows().len() >= ROWS
     }
 
     /// Appends the buffered rows to the file at `path`. On an error they stay in memory and the file is unchanged.
     pub fn spill(&mut self, path: &Path) -> io::Result<()> {
+        let text = self.text();
         let mut file = safe_open::open_or_make(path)?;
         // A killed run may have written rows beyond this length.
         file.set_len(self.written)?;
         file.seek(SeekFrom::Start(self.written))?;
-        file.write_all(self.rows.as_bytes())?;
+        file.write_all(text.as_bytes())?;
         // From now on a checkpoint may rely on these rows.
         file.sync_data()?;
-        self.written += self.rows.len() as u64;
-        // Frees the buffer, which may have grown large while the disk was full.
-        self.rows = String::new();
+        self.written += text.len() as u64;
+        self.rows.keep(|_| false);
         Ok(())
     }
 
@@ -165,10 +168,7 @@ impl History {
     /// Says in one line what is invalid.
     pub fn check(&self) -> Result<(), String> {
         self.check_columns()?;
-        let commas = self.columns().count() - 1;
-        let has_all = |row: &str| row.matches(',').count() == commas;
-        let is_whole = self.rows.is_empty() || self.rows.ends_with('\n');
-        if !(is_whole && is_of_cells(self.rows.as_bytes()) && self.rows.lines().all(has_all)) {
+        if !self.columns().starts_with(&Column::HISTORY) || !self.rows.is_whole() {
             return Err("the saved rows of the history are not those of its columns".into());
         }
         Ok(())
@@ -177,16 +177,13 @@ impl History {
     /// Writes the whole table up to the present state of `session`, which its header describes. Rows that are not in
     /// memory are read from the file at `rows`.
     pub fn write(&self, session: &Session, rows: &Path, out: &mut dyn Write) -> io::Result<()> {
-        let columns: Vec<Column> = self.columns().collect();
-        out.write_all(head(session, &columns).as_bytes())?;
+        out.write_all(head(session, self.columns()).as_bytes())?;
         if self.written > 0 {
             self.copy_rows(rows, out)?;
         }
-        out.write_all(self.rows.as_bytes())?;
-        if self.last_cycle == Some(session.simulation().cycle()) {
-            return Ok(());
-        }
-        writeln!(out, "{}", self.row(session))
+        let mut rows = self.clone();
+        rows.record(session);
+        out.write_all(rows.text().as_bytes())
     }
 }
 
@@ -194,9 +191,4 @@ impl History {
 fn is_of_cells(text: &[u8]) -> bool {
     let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"+-.,\n".contains(byte);
     text.iter().all(plain)
-}
-
-/// The fields of a moment, in the order of the columns.
-pub fn fields(reading: &Reading) -> [String; Column::HISTORY.len()] {
-    Column::HISTORY.map(|column| scalars::cell(&reading.value(column)))
 }

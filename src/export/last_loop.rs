@@ -1,10 +1,9 @@
 //! `loop.csv`: the fretting loop of the last period, computed with fine steps on the last profile.
 
-use super::header::table;
-use crate::math::number::exact;
-use crate::reading::Column;
+use super::header;
+use crate::reading::{Column, Recorder};
 use crate::scenario::session::Session;
-use crate::simulation::{PeriodPoint, Simulation};
+use crate::simulation::Simulation;
 
 /// The columns, in order; the last one stays empty without a rig that yields.
 pub const COLUMNS: [Column; 4] = [
@@ -17,29 +16,32 @@ pub const COLUMNS: [Column; 4] = [
 /// Periods of up to this many cycles are written whole; of longer ones, only the last cycle.
 const LONGEST: f64 = 20.0;
 
-/// Returns the moments of the last period: cycle, u_x⁽⁰⁾ (m), F_x (N), displacement of the rig's actuator (m; NaN on a
-/// stiff rig). Returns no rows without tangential motion.
-pub fn rows(simulation: &Simulation) -> Vec<[f64; 4]> {
+/// Records the moments of the last period. The record is empty without tangential motion.
+pub fn record(simulation: &Simulation) -> Recorder {
+    let mut moments = Recorder::of_moments(COLUMNS);
     let yields = simulation.setup().drive.rig_compliance() > 0.0;
     let Some(period) = simulation.fine_period() else {
-        return Vec::new();
+        return moments;
     };
     let begin = if period.cycles > LONGEST {
         simulation.cycle() - 1.0
     } else {
         f64::NEG_INFINITY
     };
-    let points = period.points.iter().filter(|point| point.cycle >= begin);
-    let row = |point: &PeriodPoint| {
-        let sensed = if yields { point.sensed } else { f64::NAN };
-        [point.cycle, point.shift, point.tangential_force, sensed]
-    };
-    points.map(row).collect()
+    for point in period.points.iter().filter(|point| point.cycle >= begin) {
+        moments.record(|column| match column {
+            Column::Cycle => point.cycle,
+            Column::Shift => point.shift,
+            Column::TangentialForce => point.tangential_force,
+            _ if yields => point.sensed,
+            _ => f64::NAN,
+        });
+    }
+    moments
 }
 
 /// Returns the whole file for the present state of `session`; `None` without tangential motion.
 pub fn file(session: &Session) -> Option<String> {
-    let rows = rows(session.simulation());
-    let fields = rows.iter().map(|row| row.map(exact));
-    (!rows.is_empty()).then(|| table(session, &COLUMNS, fields))
+    let moments = record(session.simulation());
+    (!moments.rows().is_empty()).then(|| header::file(session, &moments.table(&COLUMNS)))
 }

@@ -53,6 +53,9 @@ pub enum Zone {
 }
 
 impl Zone {
+    /// All zones, in the order of their numbers.
+    pub const ALL: [Self; 3] = [Self::Stick, Self::Slip, Self::Open];
+
     /// Returns the name used in files.
     pub fn name(self) -> &'static str {
         self.into()

@@ -22,39 +22,17 @@ impl Table {
         }
     }
 
-    /// Makes a table from its header, column names, and rows.
-    pub fn of_rows<const N: usize>(
-        header: Vec<(String, String)>,
-        names: [Column; N],
-        rows: &[impl AsRef<[f64]>],
-    ) -> Self {
-        let columns = names.into_iter().enumerate();
-        let columns =
-            columns.map(|(k, name)| (name, rows.iter().map(|row| row.as_ref()[k]).collect()));
-        Self::of_columns(header, columns)
-    }
-
-    /// Adds a row at the end; the first row of an empty table names its columns.
-    pub fn push(&mut self, row: impl IntoIterator<Item = (Column, f64)>) {
-        for (k, (column, value)) in row.into_iter().enumerate() {
-            match self.columns.get_mut(k) {
-                Some((_, values)) => values.push(value),
-                None => self.columns.push((column, vec![value])),
-            }
-        }
-    }
-
-    /// Removes the last row.
-    pub fn pop(&mut self) {
-        for (_, values) in &mut self.columns {
-            values.pop();
-        }
+    /// Adds a column.
+    #[must_use]
+    pub fn with(mut self, column: Column, values: Vec<f64>) -> Self {
+        self.columns.push((column, values));
+        self
     }
 
     /// The same columns under another header.
     #[must_use]
-    pub fn with_header(&self, header: Vec<(String, String)>) -> Self {
-        Self::of_columns(header, self.columns.iter().cloned())
+    pub fn with_header(self, header: Vec<(String, String)>) -> Self {
+        Self { header, ..self }
     }
 
     /// All columns, in order.

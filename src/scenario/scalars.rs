@@ -5,12 +5,12 @@ use std::cell::OnceCell;
 use super::{hint, printable};
 use crate::math::number::exact;
 use crate::math::scan::largest;
-use crate::reading::column::other_columns;
+use crate::reading::column::{Kind, columns};
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
-use crate::reading::{Column, CycleFigures, Moment, Quantity};
+use crate::reading::{Column, CycleFigures, Log, Moment, Quantity, Regime, Zone};
 use crate::scenario::session::Session;
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, Stats};
 
 /// A scalar's value, or a cell of a table: a number in the unit that its name ends with, a count, a word, or null if it
 /// is undefined at this moment.
@@ -27,6 +27,41 @@ pub fn cell(value: &Value) -> String {
     }
 }
 
+/// Returns the word that a number of this kind stands for, if it is one.
+fn word(kind: Kind, number: f64) -> Option<&'static str> {
+    match kind {
+        Kind::Number | Kind::Count => None,
+        Kind::Regime => Some(Regime::ALL.get(number as usize)?.name()),
+        Kind::Zone => Some(Zone::ALL.get(number as usize)?.name()),
+    }
+}
+
+/// Returns the number of a column as a value: a count as a whole number, a regime by its name, null if not finite.
+pub fn value(column: Column, number: f64) -> Value {
+    match column.kind() {
+        _ if !number.is_finite() => Value::Null,
+        Kind::Number => number.into(),
+        Kind::Count => (number as u64).into(),
+        kind => word(kind, number).into(),
+    }
+}
+
+/// Returns the number of a column as a field of a CSV file, empty if NaN.
+pub fn text(column: Column, number: f64) -> String {
+    let word = word(column.kind(), number).filter(|_| !number.is_nan());
+    word.map_or_else(|| exact(number), str::to_owned)
+}
+
+/// Reads the number of a column from a field of a file; NaN if it is none.
+pub fn parse(column: Column, field: &str) -> f64 {
+    match column.kind() {
+        Kind::Regime => field
+            .parse()
+            .map_or(f64::NAN, |regime: Regime| f64::from(regime as u8)),
+        _ => field.parse().unwrap_or(f64::NAN),
+    }
+}
+
 /// Reads scalars at the present moment of a session. Intermediate results that several scalars need are computed once,
 /// and the pressure only if a scalar needs it.
 #[derive(Debug)]
@@ -39,6 +74,23 @@ pub struct Reading<'a> {
     swt: OnceCell<Option<Peak>>,
     crossland: OnceCell<Option<Peak>>,
 }
+
+/// Makes the reader of all columns from the rows of their table.
+macro_rules! make_reader {
+    ($at:ident read { $($(#[$doc:meta])* $list:ident { $(
+        $column:ident $name:literal $symbol:literal $meaning:literal
+        $(as $kind:ident)? $(keeps $merge:ident)? = $read:expr;
+    )* })* } other $others:tt) => {
+        /// Returns the number of a column; `None` if it is not defined at this moment.
+        fn read($at: &Reading<'_>, column: Column) -> Option<f64> {
+            Some(match column {
+                $($(Column::$column => $read,)*)*
+                stated => return $at.stated(stated),
+            })
+        }
+    };
+}
+columns!(make_reader);
 
 impl<'a> Reading<'a> {
     /// Reads the present moment of `session`.
@@ -54,104 +106,46 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The value of a scalar; missing where it is not defined at this moment, and for columns that are none.
-    pub fn value(&self, scalar: Column) -> Value {
-        let (session, moment) = (self.session, &self.moment);
-        let (simulation, scenario) = (session.simulation(), session.scenario());
-        let stats = simulation.stats();
-        match scalar {
-            Column::Cycle => moment.cycle.into(),
-            Column::Time => moment.time.into(),
-            Column::Indentation => moment.depth.into(),
-            Column::Shift => moment.shift.into(),
-            Column::NormalForce => moment.normal_force.into(),
-            Column::TangentialForce => moment.tangential_force.into(),
-            Column::ContactRadius => moment.contact_radius.into(),
-            Column::StickRadius => moment.stick_radius.into(),
-            Column::PermanentStickRadius => moment.permanent_stick_radius.into(),
-            Column::WearVolume => moment.wear_volume.into(),
-            Column::DissipatedEnergy => moment.dissipated_energy.into(),
-            Column::EnergyResidual => moment.energy_residual.into(),
-            Column::MaxPressure => largest(self.pressure()).into(),
-            Column::PeriodEnergyResidual => session.log().period_residual().into(),
-            Column::ForceResidual => simulation.force_residual(self.pressure()).into(),
-            Column::Steps => simulation.steps().into(),
-            Column::Transforms => stats.transforms.into(),
-            Column::EvaluatedCycles => stats.evaluated_cycles.into(),
-            Column::RejectedJumps => stats.rejected_jumps.into(),
-            Column::StabilityMargin => moment.stability_margin.into(),
-            Column::Parts => stats.parts.into(),
-            Column::EnergyPerCycle => self.figure(|figures| Some(figures.energy)),
-            Column::ForceRatio => self.figure(|figures| figures.force_ratio),
-            Column::SlipRatio => self.figure(|figures| figures.slip_ratio),
-            Column::SlidingRatio => self.figure(|figures| figures.sliding_ratio),
-            Column::EnergyRatio => self.figure(|figures| figures.energy_ratio),
-            Column::EnergyRatioB => self.figure(|figures| figures.energy_ratio_b),
-            Column::Regime => self.figures().map(|figures| figures.regime.name()).into(),
-            Column::WearPerEnergy => moment.wear_per_energy().into(),
-            Column::RigDisplacement => moment.rig_displacement.into(),
-            Column::ScarDepth => largest(simulation.worn_depth()).into(),
-            Column::ScarRadius => scar_radius(simulation).into(),
-            Column::ForceAmplitude => self.figure(|figures| Some(figures.force_amplitude)),
-            Column::ShiftAmplitude => self.figure(|figures| Some(figures.displacement_amplitude)),
-            Column::MeanNormalForce => self.figure(|figures| Some(figures.normal_force)),
-            Column::Swt => self.swt(|peak| peak.value).into(),
-            Column::SwtX => self.swt(|peak| peak.x).into(),
-            Column::SwtZ => self.swt(|peak| peak.z).into(),
-            Column::SwtRatio => {
-                let limit = scenario.fatigue_limit();
-                let ratio = limit.and_then(|limit| Some(self.swt(|peak| peak.value)? / limit));
-                ratio.into()
-            }
-            Column::Crossland => self.crossland(|peak| peak.value).into(),
-            Column::CrosslandX => self.crossland(|peak| peak.x).into(),
-            Column::CrosslandZ => self.crossland(|peak| peak.z).into(),
-            Column::CrosslandRatio => {
-                let limits = self.limits();
-                let ratio =
-                    limits.and_then(|both| Some(self.crossland(|peak| peak.value)? / both.shear));
-                ratio.into()
-            }
-            Column::WornDepthError
-            | Column::DeepestError
-            | Column::VolumeError
-            | Column::EnergyError
-            | Column::ForceError
-            | Column::LoopError
-            | Column::PressureError
-            | Column::ContactRadiusError
-            | Column::StickRadiusError => self.stated(scalar).into(),
-            other_columns!() => Value::Null,
-        }
+    /// Returns the number of a scalar: a regime counts as its place in [`Regime::ALL`]. NaN if it is not defined at this
+    /// moment, and for columns that are no scalars.
+    pub fn number(&self, scalar: Column) -> f64 {
+        read(self, scalar)
+            .filter(|number| number.is_finite())
+            .unwrap_or(f64::NAN)
     }
 
-    /// The same as a number; NaN where it is none at this moment.
-    pub fn number(&self, scalar: Column) -> f64 {
-        self.value(scalar).as_f64().unwrap_or(f64::NAN)
+    /// Returns the same as it is written.
+    pub fn value(&self, scalar: Column) -> Value {
+        value(scalar, self.number(scalar))
+    }
+
+    fn simulation(&self) -> &Simulation {
+        self.session.simulation()
+    }
+
+    fn stats(&self) -> Stats {
+        self.simulation().stats()
+    }
+
+    fn log(&self) -> &Log {
+        self.session.log()
     }
 
     /// Returns p(r), Pa; computed once, by one transform.
     fn pressure(&self) -> &[f64] {
-        self.pressure
-            .get_or_init(|| self.session.simulation().pressure())
+        self.pressure.get_or_init(|| self.simulation().pressure())
     }
 
-    /// Returns a figure of the last complete period; after a jump, a period is stepped for it.
-    fn figure(&self, of: fn(&CycleFigures) -> Option<f64>) -> Value {
-        self.figures().as_ref().and_then(of).into()
-    }
-
-    fn figures(&self) -> &Option<CycleFigures> {
-        self.figures.get_or_init(|| self.session.cycle_figures())
+    /// Returns the figures of the last complete period; after a jump, a period is stepped for them.
+    fn figures(&self) -> Option<&CycleFigures> {
+        let figures = self.figures.get_or_init(|| self.session.cycle_figures());
+        figures.as_ref()
     }
 
     /// Returns the loads of a steady-state cycle, which is stepped once.
     fn stresses(&self) -> Option<&StressCycle> {
-        let simulation = self.session.simulation();
-        let stresses = self
-            .stresses
-            .get_or_init(|| StressCycle::simulate(simulation));
-        stresses.as_ref()
+        let step = || StressCycle::simulate(self.simulation());
+        self.stresses.get_or_init(step).as_ref()
     }
 
     fn limits(&self) -> Option<Limits> {
@@ -163,18 +157,23 @@ impl<'a> Reading<'a> {
     }
 
     /// Finds where the Smith–Watson–Topper parameter is largest.
-    fn swt(&self, of: fn(&Peak) -> f64) -> Option<f64> {
+    fn swt(&self) -> Option<&Peak> {
         let find = || Some(self.stresses()?.largest(|at| at.swt));
-        self.swt.get_or_init(find).as_ref().map(of)
+        self.swt.get_or_init(find).as_ref()
+    }
+
+    fn swt_ratio(&self) -> Option<f64> {
+        let limit = self.session.scenario().fatigue_limit()?;
+        Some(self.swt()?.value / limit)
     }
 
     /// Finds where Crossland's parameter is largest.
-    fn crossland(&self, of: fn(&Peak) -> f64) -> Option<f64> {
+    fn crossland(&self) -> Option<&Peak> {
         let find = || {
             let limits = self.limits()?;
             Some(self.stresses()?.largest(|at| at.crossland(limits)))
         };
-        self.crossland.get_or_init(find).as_ref().map(of)
+        self.crossland.get_or_init(find).as_ref()
     }
 
     /// The estimated error that the headers of the run's files state.

@@ -7,7 +7,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::trend::Recorded;
+use super::recorded::Recorded;
 use crate::scenario::session::Session;
 use crate::studies::refinement::{self, Difference, Outcome};
 

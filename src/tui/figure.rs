@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::trend::Recorded;
+use super::recorded::Recorded;
 use crate::charts;
 use crate::export::target::Target;
 use crate::figure::look::{FigureStyle, Style};
@@ -28,7 +28,7 @@ pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let scenario = of.session.scenario();
     let mut run = charts::Run::default().with_scenario(scenario);
     run.add_state(&of.session);
-    run.loops.push(of.trend.loops.last(of.cycle()));
+    run.loops.extend(of.loops.last());
     let charts = charts::USUAL.iter();
     let charts = charts.filter_map(|recipe| recipe.on_paper(&run).ok());
     let sheet = Sheet {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::beside::Beside;
-use super::trend::Recorded;
+use super::recorded::Recorded;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::MIN_CELLS;
 use crate::reading::Curves;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::export::last_loop;
 use crate::reading::subsurface::SpringLoad;
-use crate::reading::{Curves, Moment};
+use crate::reading::{Column, Curves, Recorder, Table};
 use crate::simulation::Simulation;
 use crate::traces::Loop;
 
@@ -18,60 +18,79 @@ const MOST: usize = 24;
 const POINTS: usize = 64;
 
 /// The loops.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Loops {
-    /// The steps of the last cycle, and the point that closes it: cycle, u_x⁽⁰⁾ (m), F_x (N), and the displacement of
-    /// the rig's actuator (m), NaN on a stiff rig.
-    pub steps: VecDeque<[f64; 4]>,
+    /// The steps of the last cycle, and the point that closes it.
+    steps: Recorder,
     /// Loops of earlier cycles, at least `apart` cycles from each other, oldest first.
     pub kept: Vec<Arc<Loop>>,
     apart: f64,
 }
 
-impl Loops {
-    /// Records the moment after a step.
-    pub fn record(&mut self, moment: &Moment) {
-        let sensed = moment.rig_displacement.unwrap_or(f64::NAN);
-        self.steps
-            .push_back([moment.cycle, moment.shift, moment.tangential_force, sensed]);
-        while self.steps.len() > 1
-            && (self.steps[0][0] < moment.cycle - 1.0 - 1e-9 || self.steps.len() > CAPACITY)
-        {
-            self.steps.pop_front();
+impl Default for Loops {
+    fn default() -> Self {
+        Self {
+            steps: Recorder::of_moments(last_loop::COLUMNS),
+            kept: Vec::new(),
+            apart: 1.0,
         }
-        self.store_cycle(moment.cycle);
+    }
+}
+
+impl Loops {
+    /// Records the present moment. A jump over cycles knows no steps: its last cycle is stepped finely on the present
+    /// profile.
+    pub fn record(&mut self, simulation: &Simulation) {
+        if simulation.has_jumped() {
+            self.steps = last_loop::record(simulation);
+            return self.end_step(simulation.cycle());
+        }
+        let moment = simulation.moment();
+        self.record_step(|column| match column {
+            Column::Cycle => moment.cycle,
+            Column::Shift => moment.shift,
+            Column::TangentialForce => moment.tangential_force,
+            _ => moment.rig_displacement.unwrap_or(f64::NAN),
+        });
     }
 
-    /// Records the moment after a jump over cycles by stepping the last cycle finely on the present profile.
-    pub fn record_jump(&mut self, simulation: &Simulation) {
-        let begin = simulation.cycle() - 1.0 - 1e-9;
-        let rows = last_loop::rows(simulation).into_iter();
-        self.steps = rows.filter(|row| row[0] >= begin).collect();
-        self.store_cycle(simulation.cycle());
+    fn record_step(&mut self, read: impl Fn(Column) -> f64) {
+        self.steps.record(&read);
+        self.end_step(read(Column::Cycle));
     }
 
-    /// Stores the loop of a complete cycle; when there are too many, drops every second one.
-    fn store_cycle(&mut self, cycle: f64) {
+    /// Restores the steps of the last cycle.
+    pub fn restore(&mut self, table: &Table) {
+        self.steps.record_table(table, f64::INFINITY);
+    }
+
+    /// Forgets the steps before the cycle that ends now, at `cycle`. Stores the loop of a whole cycle; when there are too
+    /// many, drops every second one.
+    fn end_step(&mut self, cycle: f64) {
+        let begin = cycle - 1.0 - 1e-9;
+        let steps = self.steps.rows();
+        let before = steps.iter().take_while(|row| row[0] < begin).count();
+        let first = before.max(steps.len().saturating_sub(CAPACITY));
+        self.steps.keep(|step| step >= first);
         let whole = (cycle + 1e-9).floor();
         let last = self.kept.last().map_or(0.0, |kept| kept.end);
-        let ends = cycle - whole < 1e-9 && whole >= last + self.apart.max(1.0);
-        if !ends || self.steps.len() < Loop::SHORTEST {
+        let ends = cycle - whole < 1e-9 && whole >= last + self.apart;
+        let count = self.steps.rows().len();
+        if !ends || count < Loop::SHORTEST {
             return;
         }
-        let (every, last) = (self.steps.len().div_ceil(POINTS), self.steps.len() - 1);
-        let steps = self.steps.iter().enumerate();
-        let thinned = steps.filter(|(k, _)| k % every == 0 || *k == last);
-        let thinned = thinned.map(|(_, step)| step);
-        self.kept.push(Arc::new(Loop::of_rows(whole, thinned)));
+        let (every, mut thinned) = (count.div_ceil(POINTS), self.steps.clone());
+        thinned.keep(|step| step % every == 0 || step + 1 == count);
+        self.kept.extend(Loop::recorded(&thinned).map(Arc::new));
         if self.kept.len() > MOST {
             self.kept = self.kept.iter().step_by(2).cloned().collect();
-            self.apart = 2.0 * self.apart.max(1.0);
+            self.apart *= 2.0;
         }
     }
 
-    /// Returns the loop of the last cycle, which ends at `end`.
-    pub fn last(&self, end: f64) -> Loop {
-        Loop::of_rows(end, self.steps.iter())
+    /// Returns the loop of the last cycle, if there is any.
+    pub fn last(&self) -> Option<Loop> {
+        Loop::recorded(&self.steps)
     }
 }
 
@@ -108,15 +127,26 @@ impl CycleLoads {
 
 #[cfg(test)]
 mod tests {
-    use super::super::trend::tests::moment;
     use super::*;
+
+    fn record(loops: &mut Loops, step: u32, force: f64, sensed: f64) {
+        let cycle = f64::from(step) / 100.0;
+        loops.record_step(|column| match column {
+            Column::Cycle => cycle,
+            Column::Shift => cycle.fract(),
+            Column::TangentialForce => force,
+            _ => sensed,
+        });
+    }
 
     fn of_steps(steps: u32) -> Loops {
         let mut loops = Loops::default();
-        for step in 1..=steps {
-            loops.record(&moment(f64::from(step) / 100.0, 1.0));
-        }
+        (1..=steps).for_each(|step| record(&mut loops, step, 1.0, f64::NAN));
         loops
+    }
+
+    fn last(loops: &Loops) -> Loop {
+        loops.last().expect("a loop")
     }
 
     #[test]
@@ -136,26 +166,21 @@ mod tests {
     fn the_loop_of_the_sensor_is_that_of_the_rig() {
         let mut loops = Loops::default();
         for step in 1..=1000_u32 {
-            let mut moment = moment(f64::from(step) / 100.0, 1.0);
-            moment.tangential_force = f64::from(step);
-            moment.rig_displacement = (step > 950).then_some(2.0 * f64::from(step));
-            loops.record(&moment);
+            let force = f64::from(step);
+            let sensed = if step > 950 { 2.0 * force } else { f64::NAN };
+            record(&mut loops, step, force, sensed);
         }
-        let last = loops.last(10.0);
-        let pairs = last.sensed.iter().zip(&last.forces);
+        let one = last(&loops);
+        let pairs = one.sensed.iter().zip(&one.forces);
         let sensed: Vec<_> = pairs.filter(|(u, _)| !u.is_nan()).collect();
         assert_eq!(sensed.len(), 50);
         assert!(sensed.iter().all(|(u, force)| **u == 2.0 * **force));
-        for step in 1001..=1200_u32 {
-            let mut moment = moment(f64::from(step) / 100.0, 1.0);
-            moment.rig_displacement = Some(0.0);
-            loops.record(&moment);
-        }
-        assert!(loops.last(12.0).sensed.iter().all(|u| !u.is_nan()));
+        (1001..=1200).for_each(|step| record(&mut loops, step, 1.0, 0.0));
+        assert!(last(&loops).sensed.iter().all(|u| !u.is_nan()));
     }
 
     #[test]
     fn the_last_loop_holds_one_cycle() {
-        assert_eq!(of_steps(1000).last(10.0).shifts.len(), 101);
+        assert_eq!(last(&of_steps(1000)).shifts.len(), 101);
     }
 }

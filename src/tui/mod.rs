@@ -52,6 +52,7 @@ pub mod panels;
 mod present;
 pub mod reader;
 mod readout;
+pub mod recorded;
 mod remembered;
 pub mod screen;
 mod script;
@@ -62,7 +63,6 @@ mod suspend;
 mod terminal;
 mod timeline;
 pub mod tour;
-pub mod trend;
 mod undo;
 pub mod worker;
 
@@ -75,9 +75,9 @@ pub use appearance::theme_of;
 use event::Event;
 pub use event_loop::NoTerminal;
 use explorer::Next;
+use recorded::Recorded;
 use remembered::Remembered;
 pub use script::{Script, Stroke, parse_size, press, text};
-use trend::Recorded;
 use worker::{Orders, Worker, WorkerThread};
 
 /// Options for opening the explorer.

@@ -5,16 +5,14 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 
-use super::trend::{Recorded, Trend};
+use super::recorded::Recorded;
 use crate::export::file::WriteError;
-use crate::export::header::table;
+use crate::export::header;
 use crate::export::run_folder::{RUN_CHECKPOINT, RunFolder};
-use crate::export::{history, last_loop, state};
+use crate::export::{last_loop, state};
 use crate::math::number::exact;
 use crate::reading::Column;
 use crate::scenario::columns::Columns;
-use crate::scenario::scalars::Reading;
-use crate::scenario::session::Session;
 use crate::scenario::{checkpoint, printable};
 use crate::traces::Table;
 
@@ -33,12 +31,14 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
     let scenario = session.as_run(Vec::new()).to_toml();
     let mut files = vec![
         ("scenario.toml", scenario.into_bytes()),
-        ("history.csv", history(session, &run.trend).into_bytes()),
+        (
+            "history.csv",
+            header::file(session, &run.history()).into_bytes(),
+        ),
         (CHECKPOINT, kept),
     ];
-    if session.simulation().moment().stick_radius.is_some() {
-        files.push(("loop.csv", loop_table(session).into_bytes()));
-    }
+    let last_loop = last_loop::file(session);
+    files.extend(last_loop.map(|table| ("loop.csv", table.into_bytes())));
     files.push(("state.csv", state::table(session).into_bytes()));
     for (name, bytes) in &files {
         if let Err(error) = directory.write(name, bytes) {
@@ -50,43 +50,6 @@ pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, Write
         }
     }
     Ok(directory.path().join("state.csv").components().collect())
-}
-
-/// Returns the history with the columns of a run's `history.csv`. As on the screen, contact radii and stick radii are
-/// the largest and the smallest of each cycle.
-fn history(session: &Session, trend: &Trend) -> String {
-    let cycles = trend.history.column(Column::Cycle).unwrap_or_default();
-    let now = session.simulation().cycle();
-    let rows = trend.fields.iter().enumerate().map(|(row, fields)| {
-        let mut fields = match fields {
-            Some(fields) => fields.to_vec(),
-            None if cycles[row] == now => history::fields(&Reading::new(session)).to_vec(),
-            None => vec![String::new(); Column::HISTORY.len()],
-        };
-        for (column, values) in trend.history.columns() {
-            let is_of_cycle =
-                [Column::ContactRadius, Column::PermanentStickRadius].contains(&column);
-            let at = Column::HISTORY.iter().position(|known| *known == column);
-            if let Some(field) = at.map(|at| &mut fields[at])
-                && (is_of_cycle || field.is_empty())
-            {
-                *field = exact(values[row]);
-            }
-        }
-        fields
-    });
-    table(session, &Column::HISTORY, rows)
-}
-
-/// Returns the last period, with the columns of a measured loop.
-fn loop_table(session: &Session) -> String {
-    let rows = last_loop::rows(session.simulation()).into_iter();
-    let rows = rows.map(|[cycle, shift, force, _]| [cycle, shift, force].map(exact));
-    table(
-        session,
-        &[Column::Cycle, Column::LoopShift, Column::LoopForce],
-        rows,
-    )
 }
 
 /// Finds the checkpoint of a snapshot or of an interrupted run in a directory.
@@ -122,31 +85,11 @@ pub fn open(directory: &Path) -> Result<Recorded, String> {
     };
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;
     let session = kept.session;
-    let moment = session.simulation().moment();
-    Ok(match past(directory, moment.cycle, moment.initial_volume) {
-        Some(trend) => Recorded { session, trend },
-        None => session.into(),
-    })
-}
-
-/// Reads the past up to `cycle` from the tables beside a checkpoint.
-fn past(directory: &Path, cycle: f64, initial: f64) -> Option<Trend> {
     let read = |name: &str| Columns::read(&directory.join(name)).ok();
-    let file = read("history.csv")?;
-    let history = Table::of_file(&file);
-    let cycles = history.column(Column::Cycle)?;
-    let has_all = file.names == Column::HISTORY.map(Column::name);
-    let entries = (0..cycles.len()).filter(|&row| cycles[row] <= cycle);
-    let entries = entries.map(|row| {
-        let column = |column| history.column(column);
-        let value = move |of| column(of).map_or(f64::NAN, |values| values[row]);
-        (value, has_all.then(|| file.fields(row).into()))
-    });
-    let last = read("loop.csv").map(|file| Table::of_file(&file));
-    let last = last.unwrap_or_default();
-    let [cycles, shifts, forces] = [Column::Cycle, Column::LoopShift, Column::LoopForce]
-        .map(|column| last.column(column).unwrap_or_default());
-    let steps = cycles.iter().zip(shifts).zip(forces);
-    let steps = steps.map(|((cycle, shift), force)| [*cycle, *shift, *force, f64::NAN]);
-    Some(Trend::of_past(entries, steps, initial))
+    let Some(history) = read("history.csv") else {
+        return Ok(session.into());
+    };
+    let last_loop = read("loop.csv").map(|file| Table::of_file(&file));
+    let (history, last_loop) = (Table::of_file(&history), last_loop.unwrap_or_default());
+    Ok(Recorded::with_past(session, &history, &last_loop))
 }

@@ -9,7 +9,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::trend::Recorded;
+use super::recorded::Recorded;
 use crate::export::autosave::mark;
 
 /// Maximum number of states, and of numbers at nodes in all of them (64 MB), which counts on large grids.
@@ -256,14 +256,10 @@ mod tests {
     use super::*;
     use crate::scenario::Scenario;
     use crate::scenario::session::Session;
-    use crate::tui::trend::Trend;
 
     /// Stores a state without a recorded past.
     fn keep(past: &mut Past, session: &Session) {
-        past.store(&Recorded {
-            session: session.clone(),
-            trend: Trend::default(),
-        });
+        past.store(&Recorded::unrecorded(session.clone(), 0.0));
     }
 
     /// Returns the cycle of the state that is then shown.

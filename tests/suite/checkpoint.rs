@@ -1,17 +1,18 @@
 //! A run put away and taken up again is the run that was never put away, to the last bit.
 
+use std::fs;
 use std::path::Path;
 
 use ciborium::Value;
 use mdr_tui::export::history::History;
 use mdr_tui::export::state;
-use mdr_tui::scenario::checkpoint::{decode, encode, sealed};
+use mdr_tui::scenario::checkpoint::{SHAPES, VERSION, decode, encode, sealed};
 use mdr_tui::scenario::preset;
 use mdr_tui::scenario::session::Session;
 use mdr_tui::simulation::Simulation;
 
 use crate::common::{apart, begin, change, holds, largest, load, ran, run_setup};
-use crate::test_dir::has;
+use crate::test_dir::{TestDir, has};
 
 fn session(preset: &str, sets: &[&str]) -> Session {
     begin(load(preset, sets))
@@ -292,16 +293,85 @@ fn what_is_no_checkpoint_of_this_version_is_refused() {
     let whole = encode(&session("hertz", &["numerics.points=8"]), None::<&()>);
     let body = whole.splitn(2, |&byte| byte == b'\n').nth(1);
     let body = body.expect("a body");
-    let later = [b"mdr-tui checkpoint 9\n", body].concat();
-    let due = "x.checkpoint: is a checkpoint of version 9; this mdr-tui reads version 8";
-    assert_eq!(refusal(&later), due);
+    let other = [b"mdr-tui checkpoint 7\n", body].concat();
+    let program = env!("CARGO_PKG_VERSION");
+    let due = format!(
+        "x.checkpoint: is a checkpoint of version 7, written by mdr-tui {program}; \
+         this mdr-tui ({program}) reads version {VERSION}"
+    );
+    assert_eq!(refusal(&other), due);
     let rude = [b"mdr-tui checkpoint \x1b[31m1\n", body].concat();
     assert!(refusal(&rude).contains("is a checkpoint of version"));
     for bytes in [&b""[..], b"title = \"x\"\n", &[0; 4096], b"\xff\xfe"] {
         assert!(refusal(bytes).contains(FOREIGN));
     }
-    let huge = b"mdr-tui checkpoint 8\n99999999999999 bytes, CRC-32 00000000\nx";
-    has(&refusal(huge), "larger than 4 GiB");
+    let huge = format!("mdr-tui checkpoint {VERSION}\n99999999999999 bytes, CRC-32 00000000\nx");
+    has(&refusal(huge.as_bytes()), "larger than 4 GiB");
+}
+
+/// Whatever is added to a checkpoint, to the columns of a history or to the state of a run needs a new version: programs
+/// of before would refuse it for a reason that tells a user nothing, or take it for something else.
+#[test]
+fn the_version_rises_with_the_shape_of_what_is_saved() {
+    let mut session = session(
+        "li2019-fig3",
+        &[
+            "numerics.integrator=cycle-jump",
+            "wear.coefficient=1e-12",
+            "material.hardness=1.56e9",
+            "numerics.points=40",
+        ],
+    );
+    session.advance_to(40.0).expect("jumps");
+    change(&mut session, "friction.coefficient", "0.2");
+    let dir = TestDir::new();
+    dir.say(&[
+        "run",
+        "li2019-fig3",
+        "--snapshot-at",
+        "1",
+        "--budget",
+        "0s",
+        "--out",
+        "x",
+    ]);
+    let of_run = fs::read(dir.path("x/run.checkpoint")).expect("a checkpoint");
+    let shapes = [encode(&session, None::<&()>), of_run].map(|whole| {
+        let mut parts = whole.splitn(4, |&byte| byte == b'\n');
+        let body: Value = ciborium::from_reader(parts.nth(3).expect("a body")).expect("CBOR");
+        shape(&body)
+    });
+    let found = crc32fast::hash(shapes.concat().as_bytes());
+    assert!(
+        SHAPES.last() == Some(&(VERSION, found)),
+        "what a checkpoint holds has changed: raise VERSION, and add (VERSION, {found:#010x}) to SHAPES\n{shapes:#?}"
+    );
+    let rises = |pair: &[(u32, u32)]| pair[0].0 < pair[1].0 && pair[0].1 != pair[1].1;
+    assert!(SHAPES.windows(2).all(rises));
+}
+
+/// The names of all fields and the kinds of their values; of lists, each kind once; the names of columns as they are.
+fn shape(value: &Value) -> String {
+    match value {
+        Value::Map(fields) => {
+            let fields = fields.iter().map(|(key, value)| {
+                let name = key.as_text().unwrap_or_default();
+                let columns = value.as_array().filter(|_| name == "columns");
+                let columns = columns.map(|columns| format!("{columns:?}"));
+                format!("{name}: {}", columns.unwrap_or_else(|| shape(value)))
+            });
+            format!("{{{}}}", fields.collect::<Vec<_>>().join(", "))
+        }
+        Value::Array(list) => {
+            let mut kinds: Vec<String> = list.iter().map(shape).collect();
+            kinds.sort();
+            kinds.dedup();
+            format!("[{}]", kinds.join(", "))
+        }
+        Value::Float(_) | Value::Integer(_) => "number".into(),
+        Value::Text(_) => "text".into(),
+        other => format!("{other:?}"),
+    }
 }
 
 /// Fig. 3 under a `method` after so many cycles.

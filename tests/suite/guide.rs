@@ -7,8 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use mdr_tui::charts::on_paper;
+use mdr_tui::export::field;
 use mdr_tui::guide::TOPICS;
 use mdr_tui::math::abel::AbelMethod;
+use mdr_tui::reading::Column;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::key::{Default, Key, Kind, Parameter};
 use mdr_tui::tui::command::{COMMANDS, Row};
@@ -292,6 +295,43 @@ fn the_default_configuration_is_shown_as_it_is() {
         "config",
         &format!("```text\n{config}```\n"),
     );
+}
+
+#[test]
+fn the_columns_of_files_are_those_of_their_table() {
+    let table = |columns: &[Column]| {
+        let rows = columns.iter().map(|column| {
+            let (name, meaning, unit) = (column.name(), column.meaning(), column.unit());
+            format!("| `{name}` | {} | {unit} |\n", meaning.replace('|', "\\|"))
+        });
+        "| column | meaning | unit |\n|---|---|---|\n".to_owned() + &rows.collect::<String>()
+    };
+    let page = root().join("src/guide/files.md");
+    // The displacement of the surface has the name of that of the indenter.
+    let springs = Column::STATE
+        .iter()
+        .position(|column| *column == Column::SpringShift);
+    let mut state = Column::STATE.to_vec();
+    state.insert(springs.expect("a column") + 1, Column::Shift);
+    for (mark, columns) in [
+        ("state", &state[..]),
+        ("history", &Column::HISTORY),
+        ("further", &Column::FURTHER),
+        ("errors", &Column::ERRORS),
+        ("field", &field::COLUMNS),
+    ] {
+        hold(&page, mark, &table(columns));
+    }
+}
+
+#[test]
+fn the_charts_of_figures_are_those_that_have_a_name() {
+    let mut list = String::new();
+    for chart in on_paper() {
+        list += &format!("| `{}` | {} |\n", chart.name, chart.title);
+    }
+    let list = format!("| chart | shows |\n|---|---|\n{list}");
+    hold(&root().join("src/guide/figures.md"), "charts", &list);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 #[path = "../fuzz/src/lib.rs"]
 pub mod fuzzed;
 
+use mdr_tui::scenario::checkpoint::VERSION;
 use mdr_tui::scenario::preset;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -292,7 +293,7 @@ fn pipes_and_huge_files_are_refused_at_once() {
     assert_eq!(one, other);
     dir.refuse_line("run hertz --cycles 0 --out -", "is not a name for files");
     // A checkpoint is not read into memory before it is known to be one.
-    let head = "mdr-tui checkpoint 8\n4000000000 bytes, CRC-32 00000000\n";
+    let head = format!("mdr-tui checkpoint {VERSION}\n4000000000 bytes, CRC-32 00000000\n");
     dir.write("big.checkpoint", head.as_bytes());
     let big = std::fs::File::options()
         .write(true)

@@ -8,10 +8,9 @@ use clap_complete::engine::ArgValueCompleter;
 
 use super::values::{CycleAsGiven, by_name, cycles, number_within};
 use super::{Changes, Naming};
-use crate::charts::{Recipe, field};
+use crate::charts::{Recipe, on_paper};
 use crate::cli::complete;
 use crate::figure::look::Style;
-use crate::tui::panels::Panel;
 
 /// Error for a font size outside the limits.
 const FONT: &str = "a font has from 3 to 72 points, e.g. 8";
@@ -86,13 +85,6 @@ pub enum PaperFigure {
     Fig2,
     /// Profiles and stresses of a fretting contact.
     Fig3,
-}
-
-/// Returns the charts available on paper: the explorer's charts that have a name, and maps of the half-space.
-pub fn on_paper() -> impl Iterator<Item = &'static Recipe> {
-    let maps = [&field::VON_MISES, &field::PRINCIPAL, &field::SWT];
-    let charts = Panel::ALL.into_iter().filter_map(Panel::chart).chain(maps);
-    charts.filter(|recipe| !recipe.name.is_empty())
 }
 
 fn size(text: &str) -> Result<[f64; 2], String> {

@@ -20,7 +20,7 @@ mod studies;
 mod sweep;
 mod values;
 
-pub use figure::{Figure, PaperFigure, on_paper};
+pub use figure::{Figure, PaperFigure};
 pub use studies::{Fit, Guard, Inspect, Naming, Output, Stability, Stroke, Trade, Verify};
 pub use sweep::Sweep;
 pub use values::cycles;

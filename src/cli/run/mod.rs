@@ -325,7 +325,7 @@ impl Job<'_> {
         let simulation = session.simulation();
         let is_done = simulation.cycle() + simulation.rounding() >= job.cycles;
         let last_loop = is_done.then(|| last_loop::file(session)).flatten();
-        let field = job.field.then(|| field::table(session));
+        let field = job.field.then(|| field::file(session));
         let scenario = session.as_run(job.snapshot_at()).to_toml();
         let files = [
             ("scenario.toml", Some(scenario)),

@@ -9,7 +9,7 @@ use super::Job;
 use crate::export::header;
 use crate::math::number::exact;
 use crate::reading::{Quantity, verdict};
-use crate::scenario::scalars::Value;
+use crate::scenario::scalars::{Reading, Value};
 use crate::scenario::session::Session;
 use crate::scenario::{escape, printable};
 
@@ -33,8 +33,9 @@ impl Job<'_> {
             Ok(number) => (key, number.into()),
             Err(_) => (key, text.into()),
         });
-        let values = self.job.history.values(&self.session).into_iter();
-        let values = values.map(|(column, value)| (column.name().to_owned(), value));
+        let reading = Reading::new(&self.session);
+        let columns = self.job.history.columns().iter();
+        let values = columns.map(|&column| (column.name().to_owned(), reading.value(column)));
         let directory = self.folder.path().display().to_string();
         let directory = [("directory".to_owned(), directory.into())];
         let summary: BTreeMap<String, Value> = header.chain(values).chain(directory).collect();

@@ -271,10 +271,13 @@ impl Columns {
         })
     }
 
-    /// The fields of a row, as they are in the file.
-    pub fn fields(&self, row: usize) -> Vec<String> {
-        let fields = self.rows.get(row).map(|(_, row)| row.iter());
-        fields.into_iter().flatten().map(str::to_owned).collect()
+    /// The fields of the column `name`, as they are in the file; empty where there is none.
+    pub fn words<'a>(&'a self, name: &str) -> impl Iterator<Item = &'a str> {
+        let at = self.own.iter().position(|(own, _)| own == name);
+        let word = move |(_, row): &'a Row| row.get(at?);
+        self.rows
+            .iter()
+            .map(move |row| word(row).unwrap_or_default())
     }
 
     /// The names of the columns, fit for a line.

@@ -5,9 +5,10 @@ use anyhow::Result;
 
 use super::coarse;
 use crate::contact::indenter::Indenter;
-use crate::math::scan::{largest, value_at};
-use crate::reading::Column;
+use crate::math::scan::value_at;
+use crate::reading::{Column, Recorder};
 use crate::scenario::Scenario;
+use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
 use crate::simulation::drive::Drive;
@@ -53,6 +54,15 @@ impl Response {
     }
 }
 
+/// What a run records for histories over the friction work.
+const OVER_ENERGY: [Column; 5] = [
+    Column::Cycle,
+    Column::Energy,
+    Column::WearVolume,
+    Column::ScarDepth,
+    Column::Approach,
+];
+
 /// The response of a run of `cycles` to every data set, and the steps that it took.
 ///
 /// # Errors
@@ -82,14 +92,16 @@ pub(super) fn simulate(
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_over_energy = data.iter().any(|set| set.axes.x == Column::Energy);
-    // E_d and what has worn by then: V, depth, approach.
-    let mut course: Vec<[f64; 4]> = Vec::new();
+    let mut course = Recorder::of_moments(OVER_ENERGY);
+    let value = |session: &Session, column| match column {
+        Column::Approach => session.simulation().moment().depth - start,
+        Column::Energy => session.simulation().moment().dissipated_energy,
+        column => Reading::new(session).number(column),
+    };
     for (cycle, i, j) in moments {
         session.advance_while(cycle, |session| {
             if is_over_energy {
-                let moment = session.simulation().moment();
-                let [volume, depth, approach] = worn(session.simulation(), start);
-                course.push([moment.dissipated_energy, volume, depth, approach]);
+                course.record(|column| value(session, column));
             }
             go_on(session.simulation().steps())
         })?;
@@ -106,17 +118,16 @@ pub(super) fn simulate(
                 *response = Response::Scar(worn, unworn);
             }
             (Response::History(values), axes) if axes.x == Column::Energy => {
-                let column = |k: usize| course.iter().map(|row| row[k]).collect::<Vec<f64>>();
-                let (energies, worn) = (column(0), column(1 + quantity(axes)));
+                let course = course.table(&OVER_ENERGY);
+                let column = |column| course.column(column).unwrap_or_default();
+                let (energies, worn) = (column(axes.x), column(axes.y));
                 let found = set
                     .at
                     .iter()
-                    .map(|&energy| value_at(&energies, &worn, energy));
+                    .map(|&energy| value_at(energies, worn, energy));
                 *values = found.map(|value| value.unwrap_or(f64::NAN)).collect();
             }
-            (Response::History(values), axes) => {
-                values[j] = worn(simulation, start)[quantity(axes)]
-            }
+            (Response::History(values), axes) => values[j] = value(&session, axes.y),
             _ => {}
         }
     }
@@ -167,25 +178,6 @@ pub(super) fn per_cycle(drive: &Drive, over: Column) -> f64 {
             .tangential()
             .map_or(f64::NAN, |control| 4.0 * control.oscillation().amplitude()),
         _ => 1.0,
-    }
-}
-
-/// Returns V, the largest depth and the approach since the start.
-fn worn(simulation: &Simulation, start: f64) -> [f64; 3] {
-    let moment = simulation.moment();
-    [
-        moment.wear_volume,
-        largest(simulation.worn_depth()),
-        moment.depth - start,
-    ]
-}
-
-/// Returns which of these a history contains.
-fn quantity(axes: Axes) -> usize {
-    match axes.y {
-        Column::ScarDepth => 1,
-        Column::Approach => 2,
-        _ => 0,
     }
 }
 

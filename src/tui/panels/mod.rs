@@ -163,6 +163,7 @@ pub fn spread_top(curve: &Curve) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::reading::Column;
 
     #[test]
     fn a_spike_does_not_flatten_the_rest_and_a_smooth_curve_is_whole() {
@@ -185,6 +186,22 @@ mod tests {
         let values: Vec<f64> = radii.iter().map(|r| (1.0 - r * r).powf(-0.5)).collect();
         let high = top(&radii, &values);
         assert!((4.0..8.0).contains(&high), "{high}");
+    }
+
+    /// A chart that is missing in the list has none of its columns recorded.
+    #[test]
+    fn the_list_of_charts_has_each_panel_of_one_and_each_chart_has_its_columns() {
+        let is_listed = |chart: &&Recipe| charts::ALL.iter().any(|one| one.title == chart.title);
+        let mut panels = Panel::ALL.into_iter().filter_map(Panel::chart);
+        assert!(panels.all(|chart| is_listed(&chart)));
+        for chart in charts::ALL {
+            let shown = chart.overlays.iter().flat_map(|axes| [axes.x, axes.y]);
+            let recorded = charts::history_columns([*chart]);
+            let of_history = shown.filter(|column| Column::HISTORY.contains(column));
+            for column in of_history {
+                assert!(recorded.contains(&column), "{}: {column:?}", chart.title);
+            }
+        }
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::studies::refinement::{self, Level};
 use crate::tui::beside::Twin;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts::Source;
-use crate::tui::trend::Recorded;
+use crate::tui::recorded::Recorded;
 use crate::wear::Law;
 
 /// Factor by which each key press refines or coarsens cells and steps.

@@ -7,7 +7,7 @@ use crate::scenario::Scenario;
 use crate::tui::event::Event;
 use crate::tui::map::live::LiveStudy;
 use crate::tui::map::range::Range;
-use crate::tui::trend::Recorded;
+use crate::tui::recorded::Recorded;
 use crate::tui::{figure as drawing, snapshot as state};
 
 /// What can be copied.

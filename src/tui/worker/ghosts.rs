@@ -7,7 +7,7 @@ use super::Worker;
 use crate::scenario::columns::Naming;
 use crate::tui::beside::Beside;
 use crate::tui::ghosts::{MOST, Since, Source};
-use crate::tui::trend::Recorded;
+use crate::tui::recorded::Recorded;
 
 /// How long each companion catches up before the worker looks for orders again.
 const CATCH_UP: Duration = Duration::from_millis(10);

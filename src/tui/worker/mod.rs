@@ -17,7 +17,7 @@ use super::event::Event;
 use super::frame::Frame;
 use super::ghosts::Source;
 use super::loops::CycleLoads;
-use super::trend::Recorded;
+use super::recorded::Recorded;
 use super::undo::{Past, Way};
 use crate::export::autosave::Autosave;
 use crate::panics::locked;

@@ -154,7 +154,7 @@ impl Worker {
 
     /// Returns the present moment with its `observation`.
     fn live(&self, observation: Observation) -> Live {
-        let (simulation, trend) = (self.run.simulation(), &self.run.trend);
+        let simulation = self.run.simulation();
         let material = &simulation.setup().material;
         let load = observation.normal_load();
         let slip_border = (!load.is_empty()).then(|| match observation.geometry {
@@ -166,9 +166,9 @@ impl Worker {
             figures: self.run.session.cycle_figures(),
             scenario: Arc::clone(&self.facts.scenario),
             expected_wear: self.facts.expected_wear,
-            is_within_a_cycle: trend.is_within_a_cycle,
+            is_within_a_cycle: self.run.past.is_open(),
             slip_border,
-            log: trend.loops.kept.clone(),
+            log: self.run.loops.kept.clone(),
         }
     }
 }

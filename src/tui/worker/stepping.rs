@@ -62,7 +62,7 @@ impl Worker {
         let simulation = self.run.simulation();
         self.pace.measure(simulation, start.elapsed());
         let waits = self.pace.shows_ends(simulation) && !self.screen.is_due_after(AT_LEAST);
-        self.run.trend.step_cost = self.pace.step_cost;
+        self.run.step_cost = self.pace.step_cost;
         self.follow_with_twin(TWIN_STINT);
         if self.screen.is_due() && !waits || !self.pace.is_running() {
             self.publish();

@@ -5,7 +5,7 @@ use super::{BROKEN_DOWN, Worker};
 use crate::panics::locked;
 use crate::scenario::Change;
 use crate::tui::frame::Activity;
-use crate::tui::trend::Recorded;
+use crate::tui::recorded::Recorded;
 use crate::tui::undo::Way;
 
 impl Worker {

@@ -18,7 +18,7 @@ const MOST_ROWS: f64 = 1e7;
 
 /// The job of a run and its progress.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct RunJob {
     /// Identifies the run: the same for runs of the same scenario and options. See [`RunJob::identify`].
     pub id: String,
@@ -33,10 +33,8 @@ pub struct RunJob {
     /// The rows so far.
     pub history: History,
     /// Whether the stresses inside the bodies are written at the end.
-    #[serde(default)]
     pub field: bool,
     /// Whether the error of the result is estimated at the end.
-    #[serde(default)]
     pub estimates: bool,
     /// The errors that its files state.
     pub errors: Errors,
@@ -71,8 +69,8 @@ impl RunJob {
         .ready(scenario)
     }
 
-    /// Makes the job of a restored `session`: `kept` if the checkpoint comes from a run, or the scenario's plan if it
-    /// comes from the explorer.
+    /// Makes the job of a restored `session`: `kept` if the checkpoint comes from a run, or the scenario's plan with the
+    /// rows so far if it comes from the explorer.
     pub fn resumed(
         kept: Option<Self>,
         session: &Session,
@@ -81,15 +79,15 @@ impl RunJob {
     ) -> Result<Self> {
         let now = session.simulation().cycle();
         let mut job = match kept {
-            Some(job) => job,
-            None => {
+            Some(job) if !job.id.is_empty() => job,
+            explored => {
                 let snapshots = planned(session.loaded());
                 let planned_end = session.loaded().run().cycles.filter(|end| *end > now);
                 Self {
                     cycles: end(cycles.or(planned_end), name)?,
                     taken: snapshots.iter().filter(|at| at.cycle() < now).count(),
                     snapshots,
-                    ..Self::default()
+                    ..explored.unwrap_or_default()
                 }
                 .identify(session.loaded())
             }

@@ -11,7 +11,6 @@ use super::file::{INTERNAL, WriteError, shell_path, sweep};
 use super::run_folder::{RUN_CHECKPOINT, RunFolder};
 use super::target::Target;
 use crate::math::number::exact;
-use crate::scenario::checkpoint;
 use crate::scenario::session::Session;
 
 /// Maximum age of the copy in memory that survives a bug.
@@ -33,16 +32,6 @@ pub trait Work: Clone {
 
     /// Returns the checkpoint.
     fn checkpoint(&self) -> Vec<u8>;
-}
-
-impl Work for Session {
-    fn session(&self) -> &Session {
-        self
-    }
-
-    fn checkpoint(&self) -> Vec<u8> {
-        checkpoint::encode(self, None::<&()>)
-    }
 }
 
 /// Distinguishes the states of a session: steps, cycle, and number of changes.
@@ -289,7 +278,17 @@ mod tests {
     use std::time::SystemTime;
 
     use super::*;
-    use crate::scenario::Scenario;
+    use crate::scenario::{Scenario, checkpoint};
+
+    impl Work for Session {
+        fn session(&self) -> &Session {
+            self
+        }
+
+        fn checkpoint(&self) -> Vec<u8> {
+            checkpoint::encode(self, None::<&()>)
+        }
+    }
 
     fn hertz() -> Session {
         let scenario = Scenario::load("hertz", &[]).expect("a preset");

@@ -61,6 +61,14 @@ impl History {
         Ok(history)
     }
 
+    /// Makes a history that begins with the whole cycles of `past` up to the cycle `now`.
+    pub fn of_cycles(past: &Recorder, now: f64) -> Self {
+        let mut history = Self::default();
+        let cycles = past.table(&Column::HISTORY);
+        history.rows.record_table(&cycles, now.floor());
+        history
+    }
+
     /// Refuses a column that stands twice.
     fn check_columns(&self) -> Result<(), String> {
         let columns = self.columns();

@@ -139,12 +139,7 @@ pub fn run(options: Options) -> Result<Farewell> {
         let word = format!("a session was killed; mdr-tui --resume {path} continues it");
         let _ = events.send(Event::Notice(line::one_line(&word)));
     }
-    let autosave = Autosave::new(
-        None,
-        keep_in,
-        options.keep_every,
-        options.run.session.clone(),
-    );
+    let autosave = Autosave::new(None, keep_in, options.keep_every, options.run.clone());
     let worker = Worker::new(options.run, events.clone(), interval, running);
     let mut worker = worker.with_ghosts(options.ghosts);
     let mut app = App::new(options.theme, orders.clone(), Arc::new(worker.frame()));

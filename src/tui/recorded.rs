@@ -2,9 +2,14 @@
 
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::loops::Loops;
 use crate::charts::{ALL, Run, history_columns};
+use crate::export::autosave::Work;
+use crate::export::history::History;
 use crate::reading::{Column, Observation, Recorder, Table};
+use crate::scenario::checkpoint;
 use crate::scenario::scalars::Reading;
 use crate::scenario::session::{Session, SessionError};
 use crate::simulation::Simulation;
@@ -32,6 +37,23 @@ impl From<Session> for Recorded {
         let mut run = Self::unrecorded(session, start);
         run.record();
         run
+    }
+}
+
+/// What a run without a screen takes over from the explorer besides the session.
+#[derive(Serialize)]
+struct Explored {
+    history: History,
+}
+
+impl Work for Recorded {
+    fn session(&self) -> &Session {
+        &self.session
+    }
+
+    fn checkpoint(&self) -> Vec<u8> {
+        let history = History::of_cycles(&self.past, self.cycle());
+        checkpoint::encode(&self.session, Some(&Explored { history }))
     }
 }
 

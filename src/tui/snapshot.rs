@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::de::IgnoredAny;
 
 use super::recorded::Recorded;
+use crate::export::autosave::Work;
 use crate::export::file::WriteError;
 use crate::export::header;
 use crate::export::run_folder::{RUN_CHECKPOINT, RunFolder};
@@ -22,7 +23,7 @@ const CHECKPOINT: &str = "state.checkpoint";
 /// Writes the state of `run` to a new directory, with the user's note, and returns the path of the state.
 pub(super) fn write(run: &Recorded, note: Option<&str>) -> Result<PathBuf, WriteError> {
     // The note is about this state; a run that continues from it does not carry it.
-    let kept = checkpoint::encode(&run.session, None::<&()>);
+    let kept = run.checkpoint();
     let noted = note.map(|note| run.session.noted(note));
     let session = noted.as_ref().unwrap_or(&run.session);
     let cycle = exact(session.simulation().cycle());

@@ -13,7 +13,7 @@ use vt100::{MouseProtocolEncoding, MouseProtocolMode, Screen};
 
 use crate::pty::{Terminal, at_home, cycle, home, kept, patiently, program, read};
 use crate::terminal::assert_given_back;
-use crate::test_dir::has;
+use crate::test_dir::{Table, has};
 
 fn is_under_way(screen: &Screen) -> bool {
     cycle(screen).is_some_and(|cycle| cycle > 0.5)
@@ -328,6 +328,18 @@ fn an_explorer_that_is_killed_loses_an_interval_at_most() {
         straight.advance_to(30.0).expect("thirty cycles");
         let table = mdr_tui::export::state::table(&straight);
         assert!(fs::read_to_string(out.join("state.csv")).expect("the state") == table);
+        // The cycles before the checkpoint are in its history, too.
+        let history = fs::read_to_string(out.join("history.csv")).expect("the history");
+        let cycles = Table::parse(&history).column("cycle");
+        let whole = (1..=30).map(f64::from);
+        assert!(
+            cycles
+                .iter()
+                .copied()
+                .filter(|cycle| *cycle >= 1.0)
+                .eq(whole),
+            "{cycles:?}"
+        );
     }
 }
 

@@ -155,8 +155,7 @@ impl Worker {
     /// Replaces this run by another one, new or read from a file.
     pub(super) fn replace_run(&mut self, run: Recorded) {
         self.past.store(&self.run);
-        let left = &self.past.line(&self.run).session;
-        locked(&self.autosave).begin_session(left, &run.session);
+        locked(&self.autosave).begin_session(self.past.line(&self.run), &run);
         self.past.leave();
         self.screen.snapshots.clear();
         self.run = run;

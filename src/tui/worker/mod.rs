@@ -133,7 +133,7 @@ pub struct Worker {
     cycle_loads: CycleLoads,
     screen: Outlet,
     /// Shared with the thread that ends the program during a long step.
-    autosave: Arc<Mutex<Autosave<Session>>>,
+    autosave: Arc<Mutex<Autosave<Recorded>>>,
     /// Set to interrupt long orders.
     halt: Arc<AtomicBool>,
 }
@@ -147,7 +147,7 @@ impl Worker {
         running: bool,
     ) -> Self {
         let run = run.into();
-        let autosave = Autosave::new(None, None, Duration::ZERO, run.session.clone());
+        let autosave = Autosave::new(None, None, Duration::ZERO, run.clone());
         Self {
             facts: Facts::new(&run.session),
             ghosts: Ghosts::default(),
@@ -175,8 +175,8 @@ impl Worker {
     fn run_with_checkpoints(mut self, orders: &Receiver<Order>) -> Option<String> {
         let served = catch_unwind(AssertUnwindSafe(|| self.serve(orders)));
         // After a panic, the interrupted step has left an inconsistent state, so the copy is saved.
-        let session = served.is_ok().then(|| &self.past.line(&self.run).session);
-        locked(&self.autosave).finish(session)
+        let run = served.is_ok().then(|| self.past.line(&self.run));
+        locked(&self.autosave).finish(run)
     }
 
     /// Handles orders and steps in between, until told to quit.
@@ -247,8 +247,8 @@ impl Worker {
 
     /// Saves the session if due.
     fn checkpoint_if_due(&mut self) {
-        let session = &self.past.line(&self.run).session;
-        let word = locked(&self.autosave).update(session, || session.clone());
+        let run = self.past.line(&self.run);
+        let word = locked(&self.autosave).update(&run.session, || run.clone());
         self.screen.tell(word);
     }
 

@@ -10,8 +10,8 @@ use anyhow::{Context, Result};
 
 use super::{Order, Orders, Worker};
 use crate::export::autosave::Autosave;
-use crate::scenario::session::Session;
 use crate::tui::event::Event;
+use crate::tui::recorded::Recorded;
 
 /// Maximum time for the worker to finish its step on exit.
 const LAST_STEP: Duration = Duration::from_millis(500);
@@ -23,7 +23,7 @@ const SAVING_TIME: Duration = Duration::from_secs(5);
 pub(in crate::tui) struct WorkerThread {
     orders: Orders,
     halt: Arc<AtomicBool>,
-    autosave: Arc<Mutex<Autosave<Session>>>,
+    autosave: Arc<Mutex<Autosave<Recorded>>>,
     /// Its final message about what it saved.
     saved: Receiver<Option<String>>,
 }
@@ -43,7 +43,7 @@ impl WorkerThread {
         mut worker: Worker,
         orders: Orders,
         inbox: Receiver<Order>,
-        autosave: Autosave<Session>,
+        autosave: Autosave<Recorded>,
     ) -> Result<Self> {
         let (tell, saved) = channel();
         let halt = Arc::clone(&worker.halt);

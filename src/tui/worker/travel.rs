@@ -15,7 +15,7 @@ impl Worker {
         let left = self.past.branch()?;
         let (cycle, end) = (self.run.cycle(), left.end.run.cycle());
         if left.is_other_run {
-            locked(&self.autosave).begin_session(&left.end.run.session, &self.run.session);
+            locked(&self.autosave).begin_session(&left.end.run, &self.run);
         }
         Some(format!(
             "branch at cycle {cycle:.2}; [ leads back to the run up to {end:.2}"

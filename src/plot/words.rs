@@ -130,7 +130,7 @@ impl PlotLayout<'_> {
             let spot = curve
                 .points()
                 .filter_map(cell)
-                .last()
+                .next_back()
                 .and_then(|(column, row)| {
                     let start = inner.x + (column + 1).saturating_sub(width);
                     let row = inner.bottom() - 1 - row;

@@ -130,14 +130,16 @@ impl Interview {
         if let Some(given) = options.iter().find(|option| self.given(option).is_some()) {
             return Ok(given);
         }
+        if !self.asks {
+            return Ok(options[0]);
+        }
         let prompt = format!("Which one: {}?", options.join(", "));
-        while self.asks {
+        loop {
             let word = read_line(&prompt, options[0])?.to_lowercase();
             if let Some(named) = options.iter().find(|option| option.starts_with(&word)) {
                 return Ok(named);
             }
         }
-        Ok(options[0])
     }
 
     /// Returns the answer to a question; asks the user again if it breaks a rule.

@@ -37,8 +37,11 @@ impl Status {
     }
 }
 
+/// Makes a status of the text that follows its beginning.
+type Make = fn(String) -> Status;
+
 /// How the texts of some statuses begin.
-const BEGINNINGS: [(&str, fn(String) -> Status); 3] = [
+const BEGINNINGS: [(&str, Make); 3] = [
     ("accuracy ", Status::Inaccurate),
     ("check failed: ", Status::Unchecked),
     ("invalid: ", Status::Invalid),

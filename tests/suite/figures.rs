@@ -16,7 +16,11 @@ use mdr_tui::plot::{Axis, Chart, Curve, Map, Mark, Scale};
 fn curve(data: &Table, panel: &str, name: &str) -> (Vec<f64>, Vec<f64>) {
     let rows = data.rows.iter();
     let rows = rows.filter(|row| row[0] == panel && row[1] == name);
-    let number = |field: &str| field.parse::<f64>().expect("a number");
+    // Gaps are empty.
+    let number = |field: &str| match field {
+        "" => f64::NAN,
+        field => field.parse().expect("a number"),
+    };
     rows.map(|row| (number(&row[2]), number(&row[3]))).unzip()
 }
 

@@ -16,10 +16,12 @@ mod point;
 mod points;
 mod read;
 pub mod record;
+mod refuse;
 mod results;
 mod row;
 mod shard;
 mod study;
+mod written_axis;
 
 pub use axis::StudyAxis;
 pub use design::Design;

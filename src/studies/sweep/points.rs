@@ -6,8 +6,9 @@ use toml::{Table, Value};
 
 use super::axis::StudyAxis;
 use super::design::{Design, MOST_POINTS};
-use super::read::{Result, normal, quantity, refuse};
+use super::refuse::{Result, refuse};
 use super::study::Study;
+use super::written_axis::{normal, quantity};
 use crate::math::scale::Scale;
 use crate::scenario::bounded_read;
 use crate::scenario::key::Key;

@@ -182,7 +182,7 @@ section! {
         phase: Option<f64>,
         /// Stiffness of the rig, N/m.
         rig_stiffness: Option<f64>,
-        /// Depth of the point that displacements of a line contact are told against, m.
+        /// Depth of the point that displacements of a line contact are measured relative to, m.
         gauge_length: Option<f64>,
         /// Waveform.
         waveform: Option<Wave>,

@@ -68,7 +68,7 @@ pub(super) fn in_plane(
     }
     let gauge = gauge(spec);
     if gauge.is_none() && matches!(drive.tangential(), Some(Control::Displacement(_))) {
-        let meaning = "depth of the point that the displacement of a line contact is told against, m; \
+        let meaning = "depth of the point that the displacement of a line contact is measured relative to, m; \
                        or give motion.tangential.control = \"force\"";
         return faults.missing(GAUGE, meaning);
     }

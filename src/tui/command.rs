@@ -168,7 +168,7 @@ commands! {
         Quit [Char('q'), Ctrl('c')] "quit", "quit; Ctrl-C quits from anywhere", Act::Quit;
         QuitKeepingScreen [Char('Q')] "quit, keep", "quit, and leave the last screen in the terminal",
             Screen(|on| on.next = Next::LeaveScreen);
-        Repaint [Ctrl('l')] "repaint", "draw the whole screen anew, from anywhere", Screen(|on| on.next = Next::Repaint);
+        Repaint [Ctrl('l')] "repaint", "repaint the whole screen, from anywhere", Screen(|on| on.next = Next::Repaint);
         Suspend [Ctrl('z')] "suspend", "suspend to the shell; fg returns", Screen(|on| on.next = Next::Suspend);
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value as Raw};
 
 use super::blocks;
-use super::change::{Planned, parsed};
+use super::change::{MOST_CHANGES, Planned, parsed};
 use super::columns::Columns;
 use super::embed::named_file;
 use super::error::Refusal;
@@ -257,6 +257,11 @@ impl Draft {
             self.faults.refuse_value("changes", &show(&raw), rule);
             return Vec::new();
         };
+        if list.len() > MOST_CHANGES {
+            let rule = format!("must have at most {MOST_CHANGES} entries");
+            self.faults.refuse_value("changes", &list.len().to_string(), rule);
+            return Vec::new();
+        }
         let mut changes = Vec::new();
         for (i, entry) in list.into_iter().enumerate() {
             let at = format!("changes[{i}]");

@@ -335,10 +335,11 @@ fn a_map_shows_each_place() {
         });
         shown(chart)
     };
+    // The key is above the map.
     let corners = |shown: &Shown| {
         let lines = draw(shown, 40, 12);
         let inner = |line: &String| line.chars().skip(5).collect::<Vec<char>>();
-        let (top, bottom) = (inner(&lines[1]), inner(&lines[8]));
+        let (top, bottom) = (inner(&lines[2]), inner(&lines[8]));
         [top[0], top[34], bottom[0], bottom[34]]
     };
     assert_eq!(corners(&map([1.0, 2.0], [1.0, 2.0])), [' ', '@', '.', '+']);

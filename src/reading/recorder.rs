@@ -28,6 +28,8 @@ impl Recorder {
     pub fn of_moments(columns: impl IntoIterator<Item = Column>) -> Self {
         Self {
             columns: columns.into_iter().collect(),
+            // A loop may begin before the run does.
+            start: f64::NEG_INFINITY,
             most: usize::MAX,
             ..Self::default()
         }
@@ -219,12 +221,12 @@ mod tests {
     #[test]
     fn each_moment_has_its_own_row_if_wanted() {
         let mut past = Recorder::of_moments(COLUMNS);
-        for cycle in [0.0, 0.25, 0.5, 1000.0] {
+        for cycle in [-0.75, -0.5, 0.25, 1000.0] {
             past.record(|_| cycle);
             assert!(!past.is_open());
         }
         let cycles: Vec<f64> = past.rows().iter().map(|row| row[3]).collect();
-        assert_eq!(cycles, [0.0, 0.25, 0.5, 1000.0]);
+        assert_eq!(cycles, [-0.75, -0.5, 0.25, 1000.0]);
         past.keep(|row| row < 1);
         assert_eq!(past.rows().len(), 1);
     }

@@ -259,7 +259,8 @@ impl Draft {
         };
         if list.len() > MOST_CHANGES {
             let rule = format!("must have at most {MOST_CHANGES} entries");
-            self.faults.refuse_value("changes", &list.len().to_string(), rule);
+            self.faults
+                .refuse_value("changes", &list.len().to_string(), rule);
             return Vec::new();
         }
         let mut changes = Vec::new();

@@ -2,7 +2,7 @@
 //!
 //! To add a law: a variant of [`Form`], which does not compile until [`WearLaw::new`], [`traits`](WearLaw::traits),
 //! [`wear`](WearLaw::wear), [`sensitivity`](WearLaw::sensitivity) and the tests below have its answers; its word, and its
-//! keys, in `keys.toml`, each with a field of [`Parameters`].
+//! keys, in `keys.toml`, each with a field of [`LawParameters`].
 
 use std::hint::select_unpredictable as select;
 
@@ -56,7 +56,7 @@ pub struct Powers {
 
 /// What the rest of the program may assume of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Traits {
+pub struct LawTraits {
     /// Whether it asks for [`Surface::pressure`], which takes two transforms more where springs slip inside the outer slip
     /// zone.
     pub needs_pressure: bool,
@@ -79,7 +79,7 @@ pub struct Traits {
 /// Keys of the laws as a scenario gives them; `None`: not given.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[expect(missing_docs, reason = "keys.toml describes each key")]
-pub struct Parameters {
+pub struct LawParameters {
     pub stress_exponent: Option<f64>,
     pub slip_rate_exponent: Option<f64>,
     pub reference_stress: Option<f64>,
@@ -97,7 +97,7 @@ pub struct References {
     pub slip_rate: f64,
 }
 
-impl Parameters {
+impl LawParameters {
     /// Returns these, and those of `usual` where nothing is given.
     #[must_use]
     pub fn or(self, usual: Self) -> Self {
@@ -127,7 +127,7 @@ pub struct Surface<'a> {
     pub tau: &'a [f64],
     /// Δs, m.
     pub slip: &'a [f64],
-    /// p before and after the step, Pa, linear in between; `None` unless the law [needs it](Traits::needs_pressure).
+    /// p before and after the step, Pa, linear in between; `None` unless the law [needs it](LawTraits::needs_pressure).
     pub pressure: Option<[&'a [f64]; 2]>,
     /// Duration of the step, s.
     pub seconds: f64,
@@ -151,7 +151,7 @@ impl WearLaw {
     /// # Errors
     ///
     /// If one of its keys is not given or not allowed.
-    pub fn new(law: Law, coefficient: f64, given: &Parameters) -> Result<Self, Unmade> {
+    pub fn new(law: Law, coefficient: f64, given: &LawParameters) -> Result<Self, Unmade> {
         let law = match law {
             Law::Archard => Self::archard(coefficient),
             Law::Power => {
@@ -200,10 +200,10 @@ impl WearLaw {
     }
 
     /// Returns the keys of its form.
-    pub fn parameters(&self) -> Parameters {
+    pub fn parameters(&self) -> LawParameters {
         match self.form {
-            Form::Archard => Parameters::default(),
-            Form::Power(powers) => Parameters {
+            Form::Archard => LawParameters::default(),
+            Form::Power(powers) => LawParameters {
                 stress_exponent: Some(powers.stress_exponent),
                 slip_rate_exponent: Some(powers.slip_rate_exponent),
                 reference_stress: Some(powers.reference_stress),
@@ -232,9 +232,9 @@ impl WearLaw {
     }
 
     /// Returns what may be assumed of it.
-    pub const fn traits(&self) -> Traits {
+    pub const fn traits(&self) -> LawTraits {
         match self.form {
-            Form::Archard => Traits {
+            Form::Archard => LawTraits {
                 needs_pressure: false,
                 explained_by_work: true,
                 linear_in_work: true,
@@ -244,7 +244,7 @@ impl WearLaw {
                 stress_exponent: 1.0,
                 slip_rate_exponent: 1.0,
             },
-            Form::Power(powers) => Traits {
+            Form::Power(powers) => LawTraits {
                 needs_pressure: false,
                 explained_by_work: false,
                 linear_in_work: false,
@@ -390,7 +390,7 @@ mod tests {
             .map(|i| 3e4 * 1e5f64.powf(i as f64 / 5e3))
             .collect();
         for law in laws() {
-            let Traits {
+            let LawTraits {
                 needs_pressure,
                 explained_by_work,
                 linear_in_work,
@@ -476,7 +476,7 @@ mod tests {
         assert!(WearLaw::archard(-1.0).is_err());
         assert!(power(0.0, 1.0).is_err());
         assert!(power(1.0, 11.0).is_err());
-        let missing = WearLaw::new(Law::Power, 1.0, &Parameters::default());
+        let missing = WearLaw::new(Law::Power, 1.0, &LawParameters::default());
         assert_eq!(missing, Err(Unmade::Missing("stress_exponent")));
     }
 }

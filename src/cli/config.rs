@@ -17,7 +17,7 @@ use crate::scenario::bounded_read::{self, Unread};
 use crate::scenario::hint::nearest;
 use crate::scenario::typed;
 use crate::tui::command::{COMMANDS, Command};
-use crate::tui::keys::{Key, parse_script};
+use crate::tui::keys::{Keystroke, parse_script};
 use crate::tui::panels::Panel;
 
 /// The preferences; each of them is optional.
@@ -40,7 +40,7 @@ pub struct Config {
     pub panels: Vec<Panel>,
     /// Additional keys of commands.
     #[serde(deserialize_with = "keys")]
-    pub keys: Vec<(Key, Command)>,
+    pub keys: Vec<(Keystroke, Command)>,
 }
 
 /// The largest file to be read, in bytes.
@@ -98,7 +98,7 @@ fn panels<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Panel>, D::Error> {
     titles.iter().map(panel).collect()
 }
 
-fn keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Key, Command)>, D::Error> {
+fn keys<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Keystroke, Command)>, D::Error> {
     let written = BTreeMap::<String, String>::deserialize(from)?;
     let bound = written.iter().map(|(name, key)| {
         let keys = parse_script(key);
@@ -144,7 +144,10 @@ mod tests {
         assert_eq!(all.marker, Some(Marker::Braille));
         assert_eq!((all.fps, all.mouse), (Some(10), Some(false)));
         assert_eq!(all.panels, [Panel::Stresses, Panel::Section]);
-        assert!(all.keys.contains(&(Key::Char('R'), Command::RunPause)));
+        assert!(
+            all.keys
+                .contains(&(Keystroke::Char('R'), Command::RunPause))
+        );
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::scenario::{Refusal, checkpoint, printable};
 use crate::studies::refinement;
 use crate::tui::ghosts::{MOST, Source};
 use crate::tui::map::live::LiveStudy;
-use crate::tui::{self, Options, Script, Stroke, command, snapshot};
+use crate::tui::{self, Options, Script, ScriptStep, command, snapshot};
 
 /// Default frame rate per second.
 const DEFAULT_FPS: u16 = 10;
@@ -24,7 +24,8 @@ const DEFAULT_FPS: u16 = 10;
 /// Opens the explorer, on a map if there is one.
 pub fn explore(options: &Explore, map: Option<LiveStudy>) -> Result<()> {
     let screen = &options.screen;
-    let strokes = Stroke::script(screen.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
+    let strokes =
+        ScriptStep::script(screen.keys.as_deref().unwrap_or("")).map_err(Refusal::from)?;
     let config = Config::load()?;
     let marker = screen.marker.or(config.marker);
     let look = screen.theme.or(config.theme);

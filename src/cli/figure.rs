@@ -21,7 +21,7 @@ use crate::scenario::bounded_read::{self, Unread};
 use crate::scenario::columns::{Columns, Naming};
 use crate::scenario::{Refusal, Scenario, printable};
 use crate::studies::ghost::Ghost;
-use crate::studies::sweep::record::Record;
+use crate::studies::sweep::record::StudyFile;
 use crate::studies::sweep::{Results, Shard};
 use crate::traces::Table;
 
@@ -160,13 +160,13 @@ fn sheet(options: &Figure) -> Result<Sheet> {
 }
 
 /// Reads the table of a sweep; `None` if it is not one.
-fn record(path: &Path) -> Option<Record> {
+fn record(path: &Path) -> Option<StudyFile> {
     let is_table = path.is_file() && path.extension().is_some_and(|end| end == "csv");
-    is_table.then(|| Record::of_file(path).ok()).flatten()
+    is_table.then(|| StudyFile::of_file(path).ok()).flatten()
 }
 
 /// Makes the charts of a sweep's table.
-fn study(source: &str, record: Record, options: &Figure) -> Result<Sheet> {
+fn study(source: &str, record: StudyFile, options: &Figure) -> Result<Sheet> {
     let of_runs = [
         ("--figure", options.figure.is_some()),
         ("--panel", !options.panel.is_empty()),

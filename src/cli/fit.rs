@@ -17,7 +17,7 @@ use crate::plot::theme::Role;
 use crate::plot::units::reading;
 use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Fit, Fitted, Options, SetResult, Structure, Value};
+use crate::studies::fit::{Fit, Fitted, FittedKey, Options, SetResult, Structure};
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
@@ -58,7 +58,7 @@ fn fit_options(options: &args::Fit) -> Options {
         cycles: options.cycles,
         robust: options.robust,
         nuisances: [options.level, options.shift, options.tilt],
-        takes_stroke: options.stroke == args::Stroke::FromData,
+        takes_stroke: options.stroke == args::StrokeSource::FromData,
         budget: options.budget,
     }
 }
@@ -67,7 +67,7 @@ fn fit_options(options: &args::Fit) -> Options {
 #[derive(Serialize)]
 struct Told<'a> {
     #[serde(flatten)]
-    keys: BTreeMap<&'a str, &'a Value>,
+    keys: BTreeMap<&'a str, &'a FittedKey>,
     data: &'a [SetResult],
     remarks: &'a [String],
     has_converged: bool,
@@ -128,7 +128,7 @@ pub(super) fn at_cycle(given: &Path) -> (PathBuf, Option<f64>) {
 }
 
 /// Formats a fitted value with its errors.
-fn value(one: &Value, has_converged: bool) -> String {
+fn value(one: &FittedKey, has_converged: bool) -> String {
     let (value, unit) = (one.value, one.unit);
     // A wear coefficient also says what it is per.
     let (unit, per) = match unit {

@@ -12,7 +12,7 @@ use crate::math::scan::range;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::columns::Columns;
-use crate::studies::measured::{Kind, Measured};
+use crate::studies::measured::{DataKind, Measured};
 use crate::studies::table::Rows;
 use crate::traces::Axes;
 
@@ -36,11 +36,11 @@ struct Understood {
 pub fn inspect(options: &Inspect) -> Result<()> {
     let (path, cycle) = at_cycle(&options.file);
     let columns = Columns::read_as(&path, &options.naming.of_columns())?;
-    let kind = Kind::detect(&columns);
+    let kind = DataKind::detect(&columns);
     let measured = match kind {
-        Some(Kind::Loop) => Some(Measured::fretting_loop(&columns, options.pick)?),
-        Some(Kind::History) => Some(Measured::history(&columns, Some(1.0))?),
-        Some(Kind::Scar | Kind::Map) => Some(Measured::scar(&columns)?),
+        Some(DataKind::Loop) => Some(Measured::fretting_loop(&columns, options.pick)?),
+        Some(DataKind::History) => Some(Measured::history(&columns, Some(1.0))?),
+        Some(DataKind::Scar | DataKind::Map) => Some(Measured::scar(&columns)?),
         None => None,
     };
     let Some(measured) = measured else {
@@ -51,7 +51,7 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         )));
     };
     let mut understood = interpret(&columns, &measured, kind);
-    if kind == Some(Kind::Loop) {
+    if kind == Some(DataKind::Loop) {
         let scenario = options.scenario.as_ref();
         let scenario = scenario
             .map(|name| given::scenario(name, &[]))
@@ -70,7 +70,7 @@ pub fn inspect(options: &Inspect) -> Result<()> {
     report.print(options.json.then_some(&understood))
 }
 
-fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Understood {
+fn interpret(columns: &Columns, measured: &Measured, kind: Option<DataKind>) -> Understood {
     let all = columns.all();
     let mut described = Rows::with_columns(&[("", "name read_as least largest missing")]);
     for ((name, own, _), (_, values)) in columns.described().zip(&all) {
@@ -87,7 +87,7 @@ fn interpret(columns: &Columns, measured: &Measured, kind: Option<Kind>) -> Unde
         file: columns.path.clone(),
         written: columns.written.clone(),
         kind: match (kind, measured.axes) {
-            (Some(Kind::Map), _) => "a map",
+            (Some(DataKind::Map), _) => "a map",
             (_, Axes::LOOP) => "a fretting loop",
             (_, Axes::WEAR) => "a scar: worn depth over the radius",
             (_, Axes::PROFILE) => "a scar: the worn profile over the radius",

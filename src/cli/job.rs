@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 
-use super::args::{CycleAsGiven, HistoryChoice, Run, cycles};
+use super::args::{CycleAsGiven, HistoryChoice, RunOptions, cycles};
 use crate::export::history::History;
 use crate::export::provenance::{self, Provenance};
 use crate::reading::Errors;
@@ -44,7 +44,7 @@ pub struct RunJob {
 
 impl RunJob {
     /// Makes the job that the options ask for.
-    pub fn new(options: &Run, scenario: &Scenario, name: &str) -> Result<Self> {
+    pub fn new(options: &RunOptions, scenario: &Scenario, name: &str) -> Result<Self> {
         let cycles = end(options.cycles.or(scenario.run().cycles), name)?;
         let snapshots = match &options.snapshot_at {
             Some(given) => {

@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 use serde::Serialize;
 
-use super::args::Output;
+use super::args::TableOptions;
 use super::stop;
 use crate::export::file::WriteError;
 use crate::export::target::Target;
@@ -116,7 +116,7 @@ fn ends<'a>(axis: &Axis, values: impl Iterator<Item = &'a f64>) -> Option<[f64; 
     Some(axis.resolve(Some(range), true))
 }
 
-impl Output {
+impl TableOptions {
     /// Claims the output file, if there is one, before anything is computed.
     pub(super) fn claim(&self) -> Result<Option<Target>, WriteError> {
         Target::claim_given(self.csv.as_deref(), self.force)

@@ -1,4 +1,4 @@
-//! Drawing primitives: lines, areas and text in millimetres, with y downwards, in drawing order.
+//! Page primitives: lines, areas and text in millimetres, with y downwards, in drawing order.
 
 use super::font;
 pub use crate::plot::colormap::Rgb;
@@ -34,7 +34,7 @@ impl Anchor {
 
 /// A line through points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stroke {
+pub struct StyledLine {
     /// The points, mm.
     pub points: Vec<[f64; 2]>,
     /// Its colour.
@@ -62,9 +62,9 @@ pub struct Text {
 
 /// One thing on the paper.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum Primitive {
     /// A line through points.
-    Line(Stroke),
+    Line(StyledLine),
     /// A filled rectangle.
     Area {
         /// Its upper left corner, mm.
@@ -80,32 +80,32 @@ pub enum Shape {
 
 /// A sheet of paper and what is drawn on it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Canvas {
+pub struct Page {
     /// Width and height, mm.
     pub size: [f64; 2],
     /// The shapes, in drawing order.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<Primitive>,
     /// The title, for the file's metadata.
     pub title: String,
     /// Data for the caption: names and values.
     pub facts: Vec<(String, String)>,
 }
 
-impl Canvas {
+impl Page {
     /// Draws a line.
     pub fn line(&mut self, points: Vec<[f64; 2]>, ink: Rgb, width: f64, dashes: &'static [f64]) {
-        let line = Stroke {
+        let line = StyledLine {
             points,
             ink,
             width,
             dashes,
         };
-        self.shapes.push(Shape::Line(line));
+        self.shapes.push(Primitive::Line(line));
     }
 
     /// Fills a rectangle.
     pub fn area(&mut self, at: [f64; 2], size: [f64; 2], ink: Rgb) {
-        self.shapes.push(Shape::Area { at, size, ink });
+        self.shapes.push(Primitive::Area { at, size, ink });
     }
 
     /// Writes a line of text in a font of `size` mm, with the subscripts and superscripts found by [`font::runs`].
@@ -130,7 +130,7 @@ impl Canvas {
                 (false, false) => [at[0] + along, at[1] - lift],
             };
             along += run.width() * size;
-            self.shapes.push(Shape::Text(Text {
+            self.shapes.push(Primitive::Text(Text {
                 at,
                 words: run.words,
                 size: run.size * size,

@@ -1,10 +1,10 @@
 //! Draws a chart on paper: axes with the same ticks and units as on the screen, curves, a map, a legend.
 
-use super::canvas::{Anchor, BLACK, Canvas, WHITE};
+use super::canvas::{Anchor, BLACK, Page, WHITE};
 use super::font;
 use super::interior::{BAR, Interior, symbol};
 use super::look::FigureStyle;
-use super::map::Key;
+use super::map::ColorKey;
 use super::ruler::{column, numeral, ruler, title};
 use crate::plot::segment::clip;
 use crate::plot::ticks::{Labels, Ruler};
@@ -56,14 +56,17 @@ impl Chart {
     pub(super) fn draw(
         &self,
         is_inset: bool,
-        canvas: &mut Canvas,
+        canvas: &mut Page,
         [at, size]: [[f64; 2]; 2],
         ordinate: Ordinate,
         look: &FigureStyle,
     ) {
         let font = look.font;
         let (left, top, height) = (ordinate.left, ordinate.top, ordinate.height);
-        let key = self.map.as_ref().map(|map| Key::new(map, height, font));
+        let key = self
+            .map
+            .as_ref()
+            .map(|map| ColorKey::new(map, height, font));
         let right = key
             .as_ref()
             .map_or(1.4 * font, |key| key.width(font) + 1.2 * font);
@@ -155,7 +158,7 @@ impl Chart {
     }
 
     /// Draws the frame with its ticks and labels; the paper begins at `edge`.
-    fn axes(&self, frame: &Interior, edge: f64, canvas: &mut Canvas, font: f64) {
+    fn axes(&self, frame: &Interior, edge: f64, canvas: &mut Page, font: f64) {
         let [left, top, width, height] = [frame.left, frame.top, frame.size[0], frame.size[1]];
         let (right, bottom) = (frame.right(), frame.bottom());
         let corners = [
@@ -207,7 +210,7 @@ impl Chart {
         &self,
         frame: &Interior,
         drawn: &[[[f64; 2]; 2]],
-        canvas: &mut Canvas,
+        canvas: &mut Page,
         look: &FigureStyle,
     ) {
         let font = 0.9 * look.font;

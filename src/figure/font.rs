@@ -39,7 +39,7 @@ pub fn width(text: &str) -> f64 {
 
 /// A part of a text set in one size and at one height.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Run {
+pub struct TextRun {
     /// The text.
     pub words: String,
     /// Its size, relative to the whole text's.
@@ -48,7 +48,7 @@ pub struct Run {
     pub lift: f64,
 }
 
-impl Run {
+impl TextRun {
     fn new(signs: &[char], size: f64, lift: f64) -> Self {
         let words = signs.iter().collect();
         Self { words, size, lift }
@@ -62,7 +62,7 @@ impl Run {
 
 /// Splits a text into plain parts, subscripts and superscripts. `F_x` and `E_d`, a letter with an index of up to three
 /// characters, have a subscript, `10^−8` a superscript; other texts, such as file names, stay unchanged.
-pub fn runs(text: &str) -> Vec<Run> {
+pub fn runs(text: &str) -> Vec<TextRun> {
     const SMALL: f64 = 0.7;
     let signs: Vec<char> = text.chars().collect();
     let mut runs = Vec::new();
@@ -71,13 +71,13 @@ pub fn runs(text: &str) -> Vec<Run> {
         let length = index_length(&signs, at);
         if length > 0 {
             let lift = if signs[at] == '^' { 0.35 } else { -0.2 };
-            runs.push(Run::new(&signs[begin..at], 1.0, 0.0));
+            runs.push(TextRun::new(&signs[begin..at], 1.0, 0.0));
             begin = at + 1 + length;
-            runs.push(Run::new(&signs[at + 1..begin], SMALL, lift));
+            runs.push(TextRun::new(&signs[at + 1..begin], SMALL, lift));
         }
         at = begin.max(at + 1);
     }
-    runs.push(Run::new(&signs[begin..], 1.0, 0.0));
+    runs.push(TextRun::new(&signs[begin..], 1.0, 0.0));
     let is_split = runs.len() > 1;
     runs.retain(|run| !is_split || !run.words.is_empty());
     runs
@@ -101,7 +101,7 @@ fn index_length(signs: &[char], at: usize) -> usize {
 
 /// Returns the width of a text with its indices, in font sizes.
 pub fn set_width(text: &str) -> f64 {
-    runs(text).iter().map(Run::width).sum()
+    runs(text).iter().map(TextRun::width).sum()
 }
 
 #[cfg(test)]
@@ -111,7 +111,7 @@ mod tests {
     #[test]
     fn indices_are_set_small_and_file_names_as_they_are() {
         let split = |text: &str| -> Vec<String> {
-            let lifted = |run: &Run| format!("{}{:+}", run.words, run.lift);
+            let lifted = |run: &TextRun| format!("{}{:+}", run.words, run.lift);
             runs(text).iter().map(lifted).collect()
         };
         assert_eq!(split("F_x (N)"), ["F+0", "x-0.2", " (N)+0"]);

@@ -1,6 +1,6 @@
 //! The inside of a chart on paper: the positions of its values, and the visible parts of its curves.
 
-use super::canvas::Canvas;
+use super::canvas::Page;
 use super::look::FigureStyle;
 use crate::plot::Curve;
 use crate::plot::segment::clip;
@@ -49,7 +49,7 @@ impl Interior {
     }
 
     /// Draws the points of a curve that lie inside, with their error bars, and returns their positions.
-    pub fn points(&self, curve: &Curve, canvas: &mut Canvas, look: &FigureStyle) -> Vec<[f64; 2]> {
+    pub fn points(&self, curve: &Curve, canvas: &mut Page, look: &FigureStyle) -> Vec<[f64; 2]> {
         let (ink, lowest) = (look.color(curve.role), self.rulers[1].window.bounds[0]);
         // Cuts bars at the lower end: on a logarithmic axis, values that are not positive have no position.
         let cut = |y: f64| if y < lowest { lowest } else { y };

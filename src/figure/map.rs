@@ -1,6 +1,6 @@
 //! A map on paper, and the key to its colours.
 
-use super::canvas::{Anchor, Canvas};
+use super::canvas::{Anchor, Page};
 use super::font;
 use super::interior::Interior;
 use super::look::FigureStyle;
@@ -9,12 +9,12 @@ use crate::plot::ticks::Ruler;
 use crate::plot::{Axis, Map};
 
 /// What is drawn to the right of a map: the ticks of its colours, or its words.
-pub(super) struct Key<'a> {
+pub(super) struct ColorKey<'a> {
     map: &'a Map,
     ruler: Ruler,
 }
 
-impl<'a> Key<'a> {
+impl<'a> ColorKey<'a> {
     pub fn new(map: &'a Map, height: f64, font: f64) -> Self {
         let mut ruler = column(&map.quantity, map.range(), height, font);
         if !map.words.is_empty() {
@@ -32,7 +32,7 @@ impl<'a> Key<'a> {
         (widest.fold(0.0, f64::max) + 2.3 + title) * font
     }
 
-    pub fn draw(&self, frame: &Interior, canvas: &mut Canvas, look: &FigureStyle) {
+    pub fn draw(&self, frame: &Interior, canvas: &mut Page, look: &FigureStyle) {
         let font = look.font;
         let (left, top, height) = (frame.right() + 0.8 * font, frame.top, frame.size[1]);
         let beside = left + 1.4 * font;
@@ -67,13 +67,7 @@ impl<'a> Key<'a> {
 
     /// Draws the map, equal neighbours as one area. Each area extends under the ones drawn after it, except where they
     /// are blank: between areas that only touch, viewers let the paper show through.
-    pub fn fill(
-        &self,
-        axes: [&Axis; 2],
-        frame: &Interior,
-        canvas: &mut Canvas,
-        look: &FigureStyle,
-    ) {
+    pub fn fill(&self, axes: [&Axis; 2], frame: &Interior, canvas: &mut Page, look: &FigureStyle) {
         let map = self.map;
         let range = map.range();
         let is_there = |value: &f64| value.is_finite();

@@ -22,7 +22,7 @@ mod ruler;
 pub mod study;
 pub mod svg;
 
-use canvas::Canvas;
+use canvas::Page;
 use draw::Ordinate;
 use look::FigureStyle;
 
@@ -57,7 +57,7 @@ impl Format {
     ///
     /// # Errors
     /// If a PNG would have no pixels or too many.
-    pub fn write(self, canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
+    pub fn write(self, canvas: &Page, dpi: f64) -> io::Result<Vec<u8>> {
         match self {
             Self::Svg => Ok(svg::write(canvas).into_bytes()),
             Self::Png => png::write(canvas, dpi),
@@ -130,8 +130,8 @@ impl Sheet {
     }
 
     /// Draws all charts on paper of a size in mm; several charts are lettered.
-    pub fn draw(&self, size: [f64; 2], look: &FigureStyle) -> Canvas {
-        let mut canvas = Canvas {
+    pub fn draw(&self, size: [f64; 2], look: &FigureStyle) -> Page {
+        let mut canvas = Page {
             size,
             shapes: Vec::new(),
             title: self.title.clone(),

@@ -5,7 +5,7 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{CidFontType, FontFlags, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
-use super::canvas::{Canvas, Rgb, Shape};
+use super::canvas::{Page, Primitive, Rgb};
 use super::font;
 
 /// Points per millimetre.
@@ -30,7 +30,7 @@ const EFFORT: u8 = 6;
 const FONT_OBJECT: Ref = Ref::new(6);
 
 /// Returns the whole file.
-pub fn write(canvas: &Canvas) -> Vec<u8> {
+pub fn write(canvas: &Page) -> Vec<u8> {
     let [catalog, pages, page, contents, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(pages);
@@ -61,9 +61,9 @@ pub fn write(canvas: &Canvas) -> Vec<u8> {
     pdf.finish()
 }
 
-fn draw(shape: &Shape, drawing: &mut Content) {
+fn draw(shape: &Primitive, drawing: &mut Content) {
     match shape {
-        Shape::Line(line) => {
+        Primitive::Line(line) => {
             let [red, green, blue] = shares(line.ink);
             drawing.set_stroke_rgb(red, green, blue);
             drawing.set_line_width(line.width as f32);
@@ -78,14 +78,14 @@ fn draw(shape: &Shape, drawing: &mut Content) {
             }
             drawing.stroke();
         }
-        Shape::Area { at, size, ink } => {
+        Primitive::Area { at, size, ink } => {
             let [red, green, blue] = shares(*ink);
             drawing.set_fill_rgb(red, green, blue);
             let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(|v| v as f32);
             drawing.rect(x, y, w, h);
             drawing.fill_nonzero();
         }
-        Shape::Text(text) => {
+        Primitive::Text(text) => {
             let before = text.anchor.share_before() * font::width(&text.words) * text.size;
             let glyphs = font::glyphs(&text.words).into_iter();
             let codes: Vec<u8> = glyphs.flat_map(|glyph| glyph.1.0.to_be_bytes()).collect();
@@ -110,10 +110,10 @@ fn shares(ink: Rgb) -> [f32; 3] {
 }
 
 /// Embeds the font, with the widths and Unicode values of the glyphs used.
-fn embed_font(pdf: &mut Pdf, canvas: &Canvas) {
+fn embed_font(pdf: &mut Pdf, canvas: &Page) {
     let [cid_font, described, to_unicode, file] = [7, 8, 9, 10].map(Ref::new);
     let texts = canvas.shapes.iter().filter_map(|shape| match shape {
-        Shape::Text(text) => Some(text.words.as_str()),
+        Primitive::Text(text) => Some(text.words.as_str()),
         _ => None,
     });
     let mut used: Vec<(u16, char, f64)> = texts

@@ -8,7 +8,7 @@ use tiny_skia::{
 };
 use ttf_parser::OutlineBuilder;
 
-use super::canvas::{BLACK, Canvas, Rgb, Shape};
+use super::canvas::{BLACK, Page, Primitive, Rgb};
 use super::font;
 
 const INCH: f64 = 25.4;
@@ -20,7 +20,7 @@ const MOST_PIXELS: f64 = 1e8;
 ///
 /// # Errors
 /// If the image has no pixels or more than 1e8, or the encoder rejects the text.
-pub fn write(canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
+pub fn write(canvas: &Page, dpi: f64) -> io::Result<Vec<u8>> {
     let scale = dpi / INCH;
     let [width, height] = canvas.size.map(|length| (length * scale).round());
     let refused = || {
@@ -55,9 +55,9 @@ pub fn write(canvas: &Canvas, dpi: f64) -> io::Result<Vec<u8>> {
     Ok(file)
 }
 
-fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
+fn draw(shape: &Primitive, pixels: &mut Pixmap, to_pixels: Transform) {
     match shape {
-        Shape::Line(line) => {
+        Primitive::Line(line) => {
             let dashes = line.dashes.iter().map(|&dash| dash as f32).collect();
             let stroke = Stroke {
                 width: line.width as f32,
@@ -77,7 +77,7 @@ fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
                 pixels.stroke_path(&path, &paint(line.ink), &stroke, to_pixels, None);
             }
         }
-        Shape::Area { at, size, ink } => {
+        Primitive::Area { at, size, ink } => {
             let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(|v| v as f32);
             if let Some(area) = Rect::from_xywh(x, y, w, h) {
                 let mut paint = paint(*ink);
@@ -86,7 +86,7 @@ fn draw(shape: &Shape, pixels: &mut Pixmap, to_pixels: Transform) {
                 pixels.fill_rect(area, &paint, to_pixels, None);
             }
         }
-        Shape::Text(text) => {
+        Primitive::Text(text) => {
             let before = text.anchor.share_before() * font::width(&text.words);
             let [x, y, size] = [text.at[0], text.at[1], text.size].map(|v| v as f32);
             let place = to_pixels

@@ -1,12 +1,12 @@
 //! Writes a figure as SVG. Text stays text, so that an editor can change it; the font is only named.
 
-use super::canvas::{Canvas, Rgb, Shape};
+use super::canvas::{Page, Primitive, Rgb};
 use super::font::FAMILY;
 use crate::math::number::exact;
 use crate::scenario::escape::xml;
 
 /// Returns the whole file.
-pub fn write(canvas: &Canvas) -> String {
+pub fn write(canvas: &Page) -> String {
     let [width, height] = canvas.size.map(length);
     let mut text = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
@@ -24,9 +24,9 @@ pub fn write(canvas: &Canvas) -> String {
     text
 }
 
-fn element(shape: &Shape) -> String {
+fn element(shape: &Primitive) -> String {
     match shape {
-        Shape::Line(line) => {
+        Primitive::Line(line) => {
             let points = line.points.iter().map(|point| point.map(length).join(","));
             let points: Vec<String> = points.collect();
             let dashes: Vec<String> = line.dashes.iter().map(|&dash| length(dash)).collect();
@@ -43,7 +43,7 @@ fn element(shape: &Shape) -> String {
                 length(line.width),
             )
         }
-        Shape::Area { at, size, ink } => {
+        Primitive::Area { at, size, ink } => {
             let ([x, y], [width, height]) = (at.map(length), size.map(length));
             format!(
                 "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{}\" \
@@ -51,7 +51,7 @@ fn element(shape: &Shape) -> String {
                 hex(*ink),
             )
         }
-        Shape::Text(text) => {
+        Primitive::Text(text) => {
             let [x, y] = text.at.map(length);
             let turned = if text.upwards {
                 format!(" transform=\"rotate(-90 {x} {y})\"")

@@ -21,25 +21,25 @@ const ROWS: usize = 16;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skyline {
     size: usize,
-    panels: Vec<Run>,
+    panels: Vec<Panel>,
     /// Entries of the panels, column by column, zero where a row has none.
-    entries: Vec<Column>,
+    entries: Vec<PanelColumn>,
 }
 
 /// Entries of a panel in one column, aligned so that no vector straddles two cache lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-struct Column([f64; ROWS]);
+struct PanelColumn([f64; ROWS]);
 
 /// The columns of a panel, possibly empty.
 #[derive(Debug, Clone, PartialEq)]
-struct Run {
+struct Panel {
     columns: Range<usize>,
     /// Index of its first column in the entries.
     start: usize,
 }
 
-impl Run {
+impl Panel {
     /// Returns the part of its `columns` within `input`: where their entries are, and which columns these are.
     fn within(&self, input: &Range<usize>) -> (Range<usize>, Range<usize>) {
         let first = input.start.clamp(self.columns.start, self.columns.end);
@@ -51,7 +51,7 @@ impl Run {
 
 /// Sums `columns` times their values, for each row of a panel.
 #[inline(always)]
-fn sum_columns(fusing: Fusing, columns: &[Column], values: &[f64]) -> [f64; ROWS] {
+fn sum_columns(fusing: Fusing, columns: &[PanelColumn], values: &[f64]) -> [f64; ROWS] {
     // Two sums per row, so that the processor need not wait for the last addition.
     let mut sums = [[0.0; ROWS]; 2];
     let (fours, rest) = columns.as_chunks::<4>();
@@ -62,7 +62,7 @@ fn sum_columns(fusing: Fusing, columns: &[Column], values: &[f64]) -> [f64; ROWS
         }
     }
     let [mut all, others] = sums;
-    for (Column(entries), value) in rest.iter().zip(rest_values) {
+    for (PanelColumn(entries), value) in rest.iter().zip(rest_values) {
         all = fusing.multiply_add(entries, &[*value; ROWS], &all);
     }
     for (sum, other) in all.iter_mut().zip(others) {
@@ -84,9 +84,9 @@ impl Skyline {
             let (columns, start) = (first..end, entries.len());
             entries.extend(columns.clone().map(|k| {
                 let entry = |i| if i < rows { dense[(row + i, k)] } else { 0.0 };
-                Column(std::array::from_fn(entry))
+                PanelColumn(std::array::from_fn(entry))
             }));
-            panels.push(Run { columns, start });
+            panels.push(Panel { columns, start });
         }
         Self {
             size,
@@ -142,7 +142,7 @@ impl Skyline {
 
     /// The entries of a row, each with its column.
     fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        let Run { columns, start } = &self.panels[row / ROWS];
+        let Panel { columns, start } = &self.panels[row / ROWS];
         let columns = columns.clone().zip(&self.entries[*start..]);
         columns.map(move |(k, column)| (k, column.0[row % ROWS]))
     }

@@ -3,17 +3,17 @@
 
 use super::axis::Axis;
 use super::map::Map;
-use super::stroke::Stroke;
+use super::stroke::DashPattern;
 use super::theme::Role;
 use crate::math::scan::{range, value_at};
 use crate::reading::Zone;
 
 /// Dash patterns of other sources' curves in a terminal, by index.
-const GHOSTS: [Stroke; 4] = [
-    Stroke::Dotted,
-    Stroke::DashDotted,
-    Stroke::LongDashed,
-    Stroke::Dashed,
+const GHOSTS: [DashPattern; 4] = [
+    DashPattern::Dotted,
+    DashPattern::DashDotted,
+    DashPattern::LongDashed,
+    DashPattern::Dashed,
 ];
 
 /// A line through points, with gaps at points that are not finite, or not positive on a logarithmic axis.
@@ -154,11 +154,11 @@ impl Curve {
     }
 
     /// Returns its dash pattern in a terminal.
-    pub(super) fn stroke(&self) -> Stroke {
+    pub(super) fn stroke(&self) -> DashPattern {
         match self.role {
             Role::Ghost(k) => GHOSTS[k % GHOSTS.len()],
-            _ if self.dashed => Stroke::Dashed,
-            _ => Stroke::Solid,
+            _ if self.dashed => DashPattern::Dashed,
+            _ => DashPattern::Solid,
         }
     }
 }

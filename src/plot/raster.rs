@@ -13,7 +13,7 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::marker::{Marker, Under};
 use super::segment::walk;
-use super::stroke::{Stroke, draws};
+use super::stroke::{DashPattern, draws};
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
@@ -53,7 +53,7 @@ impl Raster {
         &mut self,
         points: impl Iterator<Item = Position>,
         style: Style,
-        stroke: Stroke,
+        stroke: DashPattern,
     ) {
         let (size, [across, down]) = (self.size(), stroke.runs(self.marker));
         let mut draw = |from: [f64; 2], to: [f64; 2]| {

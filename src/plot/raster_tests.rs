@@ -20,7 +20,7 @@ fn dots(raster: &Raster) -> Vec<(usize, usize)> {
 
 fn drawn(points: &[Position]) -> Vec<(usize, usize)> {
     let mut raster = Raster::new(Rect::new(0, 0, 10, 5), Marker::Braille);
-    raster.line(points.iter().copied(), Style::new(), Stroke::Solid);
+    raster.line(points.iter().copied(), Style::new(), DashPattern::Solid);
     dots(&raster)
 }
 
@@ -37,7 +37,7 @@ fn every_marker_sets_the_dot_it_is_told() {
             for row in 0..usize::from(2 * down) {
                 let mut raster = Raster::new(Rect::new(0, 0, 3, 2), marker);
                 let point = Some([column as f64 + 0.4, row as f64 - 0.4]);
-                raster.line([point].into_iter(), Style::new(), Stroke::Solid);
+                raster.line([point].into_iter(), Style::new(), DashPattern::Solid);
                 assert_eq!(dots(&raster), [(column, row)]);
             }
         }
@@ -115,8 +115,8 @@ fn far_points_cost_nothing_and_clip_exactly() {
 fn the_last_curve_gives_the_colour() {
     let mut raster = Raster::new(Rect::new(0, 0, 1, 1), Marker::HalfBlock);
     let level = |y: f64| [Some([0.0, y])].into_iter();
-    raster.line(level(1.0), Style::new().fg(Color::Red), Stroke::Solid);
-    raster.line(level(0.0), Style::new().fg(Color::Blue), Stroke::Solid);
+    raster.line(level(1.0), Style::new().fg(Color::Red), DashPattern::Solid);
+    raster.line(level(0.0), Style::new().fg(Color::Blue), DashPattern::Solid);
     let mut buf = Buffer::empty(Rect::new(0, 0, 1, 1));
     raster.render(&mut buf);
     let cell = &buf[(0, 0)];
@@ -124,7 +124,7 @@ fn the_last_curve_gives_the_colour() {
         (cell.symbol(), cell.fg, cell.bg),
         ("▀", Color::Red, Color::Blue)
     );
-    raster.line(level(1.0), Style::new().fg(Color::Blue), Stroke::Solid);
+    raster.line(level(1.0), Style::new().fg(Color::Blue), DashPattern::Solid);
     raster.render(&mut buf);
     assert_eq!((buf[(0, 0)].symbol(), buf[(0, 0)].fg), ("█", Color::Blue));
 }
@@ -137,7 +137,7 @@ fn fills_reach_from_the_base_to_the_curve_and_give_way_to_it() {
         slope.into_iter().map(|point| (point, Some(0.0))),
         Style::new(),
     );
-    raster.line(slope.into_iter(), Style::new(), Stroke::Solid);
+    raster.line(slope.into_iter(), Style::new(), DashPattern::Solid);
     let mut buf = Buffer::empty(Rect::new(0, 0, 4, 4));
     raster.render(&mut buf);
     let expected = ["   *", "  *.", " *..", "*..."];

@@ -4,7 +4,7 @@ use super::marker::Marker;
 
 /// Solid, or a pattern of dashes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Stroke {
+pub enum DashPattern {
     /// No gaps.
     #[default]
     Solid,
@@ -21,7 +21,7 @@ pub enum Stroke {
 /// Lengths in dots, alternately drawn and left out.
 type Runs = &'static [usize];
 
-impl Stroke {
+impl DashPattern {
     /// Returns the pattern along a line, across and down.
     pub(super) fn runs(self, marker: Marker) -> [Runs; 2] {
         use Marker::{Ascii, Braille, Dot, HalfBlock};
@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn patterns_repeat_and_no_two_look_alike() {
-        use Stroke::{DashDotted, Dashed, Dotted, LongDashed, Solid};
+        use DashPattern::{DashDotted, Dashed, Dotted, LongDashed, Solid};
         for marker in [
             Marker::Braille,
             Marker::HalfBlock,

@@ -14,7 +14,7 @@ use super::map::{Map, ink_on, side_by_side};
 use super::marker::Under;
 use super::raster::{Position, Raster};
 use super::shades::{has_blocks, paint_halves};
-use super::stroke::Stroke;
+use super::stroke::DashPattern;
 use super::theme::{Role, look_of};
 use super::ticks::{Labels, Ruler};
 use super::window::Window;
@@ -208,7 +208,7 @@ impl<'p> PlotLayout<'p> {
         for curve in curves {
             let style = theme.style(curve.role);
             raster.line(curve.points().map(place), style, curve.stroke());
-            raster.line(curve.bars().map(place), style, Stroke::Solid);
+            raster.line(curve.bars().map(place), style, DashPattern::Solid);
         }
         raster
     }

@@ -25,7 +25,7 @@ pub fn unit_of(name: &str) -> &'static str {
 
 /// How a column's number is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// As it is.
     Number,
     /// As a whole number.
@@ -50,7 +50,7 @@ pub enum Merge {
 }
 
 /// Hands the table of all columns to the macro `$make`. A row has the variant, the name in files, which ends with the
-/// unit, the symbol and the meaning; then the [`Kind`] unless it is a plain number, and what it keeps unless
+/// unit, the symbol and the meaning; then the [`ColumnKind`] unless it is a plain number, and what it keeps unless
 /// [`Merge::Last`]; and for columns that are read from a run, how: a number, given `at`, the
 /// [`Reading`](crate::scenario::scalars::Reading) of a moment.
 macro_rules! columns {
@@ -207,7 +207,7 @@ macro_rules! make_columns {
             name: $name,
             symbol: $symbol,
             meaning: $meaning,
-            kind: [$(Kind::$kind,)? Kind::Number][0],
+            kind: [$(ColumnKind::$kind,)? ColumnKind::Number][0],
             merge: [$(Merge::$merge,)? Merge::Last][0],
         },)*)*];
 
@@ -225,7 +225,7 @@ struct Row {
     name: &'static str,
     symbol: &'static str,
     meaning: &'static str,
-    kind: Kind,
+    kind: ColumnKind,
     merge: Merge,
 }
 
@@ -235,7 +235,7 @@ impl Column {
     }
 
     /// How its number is written.
-    pub const fn kind(self) -> Kind {
+    pub const fn kind(self) -> ColumnKind {
         self.row().kind
     }
 

@@ -173,7 +173,7 @@ impl LoopTally {
         }
         let state = simulation.state();
         let extent = |[low, high]: [f64; 2]| 0.5 * (high - low);
-        let measured = Measured {
+        let measured = PeriodMeans {
             energy: (state.ledger.dissipated_energy - energy) / cycles,
             shift: extent(self.shift),
             force: extent(self.force),
@@ -195,7 +195,7 @@ fn opening(falling: [f64; 2], rising: [f64; 2]) -> Option<f64> {
 }
 
 /// Measured values of a period: per cycle, or averaged over it.
-struct Measured {
+struct PeriodMeans {
     /// E_d, J.
     energy: f64,
     /// U, m, and Q*, N.
@@ -212,7 +212,7 @@ struct Measured {
     opening: Option<f64>,
 }
 
-impl Measured {
+impl PeriodMeans {
     fn figures(self, setup: &Setup) -> CycleFigures {
         let Self {
             energy,
@@ -275,7 +275,7 @@ impl CycleFigures {
                 *count += 1.0;
             }
         }
-        let measured = Measured {
+        let measured = PeriodMeans {
             energy: period.energy_per_cycle(),
             shift: period.amplitude(|point| point.sensed),
             force: period.amplitude(|point| point.tangential_force),

@@ -54,7 +54,7 @@ pub struct Checkpoint<E> {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Body<'a, E> {
+struct Contents<'a, E> {
     origin: Cow<'a, str>,
     scenario: String,
     /// Cycle and text of each change made, and of those to come.
@@ -72,7 +72,7 @@ struct Body<'a, E> {
 pub fn encode<E: Serialize>(session: &Session, job: Option<&E>) -> Vec<u8> {
     let saved = session.simulation().save();
     let cycle = saved.cycle();
-    let body = Body {
+    let body = Contents {
         origin: session.loaded.origin().into(),
         scenario: session.loaded.to_toml(),
         changes: texts(&session.changes),
@@ -236,7 +236,7 @@ fn promise(line: &str) -> Option<(u64, u32)> {
 }
 
 /// Reads the body, which follows the line on who wrote it.
-fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Body<'static, E>, String> {
+fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Contents<'static, E>, String> {
     let mut line = from.by_ref().take(LONGEST_LINE);
     line.skip_until(b'\n').map_err(|error| error.to_string())?;
     ciborium::from_reader(from).map_err(|error| match error {
@@ -246,7 +246,7 @@ fn body<E: DeserializeOwned>(from: &mut impl BufRead) -> Result<Body<'static, E>
 }
 
 /// Restores a session; the error says what is wrong with its body.
-fn restore<E>(body: Body<E>) -> Result<Checkpoint<E>, String> {
+fn restore<E>(body: Contents<E>) -> Result<Checkpoint<E>, String> {
     let loaded = Scenario::from_toml(&body.scenario, &body.origin, &[])
         .map_err(|error| format!("its scenario {error}"))?;
     let (mut scenario, mut unchanged) = (loaded.clone(), None);

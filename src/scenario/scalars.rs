@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use super::{hint, printable};
 use crate::math::number::exact;
 use crate::math::scan::largest;
-use crate::reading::column::{Kind, columns};
+use crate::reading::column::{ColumnKind, columns};
 use crate::reading::fatigue::{Limits, StressCycle};
 use crate::reading::subsurface::Peak;
 use crate::reading::{Column, CycleFigures, Log, Moment, Quantity, Regime, Zone};
@@ -28,11 +28,11 @@ pub fn cell(value: &Value) -> String {
 }
 
 /// Returns the word that a number of this kind stands for, if it is one.
-fn word(kind: Kind, number: f64) -> Option<&'static str> {
+fn word(kind: ColumnKind, number: f64) -> Option<&'static str> {
     match kind {
-        Kind::Number | Kind::Count => None,
-        Kind::Regime => Some(Regime::ALL.get(number as usize)?.name()),
-        Kind::Zone => Some(Zone::ALL.get(number as usize)?.name()),
+        ColumnKind::Number | ColumnKind::Count => None,
+        ColumnKind::Regime => Some(Regime::ALL.get(number as usize)?.name()),
+        ColumnKind::Zone => Some(Zone::ALL.get(number as usize)?.name()),
     }
 }
 
@@ -40,8 +40,8 @@ fn word(kind: Kind, number: f64) -> Option<&'static str> {
 pub fn value(column: Column, number: f64) -> Value {
     match column.kind() {
         _ if !number.is_finite() => Value::Null,
-        Kind::Number => number.into(),
-        Kind::Count => (number as u64).into(),
+        ColumnKind::Number => number.into(),
+        ColumnKind::Count => (number as u64).into(),
         kind => word(kind, number).into(),
     }
 }
@@ -55,7 +55,7 @@ pub fn text(column: Column, number: f64) -> String {
 /// Reads the number of a column from a field of a file; NaN if it is none.
 pub fn parse(column: Column, field: &str) -> f64 {
     match column.kind() {
-        Kind::Regime => field
+        ColumnKind::Regime => field
             .parse()
             .map_or(f64::NAN, |regime: Regime| f64::from(regime as u8)),
         _ => field.parse().unwrap_or(f64::NAN),

@@ -11,7 +11,7 @@ use crate::contact::indenter::{Dimensions, Shape};
 use crate::math::abel::AbelMethod;
 use crate::simulation::waveform::{self, Wave};
 use crate::simulation::{Scheme, Spacing, Stability};
-use crate::wear::{Law, Parameters};
+use crate::wear::{Law, LawParameters};
 
 /// Default accuracy of a run with wear if no numerics are given.
 pub const USUAL_ACCURACY: f64 = 1e-2;
@@ -188,7 +188,7 @@ section! {
         waveform: Option<Wave>,
     } parts {
         /// Keys of the waveforms.
-        form: waveform::Parameters,
+        form: waveform::WaveParameters,
     }
 }
 
@@ -221,7 +221,7 @@ section! {
         /// k per friction work, 1/Pa.
         per_work: Coefficient,
         /// Keys of the laws.
-        parameters: Parameters,
+        parameters: LawParameters,
     }
 }
 
@@ -288,9 +288,9 @@ section! {
 
 fields! { Dimensions { radius, angle, tip_radius, coefficient, exponent, smoothing, radii, heights } }
 
-fields! { waveform::Parameters { hold, times, values } }
+fields! { waveform::WaveParameters { hold, times, values } }
 
-fields! { Parameters { stress_exponent, slip_rate_exponent, reference_stress, reference_slip_rate } }
+fields! { LawParameters { stress_exponent, slip_rate_exponent, reference_stress, reference_slip_rate } }
 
 words!(
     Shape, Geometry, Control, Wave, Law, Passage, AbelMethod, Spacing, Scheme, Stability

@@ -89,14 +89,14 @@ impl Contact {
 
 /// The input of a contact problem.
 #[derive(Clone, Copy)]
-pub(super) struct Problem<'a> {
+pub(super) struct ContactProblem<'a> {
     model: &'a Model,
     profile: &'a Profile,
     /// The previous contact.
     before: &'a Contact,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> ContactProblem<'a> {
     /// That of springs on a `profile`, which stood as in the contact `before`.
     pub fn new(model: &'a Model, profile: &'a Profile, before: &'a Contact) -> Self {
         Self {

@@ -16,7 +16,7 @@
 //! At a held depth each point is exact except for the grid, so the area matches the closed forms; with a moving depth
 //! the error is of second order in the step.
 
-use super::contact::{Contact, Problem};
+use super::contact::{Contact, ContactProblem};
 use super::moments::{Touch, rounding};
 use super::profile::{Profile, even_end};
 use super::{Cause, Simulation};
@@ -177,7 +177,7 @@ impl<'a> Passage<'a> {
             0 => (&self.contact, first),
             _ => (&*first, second),
         };
-        Problem::new(model, &self.profile, before).solve(targets, after, &mut self.slip)
+        ContactProblem::new(model, &self.profile, before).solve(targets, after, &mut self.slip)
     }
 
     /// Goes to the cycle `end` in `pairs` of steps per cycle of the faster motion; returns the moments on the way, this

@@ -363,7 +363,7 @@ impl Simulation {
         let mut slip = vec![0.0; springs];
         let even = even_end(model, &before.contact.load);
         let profile = Profile::of_worn(model, [&before.wear, &before.image], even);
-        let problem = contact::Problem::new(model, &profile, &before.contact);
+        let problem = contact::ContactProblem::new(model, &profile, &before.contact);
         let targets = model.setup.drive.targets(cycle);
         problem.solve(targets, &mut contact, &mut slip).ok()?;
         Some(contact)

@@ -1,7 +1,7 @@
 //! Waveforms: a sine, or straight lines between corners.
 //!
 //! To add a waveform: its word in [`Wave`], which does not compile until [`Waveform::new`] makes it; its keys, in
-//! [`Parameters`]; word and keys in `keys.toml`, of both directions.
+//! [`WaveParameters`]; word and keys in `keys.toml`, of both directions.
 //!
 //! A waveform has period 1, values from −1 to 1, and the phase of a sine: triangle and trapezoid
 //! cross zero upwards at 0. Coulomb friction and wear by friction work are rate-independent, so at
@@ -40,7 +40,7 @@ pub enum Wave {
 /// Keys of the waveforms as a scenario gives them; `None`: not given.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[expect(missing_docs, reason = "keys.toml describes each key")]
-pub struct Parameters {
+pub struct WaveParameters {
     pub hold: Option<f64>,
     pub times: Option<Vec<f64>>,
     pub values: Option<Vec<f64>>,
@@ -81,7 +81,7 @@ impl Waveform {
     ///
     /// # Errors
     /// If one of its keys is not given or not allowed.
-    pub fn new(wave: Wave, given: &Parameters) -> Result<(Self, Option<Scale>), Unmade> {
+    pub fn new(wave: Wave, given: &WaveParameters) -> Result<(Self, Option<Scale>), Unmade> {
         let waveform = match wave {
             Wave::Sine => Self::Sine,
             Wave::Triangle => Self::triangle(),

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::measured::{Kind, Measured, Strokes, check_radii};
+use super::measured::{DataKind, Measured, Strokes, check_radii};
 use crate::math::scan::value_at;
 use crate::reading::Column;
 use crate::scenario::columns::{Columns, Naming};
@@ -40,7 +40,7 @@ impl Trace<'_> {
 
 /// Worn depth over the radius.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Worn {
+pub struct WornProfile {
     /// r, m.
     pub radii: Vec<f64>,
     /// f₀ there, m.
@@ -113,10 +113,12 @@ impl Ghost {
             ghost.add_table(Table::of_file(columns));
         } else {
             ghost.is_measured = true;
-            match Kind::detect(columns) {
-                Some(Kind::Scar | Kind::Map) => ghost.add_measured(Measured::scar(columns)?),
-                Some(Kind::Loop) => ghost.add_measured(Measured::fretting_loop(columns, None)?),
-                Some(Kind::History) => ghost.add_measured(Measured::history(columns, None)?),
+            match DataKind::detect(columns) {
+                Some(DataKind::Scar | DataKind::Map) => {
+                    ghost.add_measured(Measured::scar(columns)?)
+                }
+                Some(DataKind::Loop) => ghost.add_measured(Measured::fretting_loop(columns, None)?),
+                Some(DataKind::History) => ghost.add_measured(Measured::history(columns, None)?),
                 None => {}
             }
         }
@@ -145,7 +147,7 @@ impl Ghost {
     }
 
     /// Returns its worn depth: from its own curve, or as its profile minus `unworn`, m at r; `None` if it has neither.
-    pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<Worn> {
+    pub fn worn(&self, unworn: impl Fn(f64) -> f64) -> Option<WornProfile> {
         let (profile, wear) = (self.trace(Axes::PROFILE), self.trace(Axes::WEAR));
         let trace = wear.or(profile)?;
         let less = |f: &[f64], other: &[f64]| f.iter().zip(other).map(|(f, g)| f - g).collect();
@@ -157,7 +159,7 @@ impl Ghost {
             Some(wear) => wear.ys.to_vec(),
             None => less(trace.ys, &unworn),
         };
-        Some(Worn {
+        Some(WornProfile {
             radii: trace.xs.to_vec(),
             unworn,
             wear,

@@ -6,7 +6,7 @@ use super::command::{self, Act, Command};
 use super::event::Event;
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
-use super::keys::{Key, Named};
+use super::keys::{Keystroke, Named};
 use super::map::live::LiveStudy;
 use super::mouse::Gesture;
 use super::overlays::{Answer, Form, Help, Library, OPENING, Overlay, Palette};
@@ -71,18 +71,18 @@ impl App {
     }
 
     /// Handles a key. Ctrl-C quits and Ctrl-L repaints from anywhere, even while typing.
-    pub fn press(&mut self, key: Key) {
+    pub fn press(&mut self, key: Keystroke) {
         let explorer = &mut self.explorer;
         explorer.begin_answer();
         match key {
-            Key::Ctrl('c') => explorer.next = Next::Leave,
-            Key::Ctrl('l') => explorer.next = Next::Repaint,
+            Keystroke::Ctrl('c') => explorer.next = Next::Leave,
+            Keystroke::Ctrl('l') => explorer.next = Next::Repaint,
             key => self.press_here(key),
         }
     }
 
     /// Handles a key in the topmost overlay or the explorer.
-    fn press_here(&mut self, key: Key) {
+    fn press_here(&mut self, key: Keystroke) {
         let explorer = &mut self.explorer;
         let is_of_program = |command: &Command| *command == Command::Suspend;
         if let Some(command) = command::of_key(key).filter(is_of_program) {
@@ -91,7 +91,7 @@ impl App {
         let answer = match self.overlays.last_mut() {
             Some(overlay) => overlay.press(key, explorer),
             None => match (command::of_key(key), key) {
-                (Some(Command::Focus), Key::Char(digit @ '1'..='9')) => {
+                (Some(Command::Focus), Keystroke::Char(digit @ '1'..='9')) => {
                     explorer.stage.focus_at(digit as usize - '1' as usize);
                     Answer::Stay
                 }
@@ -186,8 +186,8 @@ impl App {
             (Gesture::WheelUp | Gesture::WheelDown, Some(Overlay::Accuracy { .. })) => {}
             (Gesture::WheelUp, None) => self.explorer.wheel(true),
             (Gesture::WheelDown, None) => self.explorer.wheel(false),
-            (Gesture::WheelUp, _) => self.press(Key::Named(Named::Up)),
-            (Gesture::WheelDown, _) => self.press(Key::Named(Named::Down)),
+            (Gesture::WheelUp, _) => self.press(Keystroke::Named(Named::Up)),
+            (Gesture::WheelDown, _) => self.press(Keystroke::Named(Named::Down)),
             (Gesture::Click(at), None) => self.explorer.click(at, false),
             (Gesture::DoubleClick(at), None) => self.explorer.click(at, true),
             (Gesture::Click(_) | Gesture::DoubleClick(_), Some(_)) => {}

@@ -9,7 +9,7 @@ use super::completion::{self, Completion};
 use super::explorer::{Explorer, Next};
 use super::frame::Frame;
 use super::ghosts::Since;
-use super::keys::Key::{self, Char, Ctrl, Named};
+use super::keys::Keystroke::{self, Char, Ctrl, Named};
 use super::keys::Named as N;
 use super::panels::StressMap;
 use super::undo::Way;
@@ -23,7 +23,7 @@ pub struct Row {
     /// The command.
     pub command: Command,
     /// Its keys; the first is shown in the footer.
-    pub keys: &'static [Key],
+    pub keys: &'static [Keystroke],
     /// Its name, in a word or two.
     pub name: &'static str,
     /// Its group in the help.
@@ -191,16 +191,16 @@ impl Row {
 }
 
 /// The user's keys, which override those in the table.
-static OWN: OnceLock<Vec<(Key, Command)>> = OnceLock::new();
+static OWN: OnceLock<Vec<(Keystroke, Command)>> = OnceLock::new();
 
 /// Binds additional keys to commands, once, before the explorer opens.
-pub fn bind(keys: Vec<(Key, Command)>) {
+pub fn bind(keys: Vec<(Keystroke, Command)>) {
     // A second explorer in the same process keeps the keys of the first.
     let _ = OWN.set(keys);
 }
 
 /// Returns the command of a key.
-pub fn of_key(key: Key) -> Option<Command> {
+pub fn of_key(key: Keystroke) -> Option<Command> {
     let mut own = OWN.get().into_iter().flatten();
     let own = own.find(|(bound, _)| *bound == key);
     own.map(|(_, command)| *command).or_else(|| {
@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn no_key_has_two_commands() {
-        let keys: Vec<Key> = COMMANDS.iter().flat_map(|row| row.keys).copied().collect();
+        let keys: Vec<Keystroke> = COMMANDS.iter().flat_map(|row| row.keys).copied().collect();
         for (i, key) in keys.iter().enumerate() {
             assert!(!keys[..i].contains(key), "{key} is bound twice");
         }

@@ -9,7 +9,7 @@ use strum::{EnumString, IntoStaticStr};
 
 /// One key press.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Key {
+pub enum Keystroke {
     /// A printable character, with Shift applied.
     Char(char),
     /// Ctrl and a character.
@@ -52,7 +52,7 @@ pub enum Named {
     Delete,
 }
 
-impl Key {
+impl Keystroke {
     /// Returns the key with the given name, as written between angle brackets.
     pub(super) fn of_name(name: &str) -> Option<Self> {
         let with_ctrl = name.strip_prefix("C-").map(str::parse::<char>);
@@ -65,7 +65,7 @@ impl Key {
     }
 }
 
-impl fmt::Display for Key {
+impl fmt::Display for Keystroke {
     /// Formats the key for the help: `Space`, `Ctrl-c`, `q`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -79,14 +79,14 @@ impl fmt::Display for Key {
 }
 
 /// Parses a script of keys; an error says what could not be read and where.
-pub fn parse_script(script: &str) -> Result<Vec<Key>, String> {
-    read(script, |key| key, Key::of_name)
+pub fn parse_script(script: &str) -> Result<Vec<Keystroke>, String> {
+    read(script, |key| key, Keystroke::of_name)
 }
 
 /// Parses a script of characters, each converted by `key`, and of names between angle brackets.
 pub(super) fn read<T>(
     script: &str,
-    key: fn(Key) -> T,
+    key: fn(Keystroke) -> T,
     of_name: fn(&str) -> Option<T>,
 ) -> Result<Vec<T>, String> {
     let (mut read, mut rest) = (Vec::new(), script);
@@ -94,7 +94,7 @@ pub(super) fn read<T>(
         let next = match rest[first.len_utf8()..].split_once('>') {
             Some((name, after)) if first == '<' => of_name(name).map(|named| (named, after)),
             _ if first == '<' || first.is_control() => None,
-            _ => Some((key(Key::Char(first)), &rest[first.len_utf8()..])),
+            _ => Some((key(Keystroke::Char(first)), &rest[first.len_utf8()..])),
         };
         let Some((next, after)) = next else {
             let start: String = rest.chars().take(12).collect();
@@ -117,13 +117,13 @@ mod tests {
     fn scripts_read_characters_and_names() {
         let keys = parse_script("m<Space>M<Tab><C-c><lt>?").expect("a script");
         let expected = [
-            Key::Char('m'),
-            Key::Char(' '),
-            Key::Char('M'),
-            Key::Named(Named::Tab),
-            Key::Ctrl('c'),
-            Key::Char('<'),
-            Key::Char('?'),
+            Keystroke::Char('m'),
+            Keystroke::Char(' '),
+            Keystroke::Char('M'),
+            Keystroke::Named(Named::Tab),
+            Keystroke::Ctrl('c'),
+            Keystroke::Char('<'),
+            Keystroke::Char('?'),
         ];
         assert_eq!(keys, expected);
         assert_eq!(parse_script(""), Ok(Vec::new()));

@@ -4,7 +4,7 @@ use std::mem::take;
 
 use ratatui::text::Span;
 
-use super::keys::{Key, Named};
+use super::keys::{Keystroke, Named};
 
 /// Maximum length of a line, in characters: a path fits, a pasted document does not.
 pub const LONGEST: usize = 4096;
@@ -89,12 +89,12 @@ impl LineEdit {
 
     /// Handles a key as the filter of a list: characters, Backspace, Ctrl-U and Ctrl-W edit the end of the text.
     /// Returns false for other keys, which move in the list.
-    pub fn filter(&mut self, key: Key) -> bool {
+    pub fn filter(&mut self, key: Keystroke) -> bool {
         let is_filter = match key {
             // A filter does not begin with a blank.
-            Key::Char(' ') => !self.is_empty(),
-            Key::Char(_) => true,
-            Key::Named(Named::Backspace) | Key::Ctrl('u' | 'w') => true,
+            Keystroke::Char(' ') => !self.is_empty(),
+            Keystroke::Char(_) => true,
+            Keystroke::Named(Named::Backspace) | Keystroke::Ctrl('u' | 'w') => true,
             _ => false,
         };
         is_filter && self.press(key)
@@ -108,19 +108,21 @@ impl LineEdit {
 
     /// Handles a key like a shell's line: characters, arrows, Home, End, Backspace, Delete, Ctrl-U for everything
     /// before the cursor and Ctrl-W for the word before it. Returns false for other keys.
-    pub fn press(&mut self, key: Key) -> bool {
+    pub fn press(&mut self, key: Keystroke) -> bool {
         let (before, after) = (&mut self.before, &mut self.after);
         match key {
-            Key::Char(character) => _ = self.paste(&character.to_string()),
-            Key::Named(Named::Backspace) => _ = before.pop(),
-            Key::Named(Named::Left) => after.insert_str(0, &String::from_iter(before.pop())),
-            Key::Named(Named::Delete) if !after.is_empty() => _ = after.remove(0),
-            Key::Named(Named::Right) if !after.is_empty() => before.push(after.remove(0)),
-            Key::Named(Named::Delete | Named::Right) => {}
-            Key::Named(Named::Home) | Key::Ctrl('a') => after.insert_str(0, &take(before)),
-            Key::Named(Named::End) | Key::Ctrl('e') => before.push_str(&take(after)),
-            Key::Ctrl('u') => before.clear(),
-            Key::Ctrl('w') => {
+            Keystroke::Char(character) => _ = self.paste(&character.to_string()),
+            Keystroke::Named(Named::Backspace) => _ = before.pop(),
+            Keystroke::Named(Named::Left) => after.insert_str(0, &String::from_iter(before.pop())),
+            Keystroke::Named(Named::Delete) if !after.is_empty() => _ = after.remove(0),
+            Keystroke::Named(Named::Right) if !after.is_empty() => before.push(after.remove(0)),
+            Keystroke::Named(Named::Delete | Named::Right) => {}
+            Keystroke::Named(Named::Home) | Keystroke::Ctrl('a') => {
+                after.insert_str(0, &take(before))
+            }
+            Keystroke::Named(Named::End) | Keystroke::Ctrl('e') => before.push_str(&take(after)),
+            Keystroke::Ctrl('u') => before.clear(),
+            Keystroke::Ctrl('w') => {
                 let word = before.trim_end_matches(' ').rfind(' ');
                 before.truncate(word.map_or(0, |space| space + 1));
             }
@@ -147,12 +149,12 @@ mod tests {
     #[test]
     fn a_line_is_bounded_and_takes_what_is_pasted_where_the_cursor_is() {
         let mut line = LineEdit::new("ab");
-        line.press(Key::Named(Named::Left));
+        line.press(Keystroke::Named(Named::Left));
         assert!(line.paste("1\n2\x1b3"));
         assert_eq!(line.halves(), ["a123", "b"]);
         assert!(!line.paste(&"x".repeat(1_000_000)));
         assert_eq!(line.text().len(), LONGEST);
-        line.press(Key::Char('y'));
+        line.press(Keystroke::Char('y'));
         assert_eq!(line.text().len(), LONGEST);
         assert!(line.text().ends_with("xb"));
     }
@@ -180,6 +182,6 @@ mod tests {
         ] {
             assert_eq!(typed(script), (before.into(), after.into()), "{script}");
         }
-        assert!(!LineEdit::default().press(Key::Named(Named::Enter)));
+        assert!(!LineEdit::default().press(Keystroke::Named(Named::Enter)));
     }
 }

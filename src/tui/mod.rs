@@ -77,7 +77,7 @@ pub use event_loop::NoTerminal;
 use explorer::Next;
 use recorded::Recorded;
 use remembered::Remembered;
-pub use script::{Script, Stroke, parse_size, press, text};
+pub use script::{Script, ScriptStep, parse_size, press, text};
 use worker::{Orders, Worker, WorkerThread};
 
 /// Options for opening the explorer.

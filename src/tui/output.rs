@@ -20,12 +20,12 @@ const DRAIN_TIMEOUT: Duration = Duration::from_millis(500);
 type Chunk = (String, Option<Sender<Event>>);
 
 /// The channel to the terminal.
-pub struct Output {
+pub struct TerminalOutput {
     chunks: Sender<Chunk>,
     events: Sender<Event>,
 }
 
-impl Output {
+impl TerminalOutput {
     /// Starts the writer, which reports [`Event::Written`] after every frame and [`Event::HangUp`] when the terminal is
     /// gone.
     pub fn open(events: Sender<Event>) -> io::Result<Self> {

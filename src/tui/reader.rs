@@ -8,7 +8,7 @@ use std::str::from_utf8;
 use ratatui::layout::Position;
 
 use super::flow::Request;
-use super::keys::{Key, Named};
+use super::keys::{Keystroke, Named};
 use super::line;
 use super::mouse::Gesture;
 
@@ -32,7 +32,7 @@ const ESCAPE: u8 = 0x1b;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Input {
     /// A key.
-    Key(Key),
+    Key(Keystroke),
     /// Pasted text, cut to the maximum length of a line.
     Paste(String),
     /// A click, or a turn of the wheel.
@@ -116,9 +116,9 @@ impl Reader {
     fn typed(&mut self) {
         let begun = std::mem::take(&mut self.begun);
         if begun.first() == Some(&ESCAPE) && begun.len() <= 2 {
-            self.key(Key::Named(Named::Esc));
+            self.key(Keystroke::Named(Named::Esc));
             let then = begun[1..].iter();
-            then.for_each(|&byte| self.key(Key::Char(byte.into())));
+            then.for_each(|&byte| self.key(Keystroke::Char(byte.into())));
         }
     }
 
@@ -147,7 +147,7 @@ impl Reader {
         }
     }
 
-    fn key(&mut self, key: Key) {
+    fn key(&mut self, key: Keystroke) {
         if self.paste.is_none() {
             self.inputs.push(Input::Key(key));
         }
@@ -168,7 +168,7 @@ impl Reader {
             (b'~', 6) => Named::PageDown,
             _ => return,
         };
-        self.key(Key::Named(named));
+        self.key(Keystroke::Named(named));
     }
 
     fn character(&mut self, character: char) {
@@ -176,8 +176,8 @@ impl Reader {
         match &mut self.paste {
             Some(text) if text.len() < 4 * line::LONGEST => text.push(character),
             Some(_) => {}
-            None if character == '\x7f' => self.key(Key::Named(Named::Backspace)),
-            None => self.key(Key::Char(character)),
+            None if character == '\x7f' => self.key(Keystroke::Named(Named::Backspace)),
+            None => self.key(Keystroke::Char(character)),
         }
     }
 
@@ -185,11 +185,11 @@ impl Reader {
         match byte {
             // In pasted text, line breaks and tabs become blanks.
             b'\t' | b'\r' | b'\n' if self.paste.is_some() => self.character(' '),
-            b'\t' => self.key(Key::Named(Named::Tab)),
-            b'\r' => self.key(Key::Named(Named::Enter)),
+            b'\t' => self.key(Keystroke::Named(Named::Tab)),
+            b'\r' => self.key(Keystroke::Named(Named::Enter)),
             INTERRUPT if self.paste.is_some() => self.is_interrupted = true,
-            0 => self.key(Key::Ctrl(' ')),
-            1..=26 => self.key(Key::Ctrl(char::from(byte - 1 + b'a'))),
+            0 => self.key(Keystroke::Ctrl(' ')),
+            1..=26 => self.key(Keystroke::Ctrl(char::from(byte - 1 + b'a'))),
             _ => {}
         }
     }
@@ -269,12 +269,12 @@ mod tests {
         inputs
     }
 
-    fn key(key: Key) -> Input {
+    fn key(key: Keystroke) -> Input {
         Input::Key(key)
     }
 
     fn named(named: Named) -> Input {
-        Input::Key(Key::Named(named))
+        Input::Key(Keystroke::Named(named))
     }
 
     #[test]
@@ -308,7 +308,9 @@ mod tests {
         let cases: [(&[u8], Vec<Input>); 18] = [
             (
                 "aé∂ ".as_bytes(),
-                ['a', 'é', '∂', ' '].map(|c| key(Key::Char(c))).to_vec(),
+                ['a', 'é', '∂', ' ']
+                    .map(|c| key(Keystroke::Char(c)))
+                    .to_vec(),
             ),
             (b"\x1b[A", vec![named(Named::Up)]),
             (b"\x1bOB", vec![named(Named::Down)]),
@@ -330,7 +332,10 @@ mod tests {
                 ],
             ),
             (b"\x7f", vec![named(Named::Backspace)]),
-            (b"\x15\x17", vec![key(Key::Ctrl('u')), key(Key::Ctrl('w'))]),
+            (
+                b"\x15\x17",
+                vec![key(Keystroke::Ctrl('u')), key(Keystroke::Ctrl('w'))],
+            ),
             (b"\x1b", vec![named(Named::Esc)]),
             (b"\x1b\x1b", vec![named(Named::Esc), named(Named::Esc)]),
             (b"\x1b\r", vec![named(Named::Esc), named(Named::Enter)]),
@@ -339,34 +344,34 @@ mod tests {
                 vec![
                     Input::Answer(Request::Status),
                     Input::Answer(Request::Place),
-                    key(Key::Char('z')),
+                    key(Keystroke::Char('z')),
                 ],
             ),
             // Nothing is bound to Alt.
-            (b"\x1bz", vec![named(Named::Esc), key(Key::Char('z'))]),
+            (b"\x1bz", vec![named(Named::Esc), key(Keystroke::Char('z'))]),
             (
                 "\x1bé\x1bO".as_bytes(),
                 vec![
                     named(Named::Esc),
-                    key(Key::Char('é')),
+                    key(Keystroke::Char('é')),
                     named(Named::Esc),
-                    key(Key::Char('O')),
+                    key(Keystroke::Char('O')),
                 ],
             ),
             (
                 b"\x1b]]\x1b[",
                 vec![
                     named(Named::Esc),
-                    key(Key::Char(']')),
-                    key(Key::Char(']')),
+                    key(Keystroke::Char(']')),
+                    key(Keystroke::Char(']')),
                     named(Named::Esc),
-                    key(Key::Char('[')),
+                    key(Keystroke::Char('[')),
                 ],
             ),
             // A release (kitty), the focus, and what the terminal tells of itself.
             (
                 b"\x1b[97;1:3u\x1b[I\x1b[O\x1b[?62;22c\x1b[>1;10;0c\x1b[8;24;80t\x1bP>|x(1)\x1b\\q",
-                vec![key(Key::Char('q'))],
+                vec![key(Keystroke::Char('q'))],
             ),
             // A click as old terminals tell it.
             (b"\x1b[M !q\x1b[A", vec![named(Named::Up)]),
@@ -388,7 +393,7 @@ mod tests {
     #[test]
     fn what_is_pasted_is_text_and_bounded() {
         let pasted = read(&[b"\x1b[200~q: set\r\nx\x1b[Ay\x1b[201~q"]);
-        let expected = [Input::Paste("q: set  xy".into()), key(Key::Char('q'))];
+        let expected = [Input::Paste("q: set  xy".into()), key(Keystroke::Char('q'))];
         assert_eq!(pasted, expected);
         let much = [b"\x1b[200~".as_slice(), &[b'x'; 1 << 20], b"\x1b[201~"].concat();
         match &read(&[&much])[..] {
@@ -428,7 +433,7 @@ mod tests {
             assert_eq!(reader.read(begun), []);
             assert!(reader.patience() >= Some(least), "{begun:?}");
             assert_eq!(reader.pause(), []);
-            assert_eq!(reader.read(b"q"), [key(Key::Char('q'))], "{begun:?}");
+            assert_eq!(reader.read(b"q"), [key(Keystroke::Char('q'))], "{begun:?}");
         }
     }
 }

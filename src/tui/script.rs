@@ -10,7 +10,7 @@ use ratatui::prelude::*;
 use super::app::App;
 use super::event::Event;
 use super::explorer::Next;
-use super::keys::{self, Key};
+use super::keys::{self, Keystroke};
 use super::screen;
 
 /// Reads a size of the screen, `COLUMNSxROWS`.
@@ -30,30 +30,30 @@ pub fn parse_size(text: &str) -> Result<Size, String> {
 #[derive(Debug, Clone)]
 pub struct Script {
     /// The keys.
-    pub strokes: Vec<Stroke>,
+    pub strokes: Vec<ScriptStep>,
     /// The size of the screen.
     pub size: Size,
 }
 
 /// One action of a script: press a key, paste a text, resize the screen.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Stroke {
+pub enum ScriptStep {
     /// A key.
-    Key(Key),
+    Key(Keystroke),
     /// `<paste:TEXT>`
     Paste(String),
     /// `<resize:COLUMNSxROWS>`
     Resize(Size),
 }
 
-impl Stroke {
+impl ScriptStep {
     /// Reads a script in the notation of [`keys`], extended by `<paste:TEXT>` and `<resize:80x24>`; an error says what
     /// could not be read.
     pub fn script(script: &str) -> Result<Vec<Self>, String> {
         keys::read(script, Self::Key, |name| match name.split_once(':') {
             Some(("paste", text)) => Some(Self::Paste(text.to_owned())),
             Some(("resize", size)) => parse_size(size).ok().map(Self::Resize),
-            _ => Key::of_name(name).map(Self::Key),
+            _ => Keystroke::of_name(name).map(Self::Key),
         })
     }
 }
@@ -76,7 +76,7 @@ pub fn play(app: &mut App, script: &Script, events: &Receiver<Event>) -> Result<
 /// If the simulation has ended.
 pub fn press(
     app: &mut App,
-    strokes: &[Stroke],
+    strokes: &[ScriptStep],
     mut size: Size,
     events: &Receiver<Event>,
 ) -> Result<Size> {
@@ -84,9 +84,9 @@ pub fn press(
     catch_up(app, events)?;
     for stroke in strokes {
         match stroke {
-            Stroke::Key(key) => app.press(*key),
-            Stroke::Paste(text) => app.paste(text),
-            Stroke::Resize(other) => {
+            ScriptStep::Key(key) => app.press(*key),
+            ScriptStep::Paste(text) => app.paste(text),
+            ScriptStep::Resize(other) => {
                 size = *other;
                 app.explorer.resize(size);
             }
@@ -153,17 +153,18 @@ mod tests {
 
     #[test]
     fn scripts_paste_and_resize() {
-        let strokes = Stroke::script(":<paste:set a=<1><Enter><resize:40x10>q").expect("a script");
+        let strokes =
+            ScriptStep::script(":<paste:set a=<1><Enter><resize:40x10>q").expect("a script");
         let expected = [
-            Stroke::Key(Key::Char(':')),
-            Stroke::Paste("set a=<1".into()),
-            Stroke::Key(Key::Named(keys::Named::Enter)),
-            Stroke::Resize(Size::new(40, 10)),
-            Stroke::Key(Key::Char('q')),
+            ScriptStep::Key(Keystroke::Char(':')),
+            ScriptStep::Paste("set a=<1".into()),
+            ScriptStep::Key(Keystroke::Named(keys::Named::Enter)),
+            ScriptStep::Resize(Size::new(40, 10)),
+            ScriptStep::Key(Keystroke::Char('q')),
         ];
         assert_eq!(strokes, expected);
         for script in ["<paste:no end", "<resize:0x10>", "a<Nope>", "<resize:"] {
-            Stroke::script(script).expect_err(script);
+            ScriptStep::script(script).expect_err(script);
         }
     }
 }

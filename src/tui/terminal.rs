@@ -11,7 +11,7 @@ use super::ansi_writer::AnsiWriter;
 use super::event::Event;
 use super::flow::Flow;
 use super::modes::Modes;
-use super::output::Output;
+use super::output::TerminalOutput;
 
 /// Takes over the terminal: the alternate screen (DEC private mode 1049), and marks around pasted text (2004).
 const TAKE_OVER: &str = "\x1b[?1049h\x1b[?2004h";
@@ -32,7 +32,7 @@ const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 /// The terminal in raw mode on its alternate screen, until dropped.
 pub struct Screen {
     /// The way to the terminal. What is sent must draw nothing.
-    pub output: Output,
+    pub output: TerminalOutput,
     writer: AnsiWriter,
     modes: Modes,
     /// What turns the mouse on and off.
@@ -75,7 +75,7 @@ impl Screen {
     /// terminal has taken what was drawn, and when it is gone; with `asks`, also what the background is.
     pub fn open(mouse: bool, asks: bool, events: Sender<Event>) -> io::Result<Self> {
         let mut screen = Self {
-            output: Output::open(events)?,
+            output: TerminalOutput::open(events)?,
             writer: AnsiWriter::default(),
             modes: Modes::note()?,
             mouse: if mouse { MOUSE } else { ["", ""] },

@@ -10,7 +10,7 @@ use mdr_tui::charts::study::lines::criteria;
 use mdr_tui::reading::Curves;
 use mdr_tui::reading::fatigue::{Fatigue, Limits, StressCycle};
 use mdr_tui::reading::subsurface::Stress;
-use mdr_tui::studies::sweep::record::Record;
+use mdr_tui::studies::sweep::record::StudyFile;
 use mdr_tui::studies::sweep::{Results, Shard};
 
 /// p₀ of the default scene: E* = R = d = 1 and a = 1.
@@ -252,7 +252,7 @@ fn the_fatigue_limit_is_a_line_on_the_map() {
     dir.write("study.toml", study.as_bytes());
     dir.line("sweep study.toml --out map.csv --quiet")
         .ends(0, "");
-    let record = Record::of_file(&dir.path("map.csv")).expect("a table");
+    let record = StudyFile::of_file(&dir.path("map.csv")).expect("a table");
     let study = record.study().expect("a study");
     let results = Results::read(study, Shard::WHOLE, &[record]);
     let (results, _) = results.expect("its rows");

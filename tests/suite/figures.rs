@@ -5,7 +5,7 @@ use std::fs;
 use crate::common::{apart, fig3_motion, holds, largest, near};
 use crate::test_dir::{Table, TestDir, cases, has, lacks};
 use mdr_tui::figure::Sheet;
-use mdr_tui::figure::canvas::Shape;
+use mdr_tui::figure::canvas::Primitive;
 use mdr_tui::figure::look::{FigureStyle, Style};
 use mdr_tui::figure::svg;
 use mdr_tui::plot::colormap::ColorMap;
@@ -401,7 +401,9 @@ fn a_map_has_no_seams() {
     };
     let canvas = sheet.draw([60.0, 40.0], &look);
     let areas = canvas.shapes.iter().filter_map(|shape| match shape {
-        Shape::Area { at, size, .. } => Some([[at[0], at[0] + size[0]], [at[1], at[1] + size[1]]]),
+        Primitive::Area { at, size, .. } => {
+            Some([[at[0], at[0] + size[0]], [at[1], at[1] + size[1]]])
+        }
         _ => None,
     });
     let areas: Vec<[[f64; 2]; 2]> = areas.collect();

@@ -14,7 +14,7 @@ use mdr_tui::plot::Marker;
 use mdr_tui::plot::colormap::{NAMED, Rgb, indexed, mixed};
 use mdr_tui::plot::theme::{Depth, Look, Theme};
 use mdr_tui::scenario::escape;
-use mdr_tui::tui::{Stroke, press, screen};
+use mdr_tui::tui::{ScriptStep, press, screen};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
@@ -258,7 +258,7 @@ fn picture(buffer: &Buffer, ground: Ground) -> String {
 fn the_picture_is_of_the_screen_as_it_is() {
     let theme = Theme::new(Look::Dark, Marker::Braille).with_depth(Depth::Indexed);
     let mut explorer = Explorer::on("li2019-fig3", theme);
-    let strokes = Stroke::script(&",".repeat(30)).expect("a script");
+    let strokes = ScriptStep::script(&",".repeat(30)).expect("a script");
     let (size, events) = (Size::new(120, 40), &explorer.worker.events);
     press(&mut explorer.app, &strokes, size, events).expect("a screen");
     let mut buffer = Buffer::empty(size.into());

@@ -17,7 +17,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::command::{self, COMMANDS, Command};
 use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::{Activity, Frame};
-use mdr_tui::tui::keys::{Key, Named, parse_script};
+use mdr_tui::tui::keys::{Keystroke, Named, parse_script};
 use mdr_tui::tui::manual;
 use mdr_tui::tui::mouse::Gesture;
 use mdr_tui::tui::panels::Panel;
@@ -125,14 +125,14 @@ fn the_indenter_moves_with_every_step() {
 }
 
 /// How a script spells a key.
-fn spelled(key: Key) -> String {
+fn spelled(key: Keystroke) -> String {
     match key {
-        Key::Char('<') => "<lt>".into(),
-        Key::Char(' ') => "<Space>".into(),
-        Key::Char(character) => character.into(),
-        Key::Ctrl(character) => format!("<C-{character}>"),
-        Key::Named(Named::BackTab) => "<S-Tab>".into(),
-        Key::Named(_) => format!("<{key}>"),
+        Keystroke::Char('<') => "<lt>".into(),
+        Keystroke::Char(' ') => "<Space>".into(),
+        Keystroke::Char(character) => character.into(),
+        Keystroke::Ctrl(character) => format!("<C-{character}>"),
+        Keystroke::Named(Named::BackTab) => "<S-Tab>".into(),
+        Keystroke::Named(_) => format!("<{key}>"),
     }
 }
 

@@ -10,7 +10,7 @@ use mdr_tui::plot::theme::{Depth, Look, Role, Theme};
 use mdr_tui::reading::Column;
 use mdr_tui::reading::subsurface::Stress;
 use mdr_tui::tui::frame::Frame;
-use mdr_tui::tui::keys::Key;
+use mdr_tui::tui::keys::Keystroke;
 use mdr_tui::tui::{screen, text};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
@@ -302,8 +302,8 @@ fn closed_forms_lie_below_what_they_explain() {
 #[test]
 fn no_key_pressed_in_a_modal_changes_the_run() {
     let size = (80, 24);
-    let mut keys: Vec<Key> = (' '..='~').map(Key::Char).collect();
-    keys.extend(('a'..='z').filter(|c| *c != 'c').map(Key::Ctrl));
+    let mut keys: Vec<Keystroke> = (' '..='~').map(Keystroke::Char).collect();
+    keys.extend(('a'..='z').filter(|c| *c != 'c').map(Keystroke::Ctrl));
     let mut explorer = explorer("li2019-fig3", size, DARK);
     explorer.press(",,");
     let before = explorer.frame();
@@ -326,7 +326,7 @@ fn no_key_pressed_in_a_modal_changes_the_run() {
                 "e" => " ,[]+-=",
                 _ => "",
             };
-            if matches!(key, Key::Char(sign) if is_watched.contains(sign)) {
+            if matches!(key, Keystroke::Char(sign) if is_watched.contains(sign)) {
                 continue;
             }
             explorer.press(open);

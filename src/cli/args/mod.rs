@@ -21,7 +21,9 @@ mod sweep;
 mod values;
 
 pub use figure::{Figure, PaperFigure};
-pub use studies::{Fit, Guard, Inspect, Naming, Output, Stability, Stroke, Trade, Verify};
+pub use studies::{
+    Fit, Guard, Inspect, Naming, Stability, StrokeSource, TableOptions, Trade, Verify,
+};
 pub use sweep::Sweep;
 pub use values::cycles;
 pub use values::{ColorChoice, CycleAsGiven, HistoryChoice};
@@ -51,7 +53,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a scenario without a screen and write its files.
-    Run(Run),
+    Run(RunOptions),
     /// List the presets, or print one as TOML.
     Presets(Presets),
     /// Answer a few questions, and get a commented scenario of your own.
@@ -171,7 +173,7 @@ pub struct Screen {
     override_usage = "mdr-tui run [OPTIONS] <SCENARIO>\n       mdr-tui run [OPTIONS] --resume <FILE>"
 )]
 #[command(after_help = include_str!("examples/run.txt").trim_end())]
-pub struct Run {
+pub struct RunOptions {
     /// A preset's name, or a path to a .toml file; - is the standard input.
     #[arg(required_unless_present = "resume", add = ArgValueCompleter::new(complete::scenarios))]
     pub scenario: Option<OsString>,

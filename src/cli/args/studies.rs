@@ -43,7 +43,7 @@ pub struct Verify {
     pub long: bool,
     /// What is written and said.
     #[command(flatten)]
-    pub output: Output,
+    pub output: TableOptions,
     /// What is drawn.
     #[command(flatten)]
     pub drawing: Drawing,
@@ -85,7 +85,7 @@ pub struct Trade {
     pub all: bool,
     /// What is written and said.
     #[command(flatten)]
-    pub output: Output,
+    pub output: TableOptions,
     /// What is drawn.
     #[command(flatten)]
     pub drawing: Drawing,
@@ -125,7 +125,7 @@ pub struct Stability {
     pub guard: Guard,
     /// What is written and said.
     #[command(flatten)]
-    pub output: Output,
+    pub output: TableOptions,
 }
 
 /// Options of `fit`.
@@ -181,7 +181,7 @@ pub struct Fit {
     pub tilt: Switch,
     /// If loops and scenario differ in their stroke: refuse, or use the stroke of the loops.
     #[arg(long, value_enum, default_value_t)]
-    pub stroke: Stroke,
+    pub stroke: StrokeSource,
     /// Time limit of the search, e.g. 60s or 5min; then the best found so far is told.
     #[arg(long, value_name = "TIME", value_parser = budget)]
     pub budget: Option<f64>,
@@ -204,7 +204,7 @@ pub struct Fit {
 
 /// Whose stroke a fit takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum Stroke {
+pub enum StrokeSource {
     /// That of the scenario; loops of another one are refused.
     #[default]
     Scenario,
@@ -290,7 +290,7 @@ pub enum Guard {
 
 /// Output of a study: a file, stdout and stderr.
 #[derive(Debug, Args)]
-pub struct Output {
+pub struct TableOptions {
     /// Write all rows to this file.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use anyhow::{Context, Result, ensure};
 
 use super::Job;
-use crate::cli::args::Run;
+use crate::cli::args::RunOptions;
 use crate::cli::job::RunJob;
 use crate::cli::{accuracy, complain, given};
 use crate::export::autosave::{self, Autosave};
@@ -23,7 +23,11 @@ use crate::studies::refinement::{self, Budget};
 
 impl<'a> Job<'a> {
     /// Starts the scenario called `name`.
-    pub(super) fn start(options: &'a Run, name: &OsStr, go_on: &dyn Fn() -> bool) -> Result<Self> {
+    pub(super) fn start(
+        options: &'a RunOptions,
+        name: &OsStr,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Self> {
         let mut scenario = given::scenario(name, &options.changes.set)?;
         let name = &*scenario.origin().to_owned();
         let mut job = RunJob::new(options, &scenario, name)?;
@@ -57,7 +61,7 @@ impl<'a> Job<'a> {
 
     /// Resumes a run in the folder that its checkpoint lies in. A checkpoint without a folder continues in the one that
     /// it names, or in another one.
-    pub(super) fn resume(options: &'a Run, file: &Path) -> Result<Self> {
+    pub(super) fn resume(options: &'a RunOptions, file: &Path) -> Result<Self> {
         let name = printable(&file.display().to_string());
         let out = options.out.as_deref();
         let is_of_a_folder = file.is_file() && file.ends_with(RUN_CHECKPOINT);
@@ -96,7 +100,7 @@ impl<'a> Job<'a> {
     }
 
     fn new(
-        options: &'a Run,
+        options: &'a RunOptions,
         name: String,
         mut session: Session,
         mut job: RunJob,
@@ -123,7 +127,7 @@ impl<'a> Job<'a> {
 }
 
 /// Claims the folder in which a checkpoint that lies in none continues: the one that it names, or `--out`.
-fn folder_for(options: &Run, session: &Session, job: &RunJob) -> Result<RunFolder> {
+fn folder_for(options: &RunOptions, session: &Session, job: &RunJob) -> Result<RunFolder> {
     let (out, force) = (options.out.as_deref(), options.force);
     let home = job.home.as_deref().filter(|home| home.is_dir());
     let home = home.filter(|home| out.is_none_or(|out| is_same(home, out)));

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow};
 
-use super::args::{CycleAsGiven, Run};
+use super::args::{CycleAsGiven, RunOptions};
 use super::job::{RunJob, file_of};
 use super::progress::{self, Bar};
 use super::{FAILED, UNFINISHED, accuracy, complain, stop};
@@ -37,7 +37,7 @@ const STEP_TIMEOUT: Duration = Duration::from_millis(400);
 const ANOTHER_TRY: Duration = Duration::from_secs(1);
 
 /// Runs or resumes a scenario and writes its files.
-pub fn run(options: &Run) -> Result<ExitCode> {
+pub fn run(options: &RunOptions) -> Result<ExitCode> {
     let (begun, stop) = (Instant::now(), stop::signal()?);
     let phase = Arc::new(Mutex::new(Phase::Starting));
     let at_signal = Arc::clone(&phase);
@@ -164,7 +164,7 @@ fn save(autosave: &mut Autosave<RunState>, state: &RunState) {
 }
 
 struct Job<'a> {
-    options: &'a Run,
+    options: &'a RunOptions,
     /// The name of the run in messages.
     name: String,
     session: Session,

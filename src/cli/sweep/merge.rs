@@ -12,7 +12,7 @@ use crate::cli::args::Sweep;
 use crate::cli::{complain, stop};
 use crate::export::target::Target;
 use crate::scenario::{Refusal, printable};
-use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::record::{self, Arithmetic, StudyFile};
 use crate::studies::sweep::{Results, Shard};
 
 /// Maximum number of points named in a message.
@@ -29,8 +29,8 @@ pub fn merge(directory: &Path, options: &Sweep) -> Result<()> {
     files.retain(|file| out.is_none() || file.canonicalize().ok() != out);
     let rule = "has no table written by mdr-tui sweep";
     let first = files.first().ok_or_else(|| Refusal::new(&shown, rule))?;
-    let records = files.iter().map(|file| Record::of_file(file));
-    let records: Vec<Record> = records.collect::<Result<_, _>>()?;
+    let records = files.iter().map(|file| StudyFile::of_file(file));
+    let records: Vec<StudyFile> = records.collect::<Result<_, _>>()?;
     let study = records[0].study()?;
     records[0].expect(&study, "this version of mdr-tui")?;
     let (mut arithmetic, mut count) = (Arithmetic::new(), 1);

@@ -20,7 +20,7 @@ mod merge;
 mod output;
 mod slurm;
 
-use output::Output;
+use output::StudyTable;
 
 /// The largest study file to be read, in bytes.
 const LARGEST_STUDY: u64 = 1 << 26;
@@ -103,7 +103,7 @@ fn run(options: &Sweep, path: &Path, study: Study) -> Result<ExitCode> {
     let out = options.out.clone();
     let out = out.unwrap_or_else(|| default_out(path, shard));
     refuse_invalid(options, &study, shard)?;
-    let mut output = Output::open(&out, study, shard, options)?;
+    let mut output = StudyTable::open(&out, study, shard, options)?;
     let go_on = stop::signal().map(stop::until_stopped)?;
     crate::panics::capture();
     let study = Arc::clone(&output.results.study);

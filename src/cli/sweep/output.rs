@@ -12,7 +12,7 @@ use crate::export::file::{WriteError, write_with};
 use crate::export::header;
 use crate::export::target::Target;
 use crate::scenario::Refusal;
-use crate::studies::sweep::record::{self, Arithmetic, Record};
+use crate::studies::sweep::record::{self, Arithmetic, StudyFile};
 use crate::studies::sweep::{Results, Row, Shard, Study};
 
 /// Interval for flushing rows to disk. A killed process loses none, since the system already has them; a crash of the
@@ -20,7 +20,7 @@ use crate::studies::sweep::{Results, Row, Shard, Study};
 const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
 /// The rows of a study, in memory and in a file.
-pub struct Output {
+pub struct StudyTable {
     /// The file.
     pub target: Target,
     /// The rows.
@@ -34,7 +34,7 @@ pub struct Output {
     flushed: Instant,
 }
 
-impl Output {
+impl StudyTable {
     /// Creates the file, or continues it, and claims it.
     pub fn open(path: &Path, study: Study, shard: Shard, options: &Sweep) -> Result<Self> {
         let target = Target::claim_in_new_directory(path)?;
@@ -44,7 +44,7 @@ impl Output {
             let refuse = |why: String| Refusal::new(path.display(), why);
             let rule = "already exists; --resume continues it, --force starts over, --out names another file";
             ensure!(options.resume, refuse(rule.into()));
-            let record = Record::of_file(path)?;
+            let record = StudyFile::of_file(path)?;
             record.expect(&results.study, "the study now")?;
             let rule = format!("holds shard {}, not {shard}", record.shard);
             ensure!(record.shard == shard, refuse(rule));

@@ -57,7 +57,7 @@ pub type Weights = fn(&[f64]) -> DMatrix<f64>;
 
 /// What the rest of the program may assume of a method.
 #[derive(Debug, Clone, Copy)]
-pub struct Traits {
+pub struct MethodTraits {
     /// Its name in a sentence, with the paper's capital letters.
     pub title: &'static str,
     /// What it is, in one line.
@@ -106,9 +106,9 @@ impl AbelMethod {
     };
 
     /// Returns what may be assumed of it.
-    pub const fn traits(self) -> Traits {
+    pub const fn traits(self) -> MethodTraits {
         match self {
-            Self::Product => Traits {
+            Self::Product => MethodTraits {
                 title: "product",
                 description: "product integration linear in r²; exact for a paraboloid",
                 weights: [product::profile, product::displacement, product::stress],
@@ -120,21 +120,21 @@ impl AbelMethod {
                 response: 1.51,
                 sawtooth: None,
             },
-            Self::A => Traits {
+            Self::A => MethodTraits {
                 title: "A",
                 description: "Method A of the paper: singularity split off; causal",
                 weights: [benad::profile, a::displacement, benad::stress],
                 is_causal: true,
-                ..Traits::PUBLISHED
+                ..MethodTraits::PUBLISHED
             },
-            Self::APlusB => Traits {
+            Self::APlusB => MethodTraits {
                 title: "A+B",
                 description: "Method A for Eqs. (1) and (3), B for Eq. (2); causal",
                 weights: [benad::profile, b::displacement, benad::stress],
                 is_causal: true,
-                ..Traits::PUBLISHED
+                ..MethodTraits::PUBLISHED
             },
-            Self::B => Traits {
+            Self::B => MethodTraits {
                 title: "B",
                 description: "Method B of the paper: trapezoids; leaks at the stick border",
                 weights: [b::profile, b::displacement, b::stress],
@@ -145,9 +145,9 @@ impl AbelMethod {
                     advice: "method b develops a sawtooth at large wear coefficients; try numerics.method = \
                              \"product\" or more numerics.steps_per_cycle",
                 }),
-                ..Traits::PUBLISHED
+                ..MethodTraits::PUBLISHED
             },
-            Self::Benad => Traits {
+            Self::Benad => MethodTraits {
                 title: "Benad",
                 description: "integration by parts (Benad 2018); unstable in fretting",
                 weights: [benad::profile, benad::displacement, benad::stress],
@@ -157,7 +157,7 @@ impl AbelMethod {
                     advice: "method benad amplifies errors in every round trip f -> g -> f; \
                              numerics.method = \"product\" is stable",
                 }),
-                ..Traits::PUBLISHED
+                ..MethodTraits::PUBLISHED
             },
         }
     }
@@ -188,7 +188,7 @@ impl AbelMethod {
     }
 }
 
-impl Traits {
+impl MethodTraits {
     /// Those of a published method, where it does not say otherwise.
     const PUBLISHED: Self = Self {
         title: "",

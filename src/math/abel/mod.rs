@@ -59,7 +59,7 @@ use super::geometry::Geometry;
 use super::grid::RadialGrid;
 use super::skyline::Skyline;
 use fast::{Inwards, Outwards, Worn};
-pub use method::{AbelMethod, MOST_DENSE_CELLS, Sawtooth, Traits};
+pub use method::{AbelMethod, MOST_DENSE_CELLS, MethodTraits, Sawtooth};
 
 pub mod a;
 pub mod b;

@@ -5,7 +5,7 @@ use crate::math::invalid::Unmade;
 use crate::scenario::key::{Key, join};
 use crate::scenario::spec::Wear;
 use crate::simulation::Unworn;
-use crate::wear::{Parameters, WearLaw};
+use crate::wear::{LawParameters, WearLaw};
 
 const WEAR: &str = "wear";
 
@@ -19,13 +19,13 @@ pub(super) fn law(
 ) -> Option<WearLaw> {
     let law = faults.need("wear.law", wear.law)?;
     let usual = Spec::usual().wear.as_ref();
-    let usual = usual.map_or_else(Parameters::default, |usual| usual.parameters);
+    let usual = usual.map_or_else(LawParameters::default, |usual| usual.parameters);
     let given = wear.parameters.or(usual);
     let mut made = WearLaw::new(law, k, &given);
     if let Err(Unmade::Missing(_)) = made
         && let Some(contact) = contact.references()
     {
-        made = WearLaw::new(law, k, &given.or(Parameters::usual_for(contact)));
+        made = WearLaw::new(law, k, &given.or(LawParameters::usual_for(contact)));
     }
     let made = match made {
         Ok(law) => Ok(law),

@@ -3,7 +3,7 @@
 
 use super::super::breakdown::Cause;
 use super::super::choices::Scheme;
-use super::super::contact::{Contact, Problem};
+use super::super::contact::{Contact, ContactProblem};
 use super::super::model::Model;
 use super::super::running_in::{RunningIn, Stretch};
 use super::super::state::State;
@@ -35,7 +35,7 @@ pub(super) fn solve(
     scratch: &mut Scratch,
     cycle: f64,
 ) -> Result<(), Cause> {
-    let problem = Problem::new(model, &scratch.profile, before);
+    let problem = ContactProblem::new(model, &scratch.profile, before);
     let targets = model.setup.drive.targets(cycle);
     problem.solve(targets, next, &mut scratch.slip)
 }

@@ -106,7 +106,7 @@ pub(in super::super) fn jump(
         }
     };
     let springs = memory.clone();
-    let mut search = Search {
+    let mut search = JumpSearch {
         model,
         state,
         first: &first,
@@ -145,7 +145,7 @@ pub(in super::super) fn jump(
 }
 
 /// The search for a jump from one state.
-struct Search<'a> {
+struct JumpSearch<'a> {
     model: &'a Model,
     state: &'a State,
     /// The cycle at that state.
@@ -156,7 +156,7 @@ struct Search<'a> {
     scratch: &'a mut Scratch,
 }
 
-impl Search<'_> {
+impl JumpSearch<'_> {
     /// A jump of at most `most` cycles whose error is allowed, or one so short that direct steps are better.
     /// `memory` then holds the springs at its end.
     fn search(&mut self, memory: &mut State, most: f64) -> Result<(Jump, f64), Refused> {

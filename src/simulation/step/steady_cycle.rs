@@ -83,7 +83,7 @@ fn solve(
     scratch: &mut Scratch,
     targets: Targets,
 ) -> Result<(), Cause> {
-    let problem = contact::Problem::new(model, &scratch.profile, &memory.contact);
+    let problem = contact::ContactProblem::new(model, &scratch.profile, &memory.contact);
     problem.solve(targets, &mut spare.contact, &mut scratch.slip)
 }
 

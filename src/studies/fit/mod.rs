@@ -52,7 +52,7 @@ mod structure;
 
 pub use model::{ModelCycle, model_cycles};
 pub use nuisance::NAMES;
-pub use report::{Fitted, Nuisance, SetResult, Value};
+pub use report::{Fitted, FittedKey, Nuisance, SetResult};
 pub use structure::Structure;
 
 /// Whether a nuisance is fitted.

@@ -17,7 +17,7 @@ use crate::traces::Axes;
 
 /// Prediction of a run for one data set, at arbitrary points.
 #[derive(Debug, Clone)]
-pub(super) enum Response {
+pub(super) enum Prediction {
     /// What has worn, and the unworn shape where the profile was measured.
     Scar(WornDepth, Option<Indenter>),
     /// One finely stepped cycle.
@@ -26,7 +26,7 @@ pub(super) enum Response {
     History(Vec<f64>),
 }
 
-impl Response {
+impl Prediction {
     /// Returns the simulated values of a data set whose abscissae are off by `shift`, and whose values by `level` and
     /// by `tilt` per unit of the abscissa.
     pub fn at(&self, set: &Measured, [level, shift, tilt]: [f64; 3]) -> Vec<f64> {
@@ -72,10 +72,10 @@ pub(super) fn simulate(
     data: &[Measured],
     cycles: f64,
     go_on: &dyn Fn(u64) -> bool,
-) -> Result<(Vec<Response>, u64), SessionError> {
+) -> Result<(Vec<Prediction>, u64), SessionError> {
     let mut session = Session::start(scenario.clone())?;
     let start = session.simulation().moment().depth;
-    let mut responses: Vec<Response> = Vec::new();
+    let mut responses: Vec<Prediction> = Vec::new();
     // Where the run must stop, and for which points.
     let mut moments: Vec<(f64, usize, usize)> = Vec::new();
     for (i, set) in data.iter().enumerate() {
@@ -88,7 +88,7 @@ pub(super) fn simulate(
             }
         };
         moments.extend(stops.iter().enumerate().map(|(j, cycle)| (*cycle, i, j)));
-        responses.push(Response::History(vec![0.0; set.at.len()]));
+        responses.push(Prediction::History(vec![0.0; set.at.len()]));
     }
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_over_energy = data.iter().any(|set| set.axes.x == Column::Energy);
@@ -109,15 +109,15 @@ pub(super) fn simulate(
         match (&mut responses[i], set.axes) {
             (response, Axes::LOOP) => {
                 let strokes = Strokes::new(&last_period(simulation));
-                *response = strokes.map_or_else(|| response.clone(), Response::Loop);
+                *response = strokes.map_or_else(|| response.clone(), Prediction::Loop);
             }
             (response, axes) if axes.over_r() => {
                 let setup = simulation.setup();
                 let unworn = (axes == Axes::PROFILE).then(|| setup.indenter.clone());
                 let worn = WornDepth::new(setup.grid.clone(), simulation.worn_depth().to_vec());
-                *response = Response::Scar(worn, unworn);
+                *response = Prediction::Scar(worn, unworn);
             }
-            (Response::History(values), axes) if axes.x == Column::Energy => {
+            (Prediction::History(values), axes) if axes.x == Column::Energy => {
                 let course = course.table(&OVER_ENERGY);
                 let column = |column| course.column(column).unwrap_or_default();
                 let (energies, worn) = (column(axes.x), column(axes.y));
@@ -127,7 +127,7 @@ pub(super) fn simulate(
                     .map(|&energy| value_at(energies, worn, energy));
                 *values = found.map(|value| value.unwrap_or(f64::NAN)).collect();
             }
-            (Response::History(values), axes) => values[j] = value(&session, axes.y),
+            (Prediction::History(values), axes) => values[j] = value(&session, axes.y),
             _ => {}
         }
     }

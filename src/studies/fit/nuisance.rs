@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::model::Response;
+use super::model::Prediction;
 use crate::math::scan::range;
 use crate::studies::measured::Measured;
 
@@ -31,7 +31,7 @@ const STEP: f64 = 2e-4;
 /// Returns ∂(simulated)/∂(nuisance) of each active one, by central differences.
 pub(super) fn derivatives(
     set: &Measured,
-    response: &Response,
+    response: &Prediction,
     at: [f64; 3],
     active: [bool; 3],
 ) -> Vec<Vec<f64>> {
@@ -58,7 +58,7 @@ impl Nuisances {
     pub fn solve(
         &self,
         set: &Measured,
-        response: &Response,
+        response: &Prediction,
         weigh: &dyn Fn(&[f64]) -> Vec<f64>,
     ) -> ([f64; 3], Vec<f64>) {
         let squares = |values: &[f64]| weigh(values).iter().map(|z| z * z).sum::<f64>();

@@ -20,7 +20,7 @@ const ALIKE: f64 = 0.95;
 
 /// A key that was fitted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Value {
+pub struct FittedKey {
     /// The dotted path.
     #[serde(skip)]
     pub key: String,
@@ -40,7 +40,7 @@ pub struct Value {
     pub correlations: BTreeMap<String, f64>,
 }
 
-impl Value {
+impl FittedKey {
     /// Whether the data set it a limit on one side at most.
     pub fn is_open(&self) -> bool {
         self.interval.is_some_and(|ends| ends.contains(&None))
@@ -84,7 +84,7 @@ pub struct SetResult {
 #[derive(Debug)]
 pub struct Fitted {
     /// The keys in the requested order.
-    pub values: Vec<Value>,
+    pub values: Vec<FittedKey>,
     /// The match of each data set.
     pub sets: Vec<SetResult>,
     /// One line for each key that the data do not determine, and each data set that the model does not match.
@@ -150,7 +150,7 @@ impl Fitted {
                     ));
                 }
             }
-            values.push(Value {
+            values.push(FittedKey {
                 unit: free.unit,
                 value: free.value(theta),
                 stderr: is_known.then(|| free.error(theta, error)),

@@ -31,12 +31,12 @@ pub(super) struct WornDepth {
     worn: Vec<f64>,
     /// The largest of them, m.
     deepest: f64,
-    shape: Option<Shape>,
+    shape: Option<ScarShape>,
 }
 
 /// The factors of the depth, over t = r².
 #[derive(Debug, Clone)]
-struct Shape {
+struct ScarShape {
     /// Where it begins; `None` if the middle is worn.
     start: Option<f64>,
     /// Where it ends.
@@ -50,7 +50,7 @@ struct Shape {
 impl WornDepth {
     /// Interpolates the depths `worn`, m, at the nodes of a grid.
     pub fn new(grid: RadialGrid, worn: Vec<f64>) -> Self {
-        let shape = Shape::new(&grid, &worn);
+        let shape = ScarShape::new(&grid, &worn);
         let deepest = largest(&worn);
         Self {
             grid,
@@ -75,7 +75,7 @@ impl WornDepth {
     }
 }
 
-impl Shape {
+impl ScarShape {
     /// `None` for a scar without an edge, or on too few nodes.
     fn new(grid: &RadialGrid, worn: &[f64]) -> Option<Self> {
         let ([first, last], t) = (worn::scar(worn)?, grid.squares());

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use anyhow::{Result, anyhow};
 
 use super::errors::{Errors, degrees_of_freedom};
-use super::model::{self, Response};
+use super::model::{self, Prediction};
 use super::nuisance::{self, Nuisances};
 use super::solver::{self, Free};
 use super::{Fit, Switch};
@@ -42,7 +42,7 @@ const SETTLED: f64 = 0.05;
 /// Runs that are remembered.
 const REMEMBERED: usize = 64;
 
-type Responses = Rc<Vec<Response>>;
+type Responses = Rc<Vec<Prediction>>;
 
 /// The state of a search.
 #[derive(Clone)]
@@ -168,7 +168,7 @@ impl<'a> Search<'a> {
         scenario: &Scenario,
         theta: &[f64],
         most: u64,
-    ) -> Result<(Vec<Response>, u64), SessionError> {
+    ) -> Result<(Vec<Prediction>, u64), SessionError> {
         if !(self.in_time)() {
             return Err(SessionError::Interrupted);
         }

@@ -138,14 +138,14 @@ impl Free {
     }
 }
 
-struct Problem<'a> {
+struct LeastSquares<'a> {
     points: usize,
     parameters: Vec<MPPar>,
     config: MPConfig,
     residuals: &'a mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
 }
 
-impl MPFitter for Problem<'_> {
+impl MPFitter for LeastSquares<'_> {
     fn eval(&mut self, theta: &[f64], deviates: &mut [f64]) -> MPResult<()> {
         match (self.residuals)(theta) {
             Some(found) if found.iter().all(|z| z.is_finite()) => deviates.copy_from_slice(&found),
@@ -182,7 +182,7 @@ pub(super) fn solve(
     config.max_iter = 60;
     let parameters = free.iter().zip(theta);
     let parameters = parameters.map(|(free, theta)| free.limits(*theta));
-    let mut problem = Problem {
+    let mut problem = LeastSquares {
         points,
         parameters: parameters.collect(),
         config,

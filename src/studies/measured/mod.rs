@@ -29,7 +29,7 @@ const LEANS_LEFT: f64 = -0.3;
 
 /// What the rows of a file are, by its columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum DataKind {
     /// Heights or depths over x and y.
     Map,
     /// A force over a displacement.
@@ -56,7 +56,7 @@ const WORN: [(Column, Column); 4] = [
     (Column::Mass, Column::WearVolume),
 ];
 
-impl Kind {
+impl DataKind {
     /// Determines the kind from the columns of a file; `None` if they are not measured data.
     pub fn detect(columns: &Columns) -> Option<Self> {
         let has = |column: Column| columns.has(column);
@@ -111,8 +111,8 @@ impl Measured {
         } else {
             Axes::PROFILE
         };
-        let mut scar = match Kind::detect(columns) {
-            Some(Kind::Map) => map::read(columns, axes)?,
+        let mut scar = match DataKind::detect(columns) {
+            Some(DataKind::Map) => map::read(columns, axes)?,
             _ => read(columns, axes, [axes.x, axes.y])?,
         };
         scar.sort();

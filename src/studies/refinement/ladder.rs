@@ -157,7 +157,8 @@ enum Failure {
 }
 
 /// Runs a scenario to a cycle, or to a number of jumps before it, while its callback returns true.
-type Run<'a> = dyn Fn(&Scenario, f64, u64, &dyn Fn() -> bool) -> Result<Session, SessionError> + 'a;
+type RunLevel<'a> =
+    dyn Fn(&Scenario, f64, u64, &dyn Fn() -> bool) -> Result<Session, SessionError> + 'a;
 
 /// Chooses levels, runs and judges them.
 struct Ladder<'a> {
@@ -165,7 +166,7 @@ struct Ladder<'a> {
     cycles: f64,
     accuracy: f64,
     budget: Budget,
-    run: &'a Run<'a>,
+    run: &'a RunLevel<'a>,
     go_on: &'a dyn Fn() -> bool,
     /// Time since the search began, s.
     spent: &'a dyn Fn() -> f64,

@@ -2,7 +2,7 @@
 //!
 //! A [`Study`] is read from a TOML file: a base scenario, settings for all points, the axes, and the columns. Its points
 //! are numbered in the order of the axes, with the last one fastest. [`engine::run`] runs some of them on several
-//! threads and gives a [`Row`] for each; [`Results`] hold the rows of a study, and a [`record::Record`] is a table as
+//! threads and gives a [`Row`] for each; [`Results`] hold the rows of a study, and a [`record::StudyFile`] is a table as
 //! text, which can be read back, merged and continued.
 //!
 //! Points do not depend on each other or on threads, so a row is the same bit for bit in whatever order, on however

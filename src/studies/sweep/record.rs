@@ -62,7 +62,7 @@ pub fn header(study: &Study) -> String {
 }
 
 /// A table read back.
-pub struct Record {
+pub struct StudyFile {
     /// Name in messages.
     pub name: String,
     /// The header without arithmetic and shard.
@@ -75,7 +75,7 @@ pub struct Record {
     body: String,
 }
 
-impl Record {
+impl StudyFile {
     /// Reads the table in a file.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use super::record::Record;
+use super::record::StudyFile;
 use super::{Row, Shard, Status, Study};
 use crate::math::number::exact;
 use crate::reading::{Column, Regime};
@@ -47,7 +47,7 @@ impl Results {
     pub fn read(
         study: impl Into<Arc<Study>>,
         shard: Shard,
-        records: &[Record],
+        records: &[StudyFile],
     ) -> Result<(Self, Doubles), Refusal> {
         let (mut results, mut doubles) = (Self::new(study), Doubles::default());
         let study = Arc::clone(&results.study);
@@ -219,7 +219,7 @@ mod tests {
             let backwards: String = lines.iter().rev().map(String::as_str).collect();
             let torn = head + &backwards + "1e-6,";
             let read = |text: &str| {
-                let record = Record::read(text.as_bytes(), "it").expect("a table");
+                let record = StudyFile::read(text.as_bytes(), "it").expect("a table");
                 let study = record.study().expect("its study");
                 Results::read(study, Shard::WHOLE, &[record])
             };

@@ -11,7 +11,7 @@ use super::range::Range;
 use super::view::MapView;
 use crate::panics::locked;
 use crate::scenario::{Refusal, Scenario};
-use crate::studies::sweep::record::Record;
+use crate::studies::sweep::record::StudyFile;
 use crate::studies::sweep::{Results, Shard, engine};
 
 /// Interval for checking the table.
@@ -40,7 +40,7 @@ impl LiveStudy {
     ///
     /// In one line: the file cannot be read, or is not the table of a study.
     pub fn of_file(file: &Path) -> Result<Self, Refusal> {
-        let record = Record::of_file(file)?;
+        let record = StudyFile::of_file(file)?;
         let (results, _) = Results::read(record.study()?, Shard::WHOLE, &[record])?;
         let view = MapView::new(results, &file.display().to_string());
         Ok(Self::new(view, Some(file.into())))
@@ -72,7 +72,7 @@ impl LiveStudy {
                 }
                 // A file that is just being replaced is read again the next time.
                 let study = shared.with_view(|view| Arc::clone(&view.slice.results.study));
-                let read = Record::of_file(&file)
+                let read = StudyFile::of_file(&file)
                     .and_then(|record| Results::read(study, Shard::WHOLE, &[record]));
                 let _ =
                     read.map(|(results, _)| shared.with_view(|view| view.slice.results = results));

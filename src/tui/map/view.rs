@@ -5,7 +5,7 @@ use crate::charts::study::{Slice, chart};
 use crate::plot::{Chart, Curve, Scale};
 use crate::reading::Column;
 use crate::studies::sweep::{Design, Results, StudyAxis};
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 
 /// A study, and the state of its view.
 #[derive(Debug)]
@@ -39,25 +39,29 @@ impl MapView {
     }
 
     /// Handles a key that changes the view.
-    pub fn press(&mut self, key: Key) {
+    pub fn press(&mut self, key: Keystroke) {
         match key {
-            Key::Char('l') | Key::Named(Named::Right) => self.move_by(Some(self.slice.x), 1),
-            Key::Char('h') | Key::Named(Named::Left) => self.move_by(Some(self.slice.x), -1),
-            Key::Char('k') | Key::Named(Named::Up) => self.move_by(self.slice.y, 1),
-            Key::Char('j') | Key::Named(Named::Down) => self.move_by(self.slice.y, -1),
-            Key::Named(Named::Home) => self.move_by(Some(self.slice.x), isize::MIN / 2),
-            Key::Named(Named::End) => self.move_by(Some(self.slice.x), isize::MAX / 2),
-            Key::Named(Named::Tab) => self.turn_column(1),
-            Key::Named(Named::BackTab) => self.turn_column(self.columns() - 1),
-            Key::Char('t') => self.with_lines = !self.with_lines,
-            Key::Char('L') => self.is_flipped = !self.is_flipped,
-            Key::Char('x') => self.turn_x(),
-            Key::Char('y') => self.turn_y(),
-            Key::Char(']') => self.move_others(1),
-            Key::Char('[') => self.move_others(-1),
+            Keystroke::Char('l') | Keystroke::Named(Named::Right) => {
+                self.move_by(Some(self.slice.x), 1)
+            }
+            Keystroke::Char('h') | Keystroke::Named(Named::Left) => {
+                self.move_by(Some(self.slice.x), -1)
+            }
+            Keystroke::Char('k') | Keystroke::Named(Named::Up) => self.move_by(self.slice.y, 1),
+            Keystroke::Char('j') | Keystroke::Named(Named::Down) => self.move_by(self.slice.y, -1),
+            Keystroke::Named(Named::Home) => self.move_by(Some(self.slice.x), isize::MIN / 2),
+            Keystroke::Named(Named::End) => self.move_by(Some(self.slice.x), isize::MAX / 2),
+            Keystroke::Named(Named::Tab) => self.turn_column(1),
+            Keystroke::Named(Named::BackTab) => self.turn_column(self.columns() - 1),
+            Keystroke::Char('t') => self.with_lines = !self.with_lines,
+            Keystroke::Char('L') => self.is_flipped = !self.is_flipped,
+            Keystroke::Char('x') => self.turn_x(),
+            Keystroke::Char('y') => self.turn_y(),
+            Keystroke::Char(']') => self.move_others(1),
+            Keystroke::Char('[') => self.move_others(-1),
             _ => {}
         }
-        if matches!(key, Key::Char('x' | 'y' | '[' | ']')) {
+        if matches!(key, Keystroke::Char('x' | 'y' | '[' | ']')) {
             self.borders = borders(&self.slice);
         }
     }

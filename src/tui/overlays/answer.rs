@@ -5,7 +5,7 @@ use ratatui::text::{Line, Span};
 
 use super::Overlay;
 use crate::tui::command::{self, Command};
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 use crate::tui::line::LineEdit;
 
 /// What follows a key that an overlay has handled.
@@ -27,7 +27,7 @@ pub enum Answer {
 
 /// Handles a key in an overlay beside which the run can be watched: `closing` commands only close it, `watched`
 /// commands run while it stays, and other keys do nothing.
-pub(super) fn watch(key: Key, closing: &[Command], watched: &[Command]) -> Answer {
+pub(super) fn watch(key: Keystroke, closing: &[Command], watched: &[Command]) -> Answer {
     match command::of_key(key) {
         Some(Command::Quit) => Answer::Close,
         Some(command) if closing.contains(&command) => Answer::Close,
@@ -40,9 +40,9 @@ pub(super) fn watch(key: Key, closing: &[Command], watched: &[Command]) -> Answe
 pub(super) const PAGE: usize = 10;
 
 /// Selects another of `count` entries if the key moves in lists; returns false for other keys.
-pub(super) fn select(at: &mut usize, count: usize, key: Key) -> bool {
+pub(super) fn select(at: &mut usize, count: usize, key: Keystroke) -> bool {
     let last = count.saturating_sub(1);
-    let Key::Named(key) = key else {
+    let Keystroke::Named(key) = key else {
         return false;
     };
     *at = match key {

@@ -11,7 +11,7 @@ use crate::scenario::value::Value;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{self, Command};
 use crate::tui::explorer::Explorer;
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 use crate::tui::line::LineEdit;
 use crate::tui::overlays::answer::{Answer, select, typing};
 use crate::tui::overlays::palette::Palette;
@@ -77,7 +77,7 @@ impl Form {
         Some((at, setting, self.typed.clone().filter(|_| !is_taken)))
     }
 
-    pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
+    pub(super) fn press(&mut self, key: Keystroke, explorer: &mut Explorer) -> Answer {
         let known = explorer.frame.settings();
         let settings = self.fitting(&known);
         let Some((at, setting, typed)) = self.selected(&settings) else {
@@ -86,8 +86,8 @@ impl Form {
         (self.at, self.typed) = (at, typed);
         match (&mut self.typed, key) {
             (None, key) => return self.choose(key, setting, settings.len(), explorer),
-            (_, Key::Named(Named::Esc)) => (self.typed, self.sent) = (None, None),
-            (Some(line), Key::Named(Named::Enter)) => {
+            (_, Keystroke::Named(Named::Esc)) => (self.typed, self.sent) = (None, None),
+            (Some(line), Keystroke::Named(Named::Enter)) => {
                 let value = line.text().trim().to_owned();
                 let is_same =
                     setting.text().as_ref() == Some(&value) || setting.shown(true) == value;
@@ -104,7 +104,7 @@ impl Form {
     }
 
     /// Handles a key that filters the parameters or closes the list.
-    fn edit_filter(&mut self, key: Key) -> Answer {
+    fn edit_filter(&mut self, key: Keystroke) -> Answer {
         if command::of_key(key) == Some(Command::Back) {
             return Answer::Close;
         }
@@ -118,7 +118,7 @@ impl Form {
     /// nothing is typed.
     fn choose(
         &mut self,
-        key: Key,
+        key: Keystroke,
         setting: &Setting,
         count: usize,
         explorer: &mut Explorer,
@@ -129,11 +129,11 @@ impl Form {
         }
         let is_free = self.filter.is_empty();
         match (key, command::of_key(key)) {
-            (Key::Named(Named::Right), _) => step(setting, true, explorer),
-            (Key::Named(Named::Left), _) => step(setting, false, explorer),
-            (Key::Char('+' | '='), _) if is_free => step(setting, true, explorer),
-            (Key::Char('-'), _) if is_free => step(setting, false, explorer),
-            (Key::Named(Named::Enter), _) => return self.edit(setting, explorer),
+            (Keystroke::Named(Named::Right), _) => step(setting, true, explorer),
+            (Keystroke::Named(Named::Left), _) => step(setting, false, explorer),
+            (Keystroke::Char('+' | '='), _) if is_free => step(setting, true, explorer),
+            (Keystroke::Char('-'), _) if is_free => step(setting, false, explorer),
+            (Keystroke::Named(Named::Enter), _) => return self.edit(setting, explorer),
             (_, Some(watched)) if is_free && WATCHED.contains(&watched) => {
                 return Answer::Watch(watched);
             }

@@ -11,7 +11,7 @@ use ratatui::widgets::Paragraph;
 use crate::plot::theme::Role;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{self, Command, Row};
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 use crate::tui::line::wrapped;
 use crate::tui::manual::groups;
 use crate::tui::overlays::answer::{Answer, PAGE, watch};
@@ -26,13 +26,13 @@ pub struct Help {
 }
 
 impl Help {
-    pub(super) fn press(&mut self, key: Key) -> Answer {
+    pub(super) fn press(&mut self, key: Keystroke) -> Answer {
         let first = self.first.get();
         let first = match (key, command::of_key(key)) {
-            (Key::Named(Named::PageUp), _) => first.saturating_sub(PAGE as u16),
-            (Key::Named(Named::PageDown), _) => first.saturating_add(PAGE as u16),
-            (Key::Named(Named::Home), _) => 0,
-            (Key::Named(Named::End), _) => u16::MAX,
+            (Keystroke::Named(Named::PageUp), _) => first.saturating_sub(PAGE as u16),
+            (Keystroke::Named(Named::PageDown), _) => first.saturating_add(PAGE as u16),
+            (Keystroke::Named(Named::Home), _) => 0,
+            (Keystroke::Named(Named::End), _) => u16::MAX,
             (_, Some(Command::Up)) => first.saturating_sub(1),
             (_, Some(Command::Down)) => first.saturating_add(1),
             _ => return watch(key, CLOSING, &[Command::Search]),

@@ -12,7 +12,7 @@ use crate::scenario::{Scenario, printable};
 use crate::tui::canvas::Canvas;
 use crate::tui::command::{self, Command};
 use crate::tui::explorer::Explorer;
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 use crate::tui::line::{LineEdit, one_line};
 use crate::tui::overlays::answer::{Answer, select};
 use crate::tui::snapshot;
@@ -41,11 +41,11 @@ struct Entry {
     name: String,
     /// A path, or the name of a preset.
     path: PathBuf,
-    kind: Kind,
+    kind: EntryKind,
 }
 
 #[derive(Debug)]
-enum Kind {
+enum EntryKind {
     Preset(&'static Preset),
     /// A scenario file, read only for its description.
     Scenario,
@@ -60,7 +60,7 @@ impl Entry {
         Self {
             name: preset.name.to_owned(),
             path: preset.name.into(),
-            kind: Kind::Preset(preset),
+            kind: EntryKind::Preset(preset),
         }
     }
 
@@ -69,30 +69,30 @@ impl Entry {
         let name = path.file_name()?.to_str()?;
         let name = printable(Some(name).filter(|name| !name.starts_with('.'))?);
         if path.is_dir() {
-            let kind = snapshot::about(&path).map_or(Kind::Directory, Kind::Snapshot);
+            let kind = snapshot::about(&path).map_or(EntryKind::Directory, EntryKind::Snapshot);
             let name = name + "/";
             return Some(Self { name, path, kind });
         }
         let is_scenario = path.extension()?.eq_ignore_ascii_case("toml");
-        let kind = is_scenario.then_some(Kind::Scenario)?;
+        let kind = is_scenario.then_some(EntryKind::Scenario)?;
         Some(Self { name, path, kind })
     }
 
     fn title(&self) -> &'static str {
         match &self.kind {
-            Kind::Preset(preset) => preset.title(),
-            Kind::Snapshot(_) => "snapshot",
-            Kind::Scenario | Kind::Directory => "",
+            EntryKind::Preset(preset) => preset.title(),
+            EntryKind::Snapshot(_) => "snapshot",
+            EntryKind::Scenario | EntryKind::Directory => "",
         }
     }
 
     /// Returns its description, or why it cannot be run.
     fn about(&self) -> String {
         match &self.kind {
-            Kind::Preset(preset) => return preset.summary().to_owned(),
-            Kind::Snapshot(about) => return about.clone(),
-            Kind::Directory => return format!("the scenarios in {}", self.path.display()),
-            Kind::Scenario => {}
+            EntryKind::Preset(preset) => return preset.summary().to_owned(),
+            EntryKind::Snapshot(about) => return about.clone(),
+            EntryKind::Directory => return format!("the scenarios in {}", self.path.display()),
+            EntryKind::Scenario => {}
         }
         match Scenario::load(&self.path, &[]) {
             Ok(scenario) => {
@@ -123,15 +123,15 @@ fn files(directory: &Path) -> Vec<Entry> {
         vec![Entry {
             name: format!("cannot be listed: {error}"),
             path: directory.to_owned(),
-            kind: Kind::Directory,
+            kind: EntryKind::Directory,
         }]
     });
-    let is_file = |entry: &Entry| matches!(entry.kind, Kind::Scenario);
+    let is_file = |entry: &Entry| matches!(entry.kind, EntryKind::Scenario);
     found.sort_by_cached_key(|entry| (!is_file(entry), entry.name.clone()));
     found.push(Entry {
         name: "../".into(),
         path: directory.join(".."),
-        kind: Kind::Directory,
+        kind: EntryKind::Directory,
     });
     found
 }
@@ -166,11 +166,11 @@ impl Library {
         (self.at, self.about) = (at, about.unwrap_or_else(|| "nothing has that".into()));
     }
 
-    pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
+    pub(super) fn press(&mut self, key: Keystroke, explorer: &mut Explorer) -> Answer {
         let mut at = self.at;
         match (key, command::of_key(key)) {
             _ if select(&mut at, self.fitting().len(), key) => self.select(at),
-            (Key::Named(Named::Enter), _) => return self.accept(explorer),
+            (Keystroke::Named(Named::Enter), _) => return self.accept(explorer),
             (_, Some(Command::Back)) => return Answer::Close,
             _ if self.filter.filter(key) => self.select(0),
             _ => {}
@@ -185,7 +185,7 @@ impl Library {
             return Answer::Stay;
         };
         let path = entry.path.clone();
-        if !matches!(entry.kind, Kind::Directory) {
+        if !matches!(entry.kind, EntryKind::Directory) {
             explorer.load(&path);
             return Answer::Close;
         }

@@ -3,7 +3,7 @@
 use super::canvas::Canvas;
 use super::command::Command;
 use super::explorer::Explorer;
-use super::keys::{Key, Named};
+use super::keys::{Keystroke, Named};
 use super::line::LineEdit;
 use super::map::live::LiveStudy;
 use answer::watch;
@@ -50,13 +50,13 @@ pub enum Overlay {
 
 impl Overlay {
     /// Handles a key.
-    pub fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
+    pub fn press(&mut self, key: Keystroke, explorer: &mut Explorer) -> Answer {
         match self {
             Self::Help(help) => help.press(key),
             Self::Library(library) => library.press(key, explorer),
             Self::Explain => watch(key, explain::CLOSING, explain::WATCHED),
             Self::Accuracy { explains } => match key {
-                Key::Named(Named::Tab | Named::BackTab) => {
+                Keystroke::Named(Named::Tab | Named::BackTab) => {
                     *explains ^= true;
                     Answer::Stay
                 }

@@ -12,7 +12,7 @@ use crate::tui::command::{Act, COMMANDS, Command, Row};
 use crate::tui::completion::{self, Completion};
 use crate::tui::explorer::Explorer;
 use crate::tui::frame::Frame;
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 use crate::tui::line::LineEdit;
 use crate::tui::overlays::answer::{Answer, select, typing};
 use crate::tui::settings::Setting;
@@ -98,23 +98,27 @@ impl Palette {
         }
     }
 
-    pub(super) fn press(&mut self, key: Key, explorer: &mut Explorer) -> Answer {
+    pub(super) fn press(&mut self, key: Keystroke, explorer: &mut Explorer) -> Answer {
         let mut list = completions(&self.line.text(), &explorer.frame);
         let last = list.len().saturating_sub(1);
         let at = self.at.min(last);
         match (key, list.get_mut(at)) {
-            (Key::Named(Named::Esc), _) => return Answer::Close,
-            (Key::Named(Named::Backspace), _) if self.line.is_empty() => return Answer::Close,
-            (Key::Named(Named::Up | Named::BackTab) | Key::Ctrl('p'), _) => {
-                select(&mut self.at, list.len(), Key::Named(Named::Up));
+            (Keystroke::Named(Named::Esc), _) => return Answer::Close,
+            (Keystroke::Named(Named::Backspace), _) if self.line.is_empty() => {
+                return Answer::Close;
             }
-            (Key::Named(Named::Down) | Key::Ctrl('n'), _) => {
-                select(&mut self.at, list.len(), Key::Named(Named::Down));
+            (Keystroke::Named(Named::Up | Named::BackTab) | Keystroke::Ctrl('p'), _) => {
+                select(&mut self.at, list.len(), Keystroke::Named(Named::Up));
             }
-            (Key::Named(Named::Enter), Some((_, Some(command)))) => return Answer::Run(*command),
-            (Key::Named(Named::Enter | Named::Tab), Some((selected, _))) => {
+            (Keystroke::Named(Named::Down) | Keystroke::Ctrl('n'), _) => {
+                select(&mut self.at, list.len(), Keystroke::Named(Named::Down));
+            }
+            (Keystroke::Named(Named::Enter), Some((_, Some(command)))) => {
+                return Answer::Run(*command);
+            }
+            (Keystroke::Named(Named::Enter | Named::Tab), Some((selected, _))) => {
                 let act = selected.act.take();
-                match act.filter(|_| key == Key::Named(Named::Enter)) {
+                match act.filter(|_| key == Keystroke::Named(Named::Enter)) {
                     Some(act) => {
                         act(explorer);
                         return Answer::Done;
@@ -122,7 +126,7 @@ impl Palette {
                     None => *self = Self::begun(&selected.line),
                 }
             }
-            (Key::Named(Named::Enter), None) => {
+            (Keystroke::Named(Named::Enter), None) => {
                 let typed = self.line.text();
                 let typed = typed.trim();
                 let word = typed.split_whitespace().next().unwrap_or_default();

@@ -5,7 +5,7 @@ use crate::plot::theme::Role;
 use crate::tui::canvas::Canvas;
 use crate::tui::command;
 use crate::tui::explorer::{Explorer, Next};
-use crate::tui::keys::{Key, Named};
+use crate::tui::keys::{Keystroke, Named};
 use crate::tui::map::draw;
 use crate::tui::map::live::LiveStudy;
 use crate::tui::overlays::answer::Answer;
@@ -15,17 +15,17 @@ use crate::tui::worker::Order;
 pub const OPENING: &str = "opening the point ...";
 
 /// Handles a key. Leaving ends the study, or the explorer if it was opened for the study.
-pub(super) fn press(live: &LiveStudy, key: Key, explorer: &mut Explorer) -> Answer {
+pub(super) fn press(live: &LiveStudy, key: Keystroke, explorer: &mut Explorer) -> Answer {
     match (key, command::of_key(key)) {
-        (Key::Char('?'), _) => return Answer::Open(Overlay::MapKeys),
-        (Key::Char('q'), _) if live.is_of_file() => explorer.next = Next::Leave,
+        (Keystroke::Char('?'), _) => return Answer::Open(Overlay::MapKeys),
+        (Keystroke::Char('q'), _) if live.is_of_file() => explorer.next = Next::Leave,
         // There is nothing that Escape could close.
-        (Key::Named(Named::Esc), _) if live.is_of_file() => {}
-        (Key::Char('q') | Key::Named(Named::Esc), _) => {
+        (Keystroke::Named(Named::Esc), _) if live.is_of_file() => {}
+        (Keystroke::Char('q') | Keystroke::Named(Named::Esc), _) => {
             live.halt();
             return Answer::Close;
         }
-        (Key::Named(Named::Enter), _) => {
+        (Keystroke::Named(Named::Enter), _) => {
             match live.with_view(|view| view.slice.results.study.scenario(view.point())) {
                 Ok(scenario) => {
                     live.halt();

@@ -210,11 +210,11 @@ impl StressMap {
 
 /// The samples that were drawn last: they are computed again only for another stress, load or size.
 #[derive(Debug, Default)]
-pub struct Drawn(RefCell<Option<(Key, Rc<[f64]>)>>);
+pub struct Drawn(RefCell<Option<(SampleInputs, Rc<[f64]>)>>);
 
 /// What samples depend on.
 #[derive(Debug)]
-struct Key {
+struct SampleInputs {
     shown: usize,
     bounds: Option<[f64; 2]>,
     loads: Vec<Arc<SpringLoad>>,
@@ -222,7 +222,7 @@ struct Key {
     size: f64,
 }
 
-impl PartialEq for Key {
+impl PartialEq for SampleInputs {
     fn eq(&self, other: &Self) -> bool {
         let [ours, theirs] =
             [self, other].map(|key| (key.shown, key.bounds, key.room, key.size, key.loads.len()));
@@ -240,7 +240,7 @@ impl Drawn {
         room: [usize; 2],
         size: f64,
     ) -> Option<Shares> {
-        let key = Key {
+        let key = SampleInputs {
             shown: map.shown,
             bounds: map.bounds(),
             loads: map.loads(frame),

@@ -14,7 +14,7 @@ use mdr_tui::tui::app::App;
 use mdr_tui::tui::keys::parse_script;
 use mdr_tui::tui::screen;
 use mdr_tui::tui::worker::{Order, Orders, Worker};
-use mdr_tui::tui::{Stroke, press, text};
+use mdr_tui::tui::{ScriptStep, press, text};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
@@ -136,13 +136,13 @@ pub fn session(bytes: &[u8]) {
     let script: String = bytes
         .map(|byte| all[usize::from(*byte) % all.len()])
         .collect();
-    let strokes = Stroke::script(&script).expect("a script");
+    let strokes = ScriptStep::script(&script).expect("a script");
     let theme = Theme::new(Look::Dark, Marker::Braille);
     rehearse(session, theme, &strokes, Size::new(80, 24));
 }
 
 /// The last screen of an explorer of its own that does what `strokes` say. A panic in its worker continues here.
-pub fn rehearse(session: Session, theme: Theme, strokes: &[Stroke], size: Size) -> String {
+pub fn rehearse(session: Session, theme: Theme, strokes: &[ScriptStep], size: Size) -> String {
     let (orders, to_worker) = Orders::channel();
     let (events, inbox) = channel();
     let mut worker = Worker::new(session, events, Duration::MAX, false);

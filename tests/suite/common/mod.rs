@@ -26,7 +26,7 @@ use mdr_tui::scenario::{Change, Scenario, preset};
 use mdr_tui::simulation::drive::{Control, Drive, Oscillation};
 use mdr_tui::simulation::{Integrator, Scheme, Setup, Simulation, Spacing, Stability};
 use mdr_tui::studies::refinement::resolve_soon;
-use mdr_tui::tui::Stroke;
+use mdr_tui::tui::ScriptStep;
 use mdr_tui::tui::app::App;
 use mdr_tui::tui::event::Event;
 use mdr_tui::tui::frame::Frame;
@@ -397,7 +397,7 @@ pub fn rehearsed(preset: &str, keys: &str, size: (usize, usize)) -> String {
 #[track_caller]
 pub fn rehearsed_on(session: Session, keys: &str, size: (usize, usize)) -> String {
     let theme = Theme::new(Look::Dark, Marker::Braille);
-    let strokes = Stroke::script(keys).expect("a script");
+    let strokes = ScriptStep::script(keys).expect("a script");
     let area = Size::new(size.0 as u16, size.1 as u16);
     fits(rehearse(session, theme, &strokes, area), size, keys)
 }

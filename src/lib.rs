@@ -36,7 +36,7 @@
 //!
 //! | to add | where |
 //! |---|---|
-//! | a wear law | `wear.rs`: a variant of [`wear::Form`] with its [`wear::LawTraits`]; its word and keys in `scenario/keys.toml`; the law itself in `guide/physics.md` |
+//! | a wear law | `wear.rs`: a variant of [`wear::LawForm`] with its [`wear::LawTraits`]; its word and keys in `scenario/keys.toml`; the law itself in `guide/physics.md` |
 //! | a shape | `contact/indenter.rs`: a word of [`contact::indenter::Shape`], its profile and 1D image; word and keys in `keys.toml` |
 //! | a waveform | `simulation/waveform.rs`: a word of [`simulation::waveform::Wave`]; word and keys in `keys.toml`; `guide/rigs.md` |
 //! | a transform method | a file in `math/abel` with its weights, a variant of [`math::abel::AbelMethod`] with its traits; its word in `keys.toml`; `UPDATE_ORDERS=1 cargo test conformance::` |

@@ -1,6 +1,6 @@
 //! Wear laws: how fast the surface recedes under a stress and a slip rate.
 //!
-//! To add a law: a variant of [`Form`], which does not compile until [`WearLaw::new`], [`traits`](WearLaw::traits),
+//! To add a law: a variant of [`LawForm`], which does not compile until [`WearLaw::new`], [`traits`](WearLaw::traits),
 //! [`wear`](WearLaw::wear), [`sensitivity`](WearLaw::sensitivity) and the tests below have its answers; its word, and its
 //! keys, in `keys.toml`, each with a field of [`LawParameters`].
 
@@ -15,7 +15,7 @@ use crate::math::invalid::{Invalid, Unmade, need, non_negative, positive};
 pub struct WearLaw {
     /// k, 1/Pa.
     coefficient: f64,
-    form: Form,
+    form: LawForm,
 }
 
 /// The form of a wear law, with its parameters. [`Law`] names it without them, by its word in scenarios.
@@ -31,7 +31,7 @@ pub struct WearLaw {
     ),
     strum(serialize_all = "kebab-case")
 )]
-pub enum Form {
+pub enum LawForm {
     /// Archard's law, Eq. (15) of the paper: Δf = k τ Δs, wear proportional to frictional work.
     Archard,
     /// By powers of stress and slip rate.
@@ -169,7 +169,7 @@ impl WearLaw {
 
     /// Archard's law with k in 1/Pa; k = 0 wears nothing.
     pub fn archard(coefficient: f64) -> Result<Self, Invalid> {
-        Self::of(Form::Archard, coefficient)
+        Self::of(LawForm::Archard, coefficient)
     }
 
     /// The power law; exponents from 0.1 to 10, references greater than 0.
@@ -181,7 +181,7 @@ impl WearLaw {
                 Err(Invalid::new(field, value, "must be from 0.1 to 10"))
             }
         };
-        let law = Self::of(Form::Power(powers), coefficient)?;
+        let law = Self::of(LawForm::Power(powers), coefficient)?;
         exponent("stress_exponent", powers.stress_exponent)?;
         exponent("slip_rate_exponent", powers.slip_rate_exponent)?;
         positive("reference_stress", powers.reference_stress)?;
@@ -189,7 +189,7 @@ impl WearLaw {
         Ok(law)
     }
 
-    fn of(form: Form, coefficient: f64) -> Result<Self, Invalid> {
+    fn of(form: LawForm, coefficient: f64) -> Result<Self, Invalid> {
         let coefficient = non_negative("coefficient", coefficient)?;
         Ok(Self { coefficient, form })
     }
@@ -202,8 +202,8 @@ impl WearLaw {
     /// Returns the keys of its form.
     pub fn parameters(&self) -> LawParameters {
         match self.form {
-            Form::Archard => LawParameters::default(),
-            Form::Power(powers) => LawParameters {
+            LawForm::Archard => LawParameters::default(),
+            LawForm::Power(powers) => LawParameters {
                 stress_exponent: Some(powers.stress_exponent),
                 slip_rate_exponent: Some(powers.slip_rate_exponent),
                 reference_stress: Some(powers.reference_stress),
@@ -213,7 +213,7 @@ impl WearLaw {
     }
 
     /// Returns its form.
-    pub fn form(&self) -> Form {
+    pub fn form(&self) -> LawForm {
         self.form
     }
 
@@ -234,7 +234,7 @@ impl WearLaw {
     /// Returns what may be assumed of it.
     pub const fn traits(&self) -> LawTraits {
         match self.form {
-            Form::Archard => LawTraits {
+            LawForm::Archard => LawTraits {
                 needs_pressure: false,
                 explained_by_work: true,
                 linear_in_work: true,
@@ -244,7 +244,7 @@ impl WearLaw {
                 stress_exponent: 1.0,
                 slip_rate_exponent: 1.0,
             },
-            Form::Power(powers) => LawTraits {
+            LawForm::Power(powers) => LawTraits {
                 needs_pressure: false,
                 explained_by_work: false,
                 linear_in_work: false,
@@ -266,12 +266,12 @@ impl WearLaw {
         let points = wear.iter_mut().zip(surface.tau.iter().zip(surface.slip));
         let k = self.coefficient;
         match self.form {
-            Form::Archard => {
+            LawForm::Archard => {
                 for (worn, (tau, slip)) in points {
                     *worn = k * positive_part(tau * slip);
                 }
             }
-            Form::Power(by) => {
+            LawForm::Power(by) => {
                 let duration = surface.seconds;
                 let scale = k * by.reference_stress * by.reference_slip_rate * duration;
                 let per_rate = (by.reference_slip_rate * duration).recip();
@@ -297,8 +297,8 @@ impl WearLaw {
         let points = surface.tau.iter().zip(surface.slip.iter().zip(worn));
         let (k, m) = (self.coefficient, self.traits().stress_exponent);
         let by_slip = match self.form {
-            Form::Archard => true,
-            Form::Power(_) => false,
+            LawForm::Archard => true,
+            LawForm::Power(_) => false,
         };
         for (answer, (&tau, (&slip, &worn))) in answers.iter_mut().zip(points) {
             let slope = select(by_slip, k * slip.abs(), m * worn / tau.abs());

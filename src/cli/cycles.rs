@@ -14,7 +14,7 @@ use crate::scenario::scalars::Value;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::fit::model_cycles;
 use crate::studies::measured::Measured;
-use crate::studies::measured::record::{self, COLUMNS, Record, Row};
+use crate::studies::measured::record::{self, COLUMNS, FigureRow, Record};
 use crate::studies::table::Rows;
 use crate::traces::{Axes, Loop};
 
@@ -28,30 +28,30 @@ const MODEL: Role = Role::Ghost(0);
 #[derive(Default, Serialize)]
 pub(super) struct Cycles {
     /// The measured ones.
-    cycles: Vec<Figures>,
+    cycles: Vec<CycleRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    beside: Option<Beside>,
+    beside: Option<ModelCycles>,
 }
 
 #[derive(Serialize)]
-struct Beside {
+struct ModelCycles {
     /// The model's cycles, one for each cycle of the record that is printed.
-    model: Vec<Figures>,
+    model: Vec<CycleRow>,
     /// The sums over these measured cycles in units of the model's.
-    ratio: Figures,
+    ratio: CycleRow,
 }
 
 /// The figures of a cycle.
-struct Figures {
+struct CycleRow {
     /// Its number in the record, or its end in the model; `None` for a ratio.
     cycle: Option<f64>,
-    row: Row,
+    row: FigureRow,
     /// The loop about its zeros, m and N: the zeros of instruments are arbitrary.
     u: Vec<f64>,
     force: Vec<f64>,
 }
 
-impl Serialize for Figures {
+impl Serialize for CycleRow {
     /// Writes an object with the names of a history's columns, where these are the same.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let cycle = self.cycle.map(|cycle| (Column::Cycle, cycle));
@@ -60,7 +60,7 @@ impl Serialize for Figures {
     }
 }
 
-impl Figures {
+impl CycleRow {
     fn new(cycle: f64, u: &[f64], force: &[f64], of: &record::Figures, load: Option<f64>) -> Self {
         let less = |values: &[f64], zero: f64| values.iter().map(|value| value - zero).collect();
         Self {
@@ -131,37 +131,43 @@ impl Cycles {
                 let (u, force) = (&one.displacements, &one.forces);
                 let record = Record::new(u, force).map_err(anyhow::Error::msg)?;
                 let cycle = record.cycles.first().context("the model has no cycle")?;
-                model.push(Figures::new(*end, u, force, &cycle.figures, Some(one.load)));
+                model.push(CycleRow::new(
+                    *end,
+                    u,
+                    force,
+                    &cycle.figures,
+                    Some(one.load),
+                ));
             }
             load = load.or(ours.last().map(|one| one.load));
         }
         let cycles = measured.cycles.iter().map(|one| {
             let [u, force] = [&measured.at, &measured.values].map(|all| &all[one.points.clone()]);
-            Figures::new(one.number as f64, u, force, &one.figures, load)
+            CycleRow::new(one.number as f64, u, force, &one.figures, load)
         });
-        let cycles: Vec<Figures> = cycles.collect();
-        let sum = |all: &mut dyn Iterator<Item = &Figures>, column: Column| {
+        let cycles: Vec<CycleRow> = cycles.collect();
+        let sum = |all: &mut dyn Iterator<Item = &CycleRow>, column: Column| {
             all.map(|one| one.value(column)).sum::<f64>()
         };
         let ratio = COLUMNS.map(|column| match column {
             column if is_zero(column) => f64::NAN,
             _ => sum(&mut shown(&cycles).into_iter(), column) / sum(&mut model.iter(), column),
         });
-        let ratio = Figures {
+        let ratio = CycleRow {
             cycle: None,
             row: ratio,
             u: Vec::new(),
             force: Vec::new(),
         };
-        let beside = beside.is_some().then_some(Beside { model, ratio });
+        let beside = beside.is_some().then_some(ModelCycles { model, ratio });
         Ok(Self { cycles, beside })
     }
 
-    fn of_model(&self) -> &[Figures] {
+    fn of_model(&self) -> &[CycleRow] {
         self.beside.as_ref().map_or(&[], |beside| &beside.model)
     }
 
-    fn values(figures: &[Figures], column: Column) -> Vec<f64> {
+    fn values(figures: &[CycleRow], column: Column) -> Vec<f64> {
         figures.iter().map(|one| one.value(column)).collect()
     }
 
@@ -214,7 +220,7 @@ impl Cycles {
                 .into_iter()
                 .for_each(|model| rows.push(model.cells("model")));
         }
-        let Some(Beside { model, ratio }) = &self.beside else {
+        let Some(ModelCycles { model, ratio }) = &self.beside else {
             return report.table(&rows, 4);
         };
         rows.push(ratio.cells("ratio"));
@@ -244,12 +250,12 @@ impl Cycles {
         }
         if measured.len() > 1 {
             let at: Vec<f64> = measured.iter().filter_map(|one| one.cycle).collect();
-            let energy = |of: &[&Figures]| {
+            let energy = |of: &[&CycleRow]| {
                 of.iter()
                     .map(|one| one.value(Column::EnergyPerCycle))
                     .collect::<Vec<f64>>()
             };
-            let ours: Vec<&Figures> = model.iter().collect();
+            let ours: Vec<&CycleRow> = model.iter().collect();
             let curves = [(&measured, Role::Profile), (&ours, MODEL)];
             let curves = curves.map(|(of, role)| Curve::new("", &at[..of.len()], energy(of), role));
             charts.push(chart(Axis::new("cycle", ""), Axis::new("E_d", "J")).curves(curves));

@@ -17,7 +17,7 @@ use crate::plot::theme::Role;
 use crate::plot::units::reading;
 use crate::plot::{Axis, Chart, Curve};
 use crate::scenario::columns::Columns;
-use crate::studies::fit::{Fit, Fitted, FittedKey, Options, SetResult, Structure};
+use crate::studies::fit::{Fit, FitOptions, Fitted, FittedKey, SetResult, Structure};
 use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
@@ -53,8 +53,8 @@ fn run(fit: &Fit, quiet: bool) -> Result<(Fitted, u64)> {
 }
 
 /// Translates the command-line options into options of the fit.
-fn fit_options(options: &args::Fit) -> Options {
-    Options {
+fn fit_options(options: &args::Fit) -> FitOptions {
+    FitOptions {
         cycles: options.cycles,
         robust: options.robust,
         nuisances: [options.level, options.shift, options.tilt],

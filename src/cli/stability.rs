@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, bail};
 
-use super::args::{Guard, Stability};
+use super::args::{Guard, StabilityOptions};
 use super::report::{self, Report};
 use super::{given, progress, stop, succeeded};
 use crate::math::abel::AbelMethod;
@@ -15,7 +15,7 @@ use crate::studies::stability::report::{boundaries, maps, runs};
 use crate::studies::stability::{Limit, StabilityStudy, Variant};
 
 /// Runs the study and prints and writes its results.
-pub fn stability(options: &Stability) -> Result<ExitCode> {
+pub fn stability(options: &StabilityOptions) -> Result<ExitCode> {
     let target = options.output.claim()?;
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
     let name = printable(scenario.origin());
@@ -51,7 +51,7 @@ pub fn stability(options: &Stability) -> Result<ExitCode> {
 /// Computes the lines of the study, until `go_on` says to stop.
 fn lines(
     study: &StabilityStudy,
-    options: &Stability,
+    options: &StabilityOptions,
     settings: &[Variant],
     go_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Limit>> {
@@ -68,7 +68,7 @@ fn lines(
 }
 
 /// Returns all settings: by method, then guard, then grid.
-fn settings(options: &Stability, geometry: Geometry) -> Vec<Variant> {
+fn settings(options: &StabilityOptions, geometry: Geometry) -> Vec<Variant> {
     let guards: &[bool] = match options.guard {
         Guard::Off => &[false],
         Guard::On => &[true],

@@ -9,7 +9,7 @@ use crate::math::abel::AbelMethod;
 use crate::plot::theme::Role;
 use crate::plot::{Axis, Chart, Curve, Scale};
 use crate::scenario::Refusal;
-use crate::studies::verify::errors::Errors;
+use crate::studies::verify::errors::NodalErrors;
 use crate::studies::verify::report::{all_nodes, all_rows, problem_table};
 use crate::studies::verify::{Problem, STICK_RADIUS, Solved, Task, tasks};
 
@@ -84,7 +84,7 @@ fn verdict(outcomes: &[Solved]) -> String {
     let finest = by_problem(outcomes).filter_map(|(_, outcomes)| {
         let tried = outcomes.iter().filter(|o| o.task.method == best);
         let outcome = tried.max_by_key(|o| o.task.points)?;
-        let errors = outcome.errors.as_ref().ok()?.iter().map(Errors::rms);
+        let errors = outcome.errors.as_ref().ok()?.iter().map(NodalErrors::rms);
         Some((errors.fold(0.0, f64::max), outcome.task))
     });
     match finest.max_by(|a, b| a.0.total_cmp(&b.0)) {

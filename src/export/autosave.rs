@@ -35,10 +35,10 @@ pub trait Work: Clone {
 }
 
 /// Distinguishes the states of a session: steps, cycle, and number of changes.
-pub type Mark = (u64, f64, usize);
+pub type StateMark = (u64, f64, usize);
 
 /// Returns the mark of the present state of `session`.
-pub fn mark(session: &Session) -> Mark {
+pub fn mark(session: &Session) -> StateMark {
     let simulation = session.simulation();
     let changes = session.changes().len();
     (simulation.steps(), simulation.cycle(), changes)
@@ -56,7 +56,7 @@ pub struct Autosave<T> {
     every: Duration,
     last: Instant,
     /// The state last saved, or with which an explorer began.
-    saved: Option<Mark>,
+    saved: Option<StateMark>,
     /// The session a moment ago, which survives a bug, and when that was.
     copy: (T, Instant),
     /// The newest checkpoint, and its cycle.

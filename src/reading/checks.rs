@@ -21,7 +21,7 @@ const OVER_RUN: f64 = 4.0;
 
 /// Subject of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Subject {
+pub enum CheckSubject {
     /// V against k E_d since the start.
     Energy,
     /// The interpolation error of the worn depth on its cells.
@@ -34,7 +34,7 @@ pub enum Subject {
     Tension,
 }
 
-impl Subject {
+impl CheckSubject {
     /// Returns the name in words.
     pub fn name(self) -> &'static str {
         match self {
@@ -71,7 +71,7 @@ impl Subject {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Check {
     /// What is compared.
-    pub subject: Subject,
+    pub subject: CheckSubject,
     /// Relative difference, signed.
     pub error: f64,
 }
@@ -94,7 +94,7 @@ impl Check {
             _ => "more than 1000 %".to_owned(),
         };
         match self.subject {
-            Subject::Tension => format!("p below zero by {percent}"),
+            CheckSubject::Tension => format!("p below zero by {percent}"),
             _ => format!("{name} off by {percent}"),
         }
     }
@@ -121,10 +121,10 @@ impl Simulation {
         let mut add = |subject, error: Option<f64>| {
             checks.extend(error.map(|error| Check { subject, error }));
         };
-        add(Subject::Energy, moment.energy_residual);
+        add(CheckSubject::Energy, moment.energy_residual);
         // A limit of the method; a run within it has nothing to report.
         add(
-            Subject::Tension,
+            CheckSubject::Tension,
             self.tension().filter(|tension| *tension < -FAILS),
         );
         let period = f64::from(self.setup().drive.cycles_to_settle());
@@ -132,7 +132,7 @@ impl Simulation {
         if moment.cycle >= period {
             let left_out = worn::interpolation_error(&self.setup().grid, self.worn_depth());
             add(
-                Subject::Interpolation,
+                CheckSubject::Interpolation,
                 left_out.map(|error| OVER_RUN * error),
             );
         }
@@ -140,8 +140,8 @@ impl Simulation {
             let [force, energy] = self
                 .closed_forms(log)
                 .map_or([None; 2], |both| both.map(Some));
-            add(Subject::TangentialForce, force);
-            add(Subject::Dissipation, energy);
+            add(CheckSubject::TangentialForce, force);
+            add(CheckSubject::Dissipation, energy);
         }
         checks
     }
@@ -178,11 +178,11 @@ mod tests {
     #[test]
     fn every_certificate_is_explained_in_two_sentences() {
         for subject in [
-            Subject::Energy,
-            Subject::Interpolation,
-            Subject::TangentialForce,
-            Subject::Dissipation,
-            Subject::Tension,
+            CheckSubject::Energy,
+            CheckSubject::Interpolation,
+            CheckSubject::TangentialForce,
+            CheckSubject::Dissipation,
+            CheckSubject::Tension,
         ] {
             let text = subject.explanation();
             assert_eq!(text.matches(". ").count() + 1, 2, "{subject:?}: {text}");
@@ -195,21 +195,21 @@ mod tests {
         let check = |subject, error| Check { subject, error };
         assert_eq!(verdict(&[]), None);
         let good = [
-            check(Subject::Energy, 1e-3),
-            check(Subject::Dissipation, -9e-3),
+            check(CheckSubject::Energy, 1e-3),
+            check(CheckSubject::Dissipation, -9e-3),
         ];
         assert_eq!(verdict(&good).as_deref(), Some("checks ok"));
         let bad = [
-            check(Subject::Energy, 0.02),
-            check(Subject::TangentialForce, -0.07),
+            check(CheckSubject::Energy, 0.02),
+            check(CheckSubject::TangentialForce, -0.07),
         ];
         assert_eq!(
             verdict(&bad).as_deref(),
             Some("tangential force off by 7.0 %")
         );
         let broken = [
-            check(Subject::Dissipation, 9.0),
-            check(Subject::Energy, f64::NAN),
+            check(CheckSubject::Dissipation, 9.0),
+            check(CheckSubject::Energy, f64::NAN),
         ];
         assert_eq!(verdict(&broken).as_deref(), Some("energy is not finite"));
     }

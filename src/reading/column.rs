@@ -203,7 +203,7 @@ macro_rules! make_columns {
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Column { $($(#[doc = $meaning] #[serde(rename = $name)] $column,)*)* }
 
-        const TABLE: &[Row] = &[$($(Row {
+        const TABLE: &[ColumnRow] = &[$($(ColumnRow {
             name: $name,
             symbol: $symbol,
             meaning: $meaning,
@@ -221,7 +221,7 @@ macro_rules! make_columns {
 columns!(make_columns);
 
 /// What is known of a column.
-struct Row {
+struct ColumnRow {
     name: &'static str,
     symbol: &'static str,
     meaning: &'static str,
@@ -230,7 +230,7 @@ struct Row {
 }
 
 impl Column {
-    const fn row(self) -> &'static Row {
+    const fn row(self) -> &'static ColumnRow {
         &TABLE[self as usize]
     }
 

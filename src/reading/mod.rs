@@ -14,7 +14,7 @@ mod scar_end;
 pub mod subsurface;
 mod table;
 
-pub use checks::{Check, Subject, verdict};
+pub use checks::{Check, CheckSubject, verdict};
 pub use column::Column;
 pub use cycle_figures::{CycleFigures, Regime};
 pub use errors::Errors;

@@ -3,7 +3,7 @@
 use super::change::{Change, MOST_CHANGES, Planned};
 use super::escape::echo;
 use super::key::{Key, join};
-use super::spec::Control;
+use super::spec::ControlWord;
 use super::value::Value;
 use super::{Refusal, Scenario, printable, units};
 
@@ -31,7 +31,7 @@ impl Scenario {
             let given = planned.iter().rev().find(|of| of.key.path == control);
             given.map_or_else(
                 || self.prescribes_force(key.path),
-                |of| of.raw.as_str() == Some(Control::Force.into()),
+                |of| of.raw.as_str() == Some(ControlWord::Force.into()),
             )
         };
         let read = planned.iter().map(|of| of.change(is_force(of.key)));
@@ -107,7 +107,7 @@ impl Scenario {
                 let path = join(section, key);
                 let is_stale = !is_same && last(&path).is_none();
                 if is_stale && value.is_some_and(|value| value != 0.0) {
-                    let is_force = *control == Value::Word(Control::Force.into());
+                    let is_force = *control == Value::Word(ControlWord::Force.into());
                     let unit = units::unit_of(&Key::known(&path), is_force);
                     let rule = format!("needs {path} in {unit}, changed at the same cycle");
                     return Err(Refusal::new(&places[at], rule));

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use super::bounded_read::{self, Unread};
 use super::change::Change;
 use super::changes::at_one_cycle;
-use super::session::{Session, State, Unchanged};
+use super::session::{Session, SessionState, Unchanged};
 use super::{Refusal, Scenario, echo, printable};
 use crate::math::grid::RadialGrid;
 use crate::reading::{Errors, Log};
@@ -279,14 +279,14 @@ fn restore<E>(body: Contents<E>) -> Result<Checkpoint<E>, String> {
 }
 
 /// Restores a saved simulation of `scenario`. A domain that has grown may be wider than the scenario's.
-fn state(scenario: Scenario, saved: Saved, log: Log) -> Result<State, String> {
+fn state(scenario: Scenario, saved: Saved, log: Log) -> Result<SessionState, String> {
     let mut setup = scenario.setup().clone();
     if setup.indenter.rim().is_none() && saved.radius() > setup.grid.radius() {
         let wider = RadialGrid::uniform(setup.grid.cells(), saved.radius());
         setup.grid = wider.unwrap_or(setup.grid);
     }
     let simulation = Simulation::restore(setup, saved).map_err(|why| why.to_string())?;
-    Ok(State {
+    Ok(SessionState {
         scenario,
         simulation,
         log,

@@ -14,7 +14,7 @@ use super::escape::echo;
 use super::fault::Faults;
 use super::hint::{meant, unknown_key};
 use super::key::{Embedded, Key, SCHEMA, is_section, join};
-use super::spec::{Control, Passage, Spec};
+use super::spec::{ControlWord, Passage, Spec};
 use super::value::{Value, show};
 
 /// A scenario being put together.
@@ -127,7 +127,7 @@ impl Draft {
     pub fn is_force(&self, key: Key) -> bool {
         let control = join(key.section(), "control");
         let is_motion = Key::find(&control).is_some();
-        is_motion && self.word(&control) == Some(Control::Force.into())
+        is_motion && self.word(&control) == Some(ControlWord::Force.into())
     }
 
     /// Drops the keys of the shape before, which would be refused or misread. Keys of both shapes stay if they are

@@ -305,7 +305,7 @@ impl Scenario {
     /// Whether the key at a dotted path is one of a motion that prescribes a force.
     pub fn prescribes_force(&self, path: &str) -> bool {
         let control = Key::find(&join(split(path).0, "control"));
-        let force = Value::Word(spec::Control::Force.into());
+        let force = Value::Word(spec::ControlWord::Force.into());
         control.and_then(|key| self.spec.get(key)) == Some(force)
     }
 

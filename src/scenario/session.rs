@@ -42,7 +42,7 @@ pub enum SessionError {
 pub struct Session {
     /// As loaded, without the changes.
     pub(super) loaded: Scenario,
-    pub(super) now: State,
+    pub(super) now: SessionState,
     pub(super) changes: Vec<Change>,
     pub(super) pending: Vec<Change>,
     /// Cycles at which steps were cut short so far.
@@ -56,7 +56,7 @@ pub struct Session {
 
 /// A moment of a run.
 #[derive(Debug, Clone)]
-pub(super) struct State {
+pub(super) struct SessionState {
     /// With the changes so far.
     pub(super) scenario: Scenario,
     pub(super) simulation: Simulation,
@@ -67,7 +67,7 @@ pub(super) struct State {
 /// A run before the changes of a cycle.
 #[derive(Debug, Clone)]
 pub(super) struct Unchanged {
-    pub(super) state: State,
+    pub(super) state: SessionState,
     /// The number of changes so far.
     pub(super) changes: usize,
 }
@@ -85,7 +85,7 @@ impl Session {
         }
         let simulation = Simulation::new(scenario.setup().clone())?;
         let mut session = Self {
-            now: State {
+            now: SessionState {
                 scenario: scenario.clone(),
                 log: Log::new(&simulation),
                 simulation,
@@ -301,7 +301,7 @@ impl Session {
         };
         simulation.reconfigure(scenario.setup().clone(), domain)?;
         log.restart(&simulation);
-        let changed = State {
+        let changed = SessionState {
             scenario,
             simulation,
             log,

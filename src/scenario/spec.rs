@@ -62,7 +62,7 @@ section! {
         /// The unworn shape; it tells which of the lengths are needed.
         shape: Option<Shape>,
         /// Whether it is turned about its axis.
-        geometry: Option<Geometry>,
+        geometry: Option<GeometryWord>,
         /// Length of a line contact, m.
         length: Option<f64>,
     } parts {
@@ -74,7 +74,7 @@ section! {
 /// What the section of the indenter stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "lowercase")]
-pub enum Geometry {
+pub enum GeometryWord {
     /// A shape of revolution.
     Round,
     /// A long cylinder.
@@ -169,7 +169,7 @@ section! {
     /// One direction of the motion: lengths are in m, or in N under a force.
     Direction {
         /// What is prescribed.
-        control: Option<Control>,
+        control: Option<ControlWord>,
         /// Mean.
         mean: Option<f64>,
         /// Amplitude.
@@ -195,7 +195,7 @@ section! {
 /// What a motion prescribes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, EnumString, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "lowercase")]
-pub enum Control {
+pub enum ControlWord {
     /// Lengths.
     Displacement,
     /// Forces.
@@ -293,7 +293,16 @@ fields! { waveform::WaveParameters { hold, times, values } }
 fields! { LawParameters { stress_exponent, slip_rate_exponent, reference_stress, reference_slip_rate } }
 
 words!(
-    Shape, Geometry, Control, Wave, Law, Passage, AbelMethod, Spacing, Scheme, Stability
+    Shape,
+    GeometryWord,
+    ControlWord,
+    Wave,
+    Law,
+    Passage,
+    AbelMethod,
+    Spacing,
+    Scheme,
+    Stability
 );
 
 impl Spec {

@@ -114,7 +114,7 @@ impl Simulation {
                 ((now - 1.0 - settling).max(0.0), now - 1.0)
             }
         };
-        let mut passage = Passage::begin(self, start)?;
+        let mut passage = PeriodPass::begin(self, start)?;
         let is_held = setup.drive.normal().oscillation().amplitude() == 0.0;
         let to_settle = if is_held { FEWEST_TO_SETTLE } else { FEWEST };
         let first = passage.go(begin, to_settle, None).ok()?;
@@ -131,7 +131,7 @@ impl Simulation {
 }
 
 /// A passage through the motion, step by step.
-struct Passage<'a> {
+struct PeriodPass<'a> {
     simulation: &'a Simulation,
     profile: Profile,
     touch: Touch,
@@ -142,7 +142,7 @@ struct Passage<'a> {
     slip: Vec<f64>,
 }
 
-impl<'a> Passage<'a> {
+impl<'a> PeriodPass<'a> {
     /// Begins at `cycle` with the springs of a simulation.
     fn begin(simulation: &'a Simulation, cycle: f64) -> Option<Self> {
         let (setup, state) = (simulation.setup(), simulation.state());

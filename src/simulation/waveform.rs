@@ -67,7 +67,7 @@ pub struct Polyline {
 
 /// The scale of a motion that is given as a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
+pub struct TableScale {
     /// Mean of the lowest and the highest value.
     pub mean: f64,
     /// Half of their difference.
@@ -81,7 +81,7 @@ impl Waveform {
     ///
     /// # Errors
     /// If one of its keys is not given or not allowed.
-    pub fn new(wave: Wave, given: &WaveParameters) -> Result<(Self, Option<Scale>), Unmade> {
+    pub fn new(wave: Wave, given: &WaveParameters) -> Result<(Self, Option<TableScale>), Unmade> {
         let waveform = match wave {
             Wave::Sine => Self::Sine,
             Wave::Triangle => Self::triangle(),
@@ -120,7 +120,7 @@ impl Waveform {
     ///
     /// # Errors
     /// If the rows are not a closed motion; the field is `times` or `values`.
-    pub fn table(times: &[f64], values: &[f64]) -> Result<(Self, Scale), Invalid> {
+    pub fn table(times: &[f64], values: &[f64]) -> Result<(Self, TableScale), Invalid> {
         let number = times.len();
         check_table(("times", times), ("values", values), 3..=MOST_CORNERS)?;
         let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -152,7 +152,7 @@ impl Waveform {
             );
             return Err(Invalid::new("times", format!("{period:e} s"), rule));
         }
-        let scale = Scale {
+        let scale = TableScale {
             mean,
             amplitude,
             angular_frequency: TAU / period,

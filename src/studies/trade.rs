@@ -10,7 +10,7 @@ use std::fmt::{self, Display, Formatter};
 use std::time::Instant;
 
 use crate::math::abel::AbelMethod;
-use crate::reading::{Moment, Quantity, Subject};
+use crate::reading::{CheckSubject, Moment, Quantity};
 use crate::scenario::key::Key;
 use crate::scenario::scalars::Value;
 use crate::scenario::session::{Session, SessionError};
@@ -268,7 +268,7 @@ fn complaints(session: &Session, reference: &Session) -> Vec<String> {
         let checks = session.checks().into_iter();
         checks.filter(|check| !check.holds())
     };
-    let common: Vec<Subject> = failing(reference).map(|check| check.subject).collect();
+    let common: Vec<CheckSubject> = failing(reference).map(|check| check.subject).collect();
     let own = failing(session).filter(|check| !common.contains(&check.subject));
     own.map(|check| check.complaint()).collect()
 }

@@ -19,7 +19,7 @@ use super::worker::{Order, changes, ends_cycle, files};
 use Act::{Argument, Open, Screen, Words, Worker as Work};
 
 /// A command, its keys and its help.
-pub struct Row {
+pub struct CommandRow {
     /// The command.
     pub command: Command,
     /// Its keys; the first is shown in the footer.
@@ -58,7 +58,7 @@ macro_rules! commands {
         pub enum Command { $($(#[doc = $help] $id,)*)* }
 
         /// Every command, in the order of the help.
-        pub static COMMANDS: &[Row] = &[$($(Row {
+        pub static COMMANDS: &[CommandRow] = &[$($(CommandRow {
             command: Command::$id,
             keys: &[$($key),*],
             name: $name,
@@ -175,12 +175,12 @@ commands! {
 
 impl Command {
     /// Returns its row.
-    pub fn row(self) -> &'static Row {
+    pub fn row(self) -> &'static CommandRow {
         &COMMANDS[self as usize]
     }
 }
 
-impl Row {
+impl CommandRow {
     /// Returns the names of its keys; a row of digits is abbreviated.
     pub fn key_names(&self) -> Vec<String> {
         match self.keys {

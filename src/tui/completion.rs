@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::explorer::Explorer;
 use super::frame::Frame;
-use super::map::range::{POINTS, Range};
+use super::map::range::{POINTS, SweepRange};
 use super::panels::Panel;
 use super::settings::Setting;
 use super::worker::files::{self, Copied};
@@ -90,7 +90,7 @@ pub fn sweep(typed: &str, frame: &Frame) -> Vec<Completion> {
     let settings = frame.settings();
     let numbers = settings.iter().filter(is_number);
     let units = numbers.clone().map(|of| (of.key.path, of.unit));
-    if let Some(range) = Range::parse(typed, &units.collect::<Vec<_>>()) {
+    if let Some(range) = SweepRange::parse(typed, &units.collect::<Vec<_>>()) {
         let help = format!("runs {POINTS} values on all cores and shows the curve");
         let sweep = Completion::new(format!("sweep {typed}"), help)
             .doing(move |explorer| explorer.order(files::sweep(range)));

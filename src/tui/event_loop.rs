@@ -18,7 +18,7 @@ use super::event::Event;
 use super::explorer::Next;
 use super::input::{self, Waiting};
 use super::reader::Input;
-use super::terminal::{self, Screen};
+use super::terminal::{self, TerminalScreen};
 use super::{screen, suspend};
 use crate::panics::catch;
 
@@ -60,7 +60,7 @@ pub fn run(
         return Ok(true);
     }
     let asks = app.explorer.theme.follows_background;
-    let screen = Screen::open(mouse, asks, events.clone());
+    let screen = TerminalScreen::open(mouse, asks, events.clone());
     let mut screen = screen.context("cannot take over the terminal")?;
     let (keys, to_loop) = (Arc::clone(&waiting), events.clone());
     let listener = thread::spawn(move || input::listen(&to_loop, &keys, mouse));
@@ -80,7 +80,7 @@ pub fn run(
 
 fn handle_events(
     app: &mut App,
-    screen: &mut Screen,
+    screen: &mut TerminalScreen,
     inbox: &Receiver<Event>,
     waiting: &Waiting,
 ) -> Result<()> {
@@ -174,7 +174,7 @@ fn handle_events(
 }
 
 /// Waits for outstanding answers of the terminal, so that they do not reach the shell. Returns the other events.
-fn drain_replies(screen: &mut Screen, inbox: &Receiver<Event>) -> Vec<Event> {
+fn drain_replies(screen: &mut TerminalScreen, inbox: &Receiver<Event>) -> Vec<Event> {
     let mut held = Vec::new();
     let start = screen.now();
     while let Some(most) = screen.flow.last_answers(start) {

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::beside::Beside;
+use super::following::FollowingRun;
 use super::recorded::Recorded;
 use crate::math::abel::AbelMethod;
 use crate::math::grid::MIN_CELLS;
@@ -25,7 +25,7 @@ pub struct Source {
     /// Its name, and its curves if they do not change.
     ghost: Arc<Ghost>,
     /// A run that computes its curves at the same cycle, if it is one.
-    pub(super) beside: Option<Box<Beside>>,
+    pub(super) beside: Option<Box<FollowingRun>>,
 }
 
 impl Source {
@@ -46,7 +46,7 @@ impl Source {
             let start = Session::start(refinement::resolve_soon(&scenario)?.scenario)?;
             return Ok(Self {
                 ghost: Arc::new(Ghost::new(&scenario.stem())),
-                beside: Some(Box::new(Beside::new(start, true))),
+                beside: Some(Box::new(FollowingRun::new(start, true))),
             });
         }
         let ghost = Ghost::read(path, naming)?;
@@ -96,7 +96,7 @@ impl Source {
         );
         Ok(Self {
             ghost: Arc::new(Ghost::new(&name)),
-            beside: Some(Box::new(Beside::new(session, false))),
+            beside: Some(Box::new(FollowingRun::new(session, false))),
         })
     }
 
@@ -104,7 +104,7 @@ impl Source {
     pub(super) fn unchanged(session: Session) -> Self {
         Self {
             ghost: Arc::new(Ghost::new("before")),
-            beside: Some(Box::new(Beside::new(session, true))),
+            beside: Some(Box::new(FollowingRun::new(session, true))),
         }
     }
 

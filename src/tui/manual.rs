@@ -1,9 +1,9 @@
 //! The command table as text: groups for the help, and the manual page.
 
-use super::command::{COMMANDS, Row};
+use super::command::{COMMANDS, CommandRow};
 
 /// Returns every group of commands that have keys.
-pub fn groups() -> impl Iterator<Item = (&'static str, &'static [Row])> {
+pub fn groups() -> impl Iterator<Item = (&'static str, &'static [CommandRow])> {
     let groups = COMMANDS.chunk_by(|a, b| a.group == b.group);
     groups
         .filter(|rows| rows.iter().all(|row| !row.keys.is_empty()))
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn every_key_stands_in_the_manual_page() {
         let roff = roff();
-        for key in COMMANDS.iter().flat_map(Row::key_names) {
+        for key in COMMANDS.iter().flat_map(CommandRow::key_names) {
             let key = key.replace('-', "\\-");
             assert!(roff.contains(&format!("\\fB{key}\\fR")), "{key}");
         }

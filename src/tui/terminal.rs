@@ -30,7 +30,7 @@ const MOUSE: [&str; 2] = ["\x1b[?1000h\x1b[?1006h", "\x1b[?1006l\x1b[?1000l"];
 const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 
 /// The terminal in raw mode on its alternate screen, until dropped.
-pub struct Screen {
+pub struct TerminalScreen {
     /// The way to the terminal. What is sent must draw nothing.
     pub output: TerminalOutput,
     writer: AnsiWriter,
@@ -70,7 +70,7 @@ pub fn size() -> io::Result<Size> {
     reserved.map_or(Err(io::Error::other(refusal)), |()| Ok(size))
 }
 
-impl Screen {
+impl TerminalScreen {
     /// Takes the terminal over, and the mouse as well if it was asked for. `events` is notified when the
     /// terminal has taken what was drawn, and when it is gone; with `asks`, also what the background is.
     pub fn open(mouse: bool, asks: bool, events: Sender<Event>) -> io::Result<Self> {
@@ -142,7 +142,7 @@ impl Screen {
     }
 }
 
-impl Drop for Screen {
+impl Drop for TerminalScreen {
     fn drop(&mut self) {
         self.release();
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::closed_forms::dual_oscillation::Frequencies;
 use mdr_tui::math::grid::interpolate;
-use mdr_tui::reading::{Check, Subject, verdict};
+use mdr_tui::reading::{Check, CheckSubject, verdict};
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::session::Session;
 
@@ -17,7 +17,7 @@ fn run(name: &str, sets: &[&str], cycles: f64) -> Session {
     ran(load(name, sets), cycles)
 }
 
-fn check(session: &Session, subject: Subject) -> f64 {
+fn check(session: &Session, subject: CheckSubject) -> f64 {
     let checks = session.checks();
     let found = checks.iter().find(|check| check.subject == subject);
     found.expect("a check").error
@@ -202,7 +202,7 @@ fn small_tangential_forces_turn_the_right_energy_into_heat() {
             &force,
         ];
         let session = run("mindlin", &sets, 3.0);
-        for subject in [Subject::TangentialForce, Subject::Dissipation] {
+        for subject in [CheckSubject::TangentialForce, CheckSubject::Dissipation] {
             let error = check(&session, subject).abs();
             holds(format!("{subject:?} at {share} of μP"), error, 1e-2);
         }
@@ -280,7 +280,7 @@ fn what_is_off_is_named_with_its_size() {
     assert!(is_told, "{told}");
     // Volume and work agree here on any cells, and say nothing under a power law.
     let power = run("power-law", &[], 3.0);
-    let off = check(&power, Subject::Interpolation).abs();
+    let off = check(&power, CheckSubject::Interpolation).abs();
     holds("interpolation", off, 5e-3);
     let coarse = run("power-law", &["numerics.points=12"], 3.0);
     let told = says(&coarse);

@@ -7,7 +7,7 @@ use crate::closed_forms::cattaneo_mindlin::CattaneoMindlin;
 use crate::closed_forms::fretting_loop::Branch;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
-use mdr_tui::studies::fit::{Fit, Options};
+use mdr_tui::studies::fit::{Fit, FitOptions};
 use mdr_tui::studies::measured::Measured;
 
 use crate::random::Random;
@@ -170,7 +170,7 @@ impl Rig {
         let cycles = if keys.contains(&K) { CYCLES } else { 2.0 };
         let start = self.start(amplitude, cycles, &starts);
         let keys: Vec<String> = keys.iter().map(|&key| key.to_owned()).collect();
-        let fit = Fit::new(start, data, &keys, Options::default()).expect("a fit");
+        let fit = Fit::new(start, data, &keys, FitOptions::default()).expect("a fit");
         let fitted = fit.run(&|| ()).expect("a minimum");
         let loud = |set: &mdr_tui::studies::fit::SetResult| {
             set.structure.chi_squared > 2.0 || set.structure.probability < 1e-3

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use mdr_tui::reading::Curves;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::columns::Columns;
-use mdr_tui::studies::fit::{Fit, Fitted, Options};
+use mdr_tui::studies::fit::{Fit, FitOptions, Fitted};
 use mdr_tui::studies::measured::Measured;
 
 use crate::common::{load, ran};
@@ -84,9 +84,9 @@ fn fitted(texts: &[String; 2], robust: bool) -> Fitted {
     ];
     let free = TRUE.map(|(key, _)| key.to_owned());
     let start = scenario(3e-9, 0.1);
-    let options = Options {
+    let options = FitOptions {
         robust,
-        ..Options::default()
+        ..FitOptions::default()
     };
     let fit = Fit::new(start, data, &free, options).expect("a fit");
     fit.run(&|| ()).expect("a minimum")
@@ -297,7 +297,7 @@ fn far_starts_lead_to_the_same_minimum() {
     let found = [1e-2, 1.0, 1e2].map(|factor| {
         let start = scenario(factor * expected, 0.12);
         let data = vec![Measured::scar(&columns).expect("a scar")];
-        let fit = Fit::new(start, data, &[key.to_owned()], Options::default()).expect("a fit");
+        let fit = Fit::new(start, data, &[key.to_owned()], FitOptions::default()).expect("a fit");
         fit.run(&|| ()).expect("a minimum").values[0].value
     });
     for value in found {
@@ -319,7 +319,7 @@ fn residuals_that_are_no_noise_are_said() {
     let columns = Columns::parse(&table("u_m,F_N", bent), "loop.csv").expect("columns");
     let data = vec![Measured::fretting_loop(&columns, None).expect("a loop")];
     let free = ["friction.coefficient".to_owned()];
-    let fit = Fit::new(scenario(2e-9, 0.1), data, &free, Options::default()).expect("a fit");
+    let fit = Fit::new(scenario(2e-9, 0.1), data, &free, FitOptions::default()).expect("a fit");
     let fitted = fit.run(&|| ()).expect("a minimum");
     assert!(
         fitted
@@ -339,9 +339,9 @@ fn a_loop_of_another_stroke_is_refused_or_taken() {
     let columns = Columns::parse(&wide, "loop.csv").expect("columns");
     let fit = |takes_stroke| {
         let data = vec![Measured::fretting_loop(&columns, None).expect("a loop")];
-        let options = Options {
+        let options = FitOptions {
             takes_stroke,
-            ..Options::default()
+            ..FitOptions::default()
         };
         Fit::new(
             scenario(2e-9, 0.1),
@@ -368,12 +368,13 @@ fn what_data_do_not_determine_is_said() {
         .assigned(&[("wear.stress_exponent", "1.5")])
         .expect("a key");
     let free = ["wear.coefficient", "wear.stress_exponent"].map(str::to_owned);
-    let fit = Fit::new(with_power, scar(), &free, Options::default()).expect("a fit");
+    let fit = Fit::new(with_power, scar(), &free, FitOptions::default()).expect("a fit");
     let fitted = fit.run(&|| ()).expect("a minimum");
     assert_eq!(fitted.values[1].stderr, None);
     let remark = "the data do not determine wear.stress_exponent".to_owned();
     assert!(fitted.remarks.contains(&remark), "{:?}", fitted.remarks);
-    let none = Fit::new(scenario(3e-9, 0.1), scar(), &[], Options::default()).expect_err("refused");
+    let none =
+        Fit::new(scenario(3e-9, 0.1), scar(), &[], FitOptions::default()).expect_err("refused");
     has(&none.to_string(), "needs a key to fit");
 }
 

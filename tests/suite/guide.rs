@@ -14,7 +14,7 @@ use mdr_tui::math::abel::AbelMethod;
 use mdr_tui::reading::Column;
 use mdr_tui::scenario::Scenario;
 use mdr_tui::scenario::key::{Default, Key, Kind, Parameter};
-use mdr_tui::tui::command::{COMMANDS, Row};
+use mdr_tui::tui::command::{COMMANDS, CommandRow};
 use mdr_tui::tui::manual;
 
 use crate::test_dir::{Said, TestDir, has};
@@ -281,7 +281,7 @@ fn the_keys_of_the_explorer_are_those_of_its_table() {
     assert!(
         COMMANDS
             .iter()
-            .flat_map(Row::key_names)
+            .flat_map(CommandRow::key_names)
             .all(|key| keys.contains(&format!("`{key}`")))
     );
     hold(&root().join("src/guide/explorer.md"), "keys", &keys);

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_2_PI;
 
 use crate::closed_forms::partial_slip::stiffness_ratio;
 use mdr_tui::contact::indenter::Indenter;
-use mdr_tui::reading::{CycleFigures, Log, Regime, Subject};
+use mdr_tui::reading::{CheckSubject, CycleFigures, Log, Regime};
 use mdr_tui::simulation::{Setup, Simulation};
 
 use crate::common::{
@@ -115,8 +115,11 @@ fn the_checks_know_what_a_rig_takes() {
             &format!("motion.tangential.rig_stiffness={stiffness:e}"),
         ];
         let checks = ran(load("mindlin", &sets), 2.0).checks();
-        let subjects: Vec<Subject> = checks.iter().map(|check| check.subject).collect();
-        assert!(subjects.contains(&Subject::TangentialForce), "{subjects:?}");
+        let subjects: Vec<CheckSubject> = checks.iter().map(|check| check.subject).collect();
+        assert!(
+            subjects.contains(&CheckSubject::TangentialForce),
+            "{subjects:?}"
+        );
         for check in checks {
             assert!(
                 check.error.abs() < 3e-3,

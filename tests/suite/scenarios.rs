@@ -9,7 +9,7 @@ use mdr_tui::scenario::session::Session;
 use mdr_tui::scenario::{RunPlan, Scenario, preset};
 use mdr_tui::simulation::drive::Control;
 use mdr_tui::simulation::{Scheme, Setup, Simulation, Spacing};
-use mdr_tui::wear::{Form, Law};
+use mdr_tui::wear::{Law, LawForm};
 use proptest::prelude::*;
 use strum::VariantNames;
 
@@ -225,7 +225,7 @@ fn the_law_can_be_switched_there_and_back() {
         .assigned(&[("wear.law", "\"power\"")])
         .expect("a law");
     let law = power.setup().wear.expect("a law");
-    let Form::Power(powers) = law.form() else {
+    let LawForm::Power(powers) = law.form() else {
         panic!("the power law");
     };
     let exponents = (powers.stress_exponent, powers.slip_rate_exponent);

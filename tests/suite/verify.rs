@@ -2,7 +2,7 @@
 //! paper's Fig. 2 in kind.
 
 use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B, Benad};
-use mdr_tui::studies::verify::errors::Errors;
+use mdr_tui::studies::verify::errors::NodalErrors;
 use mdr_tui::studies::verify::{Problem, Solved, Task, tasks};
 use serde_json::Value;
 
@@ -13,7 +13,7 @@ fn said(arguments: &str) -> String {
     TestDir::new().done(&format!("verify {arguments}"))
 }
 
-fn errors(problem: Problem, method: AbelMethod, points: usize) -> Vec<Errors> {
+fn errors(problem: Problem, method: AbelMethod, points: usize) -> Vec<NodalErrors> {
     let task = Task {
         problem,
         method,
@@ -22,7 +22,7 @@ fn errors(problem: Problem, method: AbelMethod, points: usize) -> Vec<Errors> {
     task.run().errors.expect("errors")
 }
 
-fn hertz(method: AbelMethod) -> [Errors; 3] {
+fn hertz(method: AbelMethod) -> [NodalErrors; 3] {
     let all = errors(Problem::Hertz, method, 100);
     all.try_into().expect("g, p and w")
 }

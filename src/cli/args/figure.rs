@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use clap_complete::engine::ArgValueCompleter;
 
 use super::values::{CycleAsGiven, by_name, cycles, number_within};
-use super::{Changes, Naming};
+use super::{Changes, NamingOptions};
 use crate::charts::{Recipe, on_paper};
 use crate::cli::complete;
 use crate::figure::look::Style;
@@ -47,7 +47,7 @@ pub struct Figure {
     pub overlay: Vec<OsString>,
     /// How the columns of measured overlays are to be read.
     #[command(flatten)]
-    pub naming: Naming,
+    pub naming: NamingOptions,
     /// Changes to the scenario.
     #[command(flatten)]
     pub changes: Changes,

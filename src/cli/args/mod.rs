@@ -22,7 +22,7 @@ mod values;
 
 pub use figure::{Figure, PaperFigure};
 pub use studies::{
-    Fit, Guard, Inspect, Naming, Stability, StrokeSource, TableOptions, Trade, Verify,
+    Fit, Guard, Inspect, NamingOptions, StabilityOptions, StrokeSource, TableOptions, Trade, Verify,
 };
 pub use sweep::Sweep;
 pub use values::cycles;
@@ -67,7 +67,7 @@ pub enum Command {
     /// Measure speed against accuracy of one scenario, for many settings.
     Trade(Trade),
     /// Map the wear coefficients that each method tolerates.
-    Stability(Stability),
+    Stability(StabilityOptions),
     /// Read the guide: methods, accuracy, files, every key of a scenario.
     Guide(Guide),
     /// Run a study: one scenario with many values of some of its keys.
@@ -116,7 +116,7 @@ pub struct Explore {
     pub overlay: Vec<OsString>,
     /// How the columns of measured overlays are to be read.
     #[command(flatten)]
-    pub naming: Naming,
+    pub naming: NamingOptions,
     /// Show the contact and one chart with large words, for a projector: slowly first, then faster.
     #[arg(long)]
     pub present: bool,

@@ -10,7 +10,7 @@ use super::Changes;
 use super::values::{budget, by_name, cycles, load, number_within, points};
 use crate::math::abel::AbelMethod;
 use crate::plot::Marker;
-use crate::scenario::columns::{self, Field};
+use crate::scenario::columns::{self, NamedField};
 use crate::studies::fit::Switch;
 use crate::studies::measured::Pick;
 use crate::studies::verify::{LADDER, Problem};
@@ -98,7 +98,7 @@ pub struct Trade {
     ("csv", "Write all runs to this file"),
     ("json", "Print all runs as JSON instead of maps"),
 ]))]
-pub struct Stability {
+pub struct StabilityOptions {
     /// A preset's name, or a path to a .toml file.
     pub scenario: OsString,
     /// Changes to the scenario.
@@ -153,7 +153,7 @@ pub struct Fit {
     pub history: Vec<PathBuf>,
     /// How the columns of the files are to be read.
     #[command(flatten)]
-    pub naming: Naming,
+    pub naming: NamingOptions,
     /// Compare these cycles of a record of several, counted from 1; default: all whole ones.
     #[arg(long, value_name = "FIRST..LAST")]
     pub pick: Option<Pick>,
@@ -214,17 +214,17 @@ pub enum StrokeSource {
 
 /// How the columns of a measured table are to be read where their names do not say it.
 #[derive(Debug, Clone, Default, Args)]
-pub struct Naming {
+pub struct NamingOptions {
     /// What stands in which column, by number or name: r and wear or f of a scar, u and F of a loop, cycle and
     /// wear_volume or depth of a history.
     #[arg(long, value_name = "r=2,wear=3,...")]
-    pub fields: Vec<Field>,
+    pub fields: Vec<NamedField>,
     /// Units of these columns, or without --fields of all columns.
     #[arg(long, value_name = "um,nm,...")]
     pub units: Vec<String>,
 }
 
-impl Naming {
+impl NamingOptions {
     /// Returns the same for the reader of tables.
     pub fn of_columns(&self) -> columns::Naming {
         let (fields, units) = (self.fields.clone(), self.units.clone());
@@ -244,7 +244,7 @@ pub struct Inspect {
     pub file: PathBuf,
     /// How its columns are to be read.
     #[command(flatten)]
-    pub naming: Naming,
+    pub naming: NamingOptions,
     /// Print the figures of this scenario beside those of each cycle of a loop's record, which ends with the scenario's cycle
     /// X with FILE@X, else with its last one.
     #[arg(long, value_name = "SCENARIO")]

@@ -58,7 +58,7 @@ use std::fmt::Debug;
 use super::geometry::Geometry;
 use super::grid::RadialGrid;
 use super::skyline::Skyline;
-use fast::{Inwards, Outwards, Worn};
+use fast::{Inwards, Outwards, WornTransform};
 pub use method::{AbelMethod, MOST_DENSE_CELLS, MethodTraits, Sawtooth};
 
 pub mod a;
@@ -143,7 +143,9 @@ impl AbelPlan {
             displacement: Box::new(Outwards::new(grid, grid.cells(), &arcs)),
             stress: Box::new(Inwards::new(grid, &roots)),
             worn: match grid.border() {
-                Some(border) => Some(Box::new(Worn::new(grid, border, &roots, tolerance)?)),
+                Some(border) => Some(Box::new(WornTransform::new(
+                    grid, border, &roots, tolerance,
+                )?)),
                 None => None,
             },
         })

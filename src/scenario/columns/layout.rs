@@ -32,7 +32,7 @@ impl Separator {
     }
 
     /// Splits the lines of a text into records with line numbers, skipping comments and blank lines.
-    fn records(self, text: &str) -> Result<Vec<Row>, csv::Error> {
+    fn records(self, text: &str) -> Result<Vec<NumberedLine>, csv::Error> {
         let (mut lines, mut kept) = (Vec::new(), String::with_capacity(text.len()));
         for (line, number) in text.lines().zip(1..) {
             let trimmed = line.trim();
@@ -66,7 +66,7 @@ impl Separator {
 }
 
 /// A line's number, from 1, and its fields.
-pub(super) type Row = (u64, StringRecord);
+pub(super) type NumberedLine = (u64, StringRecord);
 
 /// Number of lines examined to choose the separator.
 const SAMPLE: usize = 2000;
@@ -109,7 +109,7 @@ pub(super) struct Layout {
     /// Whether numbers have decimal commas.
     pub has_decimal_commas: bool,
     /// The first row with a decimal comma, where other rows have decimal points.
-    pub mixed: Option<Row>,
+    pub mixed: Option<NumberedLine>,
     /// Number of fields of the line above the first row; 0 without one.
     pub fields_above: usize,
     /// Names of the columns; `None` if no line gives them.
@@ -119,9 +119,9 @@ pub(super) struct Layout {
     /// Number of columns.
     pub fields: usize,
     /// The rows from the first one with numbers.
-    pub rows: Vec<Row>,
+    pub rows: Vec<NumberedLine>,
     /// The first row with another number of fields.
-    pub uneven: Option<Row>,
+    pub uneven: Option<NumberedLine>,
 }
 
 impl Layout {
@@ -157,7 +157,7 @@ impl Layout {
         };
         let first = rows.iter().position(|(_, row)| is_data(row));
         let begin = first.unwrap_or(rows.len().min(1));
-        let above: Vec<Row> = rows.drain(..begin).collect();
+        let above: Vec<NumberedLine> = rows.drain(..begin).collect();
         let fields_above = above.last().map_or(0, |(_, row)| row.len());
         let begin = rows.first().map_or(u64::MAX, |(line, _)| *line);
         let (names, units) = names_and_units(text, &above, begin, fields);
@@ -200,7 +200,7 @@ fn is_decimal_comma(field: &str) -> bool {
 }
 
 /// Counts the numbers in rows of several fields, minus the fields that only begin like a number.
-fn score(rows: &[Row]) -> i64 {
+fn score(rows: &[NumberedLine]) -> i64 {
     let worth = |field: &str| match number(field) {
         Some(_) => 1,
         None => -i64::from(
@@ -213,7 +213,7 @@ fn score(rows: &[Row]) -> i64 {
 }
 
 /// Returns the most frequent number of fields among rows with numbers.
-fn usual_length(rows: &[Row]) -> usize {
+fn usual_length(rows: &[NumberedLine]) -> usize {
     let with_numbers = rows
         .iter()
         .filter(|(_, row)| row.len() > 1 && row.iter().any(|field| number(field).is_some()));
@@ -233,7 +233,7 @@ fn usual_length(rows: &[Row]) -> usize {
 
 /// Returns which columns contain numbers in half of the rows or more, ignoring the first half of the rows, where a
 /// preamble may be.
-fn numeric_columns(rows: &[Row], fields: usize) -> Vec<bool> {
+fn numeric_columns(rows: &[NumberedLine], fields: usize) -> Vec<bool> {
     let alike = || rows.iter().filter(|(_, row)| row.len() == fields);
     let of_length = || alike().skip(alike().count() / 2);
     let numbers = |column: usize| {
@@ -250,7 +250,7 @@ fn numeric_columns(rows: &[Row], fields: usize) -> Vec<bool> {
 /// Returns the lines above the first row that give names and units; a comment does so if no other line does.
 fn names_and_units(
     text: &str,
-    above: &[Row],
+    above: &[NumberedLine],
     begin: u64,
     fields: usize,
 ) -> (Option<Vec<String>>, Vec<String>) {

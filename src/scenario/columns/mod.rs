@@ -12,7 +12,7 @@ use super::bounded_read::{self, Unread};
 use super::error::Refusal;
 use super::escape::{echo, printable};
 use super::units;
-use layout::{Layout, Row, is_missing, number};
+use layout::{Layout, NumberedLine, is_missing, number};
 
 mod layout;
 mod names;
@@ -20,7 +20,7 @@ mod naming;
 mod text;
 
 pub use layout::Separator;
-pub use naming::{Field, Naming};
+pub use naming::{NamedField, Naming};
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
@@ -42,7 +42,7 @@ pub struct Columns {
     /// The same names in units of [`UNITS`](crate::reading::column::UNITS), and what one of the file's units is worth in those.
     own: Vec<(String, f64)>,
     /// The line of each row, counted from 1, and its fields.
-    rows: Vec<Row>,
+    rows: Vec<NumberedLine>,
     naming: Naming,
 }
 
@@ -232,7 +232,7 @@ impl Columns {
     }
 
     /// The number in a field; `None` if it is missing.
-    fn number(&self, (line, row): &Row, at: usize) -> Result<Option<f64>, Refusal> {
+    fn number(&self, (line, row): &NumberedLine, at: usize) -> Result<Option<f64>, Refusal> {
         let field = row.get(at).unwrap_or_default();
         match number(field) {
             None if !is_missing(field) => Err(self.refuse(format!(
@@ -247,7 +247,7 @@ impl Columns {
     /// number.
     pub fn all(&self) -> Vec<(String, Vec<f64>)> {
         let column = |(at, (name, size)): (usize, &(String, f64))| {
-            let value = |row: &Row| {
+            let value = |row: &NumberedLine| {
                 row.1
                     .get(at)
                     .and_then(number)
@@ -274,7 +274,7 @@ impl Columns {
     /// The fields of the column `name`, as they are in the file; empty where there is none.
     pub fn words<'a>(&'a self, name: &str) -> impl Iterator<Item = &'a str> {
         let at = self.own.iter().position(|(own, _)| own == name);
-        let word = move |(_, row): &'a Row| row.get(at?);
+        let word = move |(_, row): &'a NumberedLine| row.get(at?);
         self.rows
             .iter()
             .map(move |row| word(row).unwrap_or_default())

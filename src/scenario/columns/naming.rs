@@ -9,7 +9,7 @@ use super::{Columns, Refusal, echo, names};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Naming {
     /// Quantities and where they stand.
-    pub fields: Vec<Field>,
+    pub fields: Vec<NamedField>,
     /// The units of these fields in their order, or else of the columns of the file.
     pub units: Vec<String>,
     /// The key of the scenario that names the file, if one does.
@@ -39,14 +39,14 @@ impl Naming {
 
 /// A quantity and its column, as in `r=2`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Field {
+pub struct NamedField {
     /// The quantity, as `r`.
     quantity: String,
     /// The column's number, from 1, or its name in the file.
     column: String,
 }
 
-impl FromStr for Field {
+impl FromStr for NamedField {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
@@ -81,7 +81,7 @@ impl Columns {
                 *own = names::in_own_unit(name, unit);
             }
         }
-        for (k, Field { quantity, column }) in naming.fields.iter().enumerate() {
+        for (k, NamedField { quantity, column }) in naming.fields.iter().enumerate() {
             let by_number = column
                 .parse()
                 .ok()

@@ -28,7 +28,7 @@ fn gauge(spec: &Spec) -> Option<f64> {
 /// kernel, and a measured section whose contact would be more than one strip.
 pub(super) fn geometry(spec: &Spec, faults: &mut Faults, indenter: &Indenter) -> Option<Geometry> {
     let given = &spec.indenter;
-    if given.geometry != Some(spec::Geometry::Line) {
+    if given.geometry != Some(spec::GeometryWord::Line) {
         let rule = "needs geometry = \"line\" in [indenter]";
         return match (given.length, gauge(spec)) {
             (Some(_), _) => faults.refuse(spec, "indenter.length", rule),

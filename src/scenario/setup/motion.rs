@@ -6,7 +6,7 @@ use super::{Faults, NORMAL, Spec, TANGENTIAL};
 use crate::scenario::key::join;
 use crate::scenario::spec::{self, Direction};
 use crate::simulation::drive::{Control, Drive, Oscillation};
-use crate::simulation::waveform::{Scale, Wave, Waveform};
+use crate::simulation::waveform::{TableScale, Wave, Waveform};
 
 /// Maximum number of periods of the normal motion per cycle.
 const HIGHEST_RATIO: f64 = 1000.0;
@@ -62,7 +62,7 @@ fn waveform(
     faults: &mut Faults,
     section: &str,
     given: &Direction,
-) -> Option<(Waveform, Option<Scale>)> {
+) -> Option<(Waveform, Option<TableScale>)> {
     let has_table = given.form.times.is_some() || given.form.values.is_some();
     let implied = if has_table { Wave::Table } else { Wave::Sine };
     let wave = given.waveform.unwrap_or(implied);
@@ -102,7 +102,7 @@ fn control(
     let oscillation = faults.accept(spec, section, oscillation)?;
     let oscillation = oscillation.with_waveform(waveform);
     Some(match given.control {
-        Some(spec::Control::Force) => Control::Force(oscillation),
+        Some(spec::ControlWord::Force) => Control::Force(oscillation),
         _ => Control::Displacement(oscillation),
     })
 }

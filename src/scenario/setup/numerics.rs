@@ -4,7 +4,7 @@ use super::{Faults, Spec, shape};
 use crate::contact::indenter::Indenter;
 use crate::math::abel::{AbelMethod, MOST_DENSE_CELLS};
 use crate::math::grid::RadialGrid;
-use crate::scenario::spec::{Geometry, Passage};
+use crate::scenario::spec::{GeometryWord, Passage};
 use crate::scenario::value::Value;
 use crate::simulation::{Integrator, Spacing};
 
@@ -20,7 +20,7 @@ pub(super) fn grid(
     let points = spec.or_usual(|of| of.numerics.points);
     let points = faults.need("numerics.points", points)?;
     let (most, what) = match spec.indenter.geometry {
-        Some(Geometry::Line) => (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned()),
+        Some(GeometryWord::Line) => (MOST_DENSE_CELLS, "geometry = \"line\"".to_owned()),
         _ => (method.most_cells(), format!("method = \"{method}\"")),
     };
     if points > most {

@@ -31,7 +31,7 @@ const NO_INFLUENCE: f64 = 1e-6;
 
 /// Error analysis at a minimum.
 #[derive(Debug)]
-pub(super) struct Errors {
+pub(super) struct ErrorAnalysis {
     /// Covariance of the keys; 0 for a key that the data do not determine.
     pub covariance: DMatrix<f64>,
     /// h of every point: how far the keys follow it.
@@ -40,7 +40,7 @@ pub(super) struct Errors {
     gain: DMatrix<f64>,
 }
 
-impl Errors {
+impl ErrorAnalysis {
     /// Computes the errors from z at the minimum, its derivatives by each key, `None` for a held key, and the points of
     /// each data set whose σ is estimated.
     pub fn new(
@@ -144,7 +144,8 @@ mod tests {
         // A single set has no weight relative to others.
         let set = 0..5;
         let estimated = std::slice::from_ref(&set);
-        let errors = Errors::new(&z, &[Some(vec![1.0; 5]), Some(x.clone())], estimated, false);
+        let errors =
+            ErrorAnalysis::new(&z, &[Some(vec![1.0; 5]), Some(x.clone())], estimated, false);
         let variance = 0.14 / 3.0;
         let close = |found: f64, exact: f64| assert!((found / exact - 1.0).abs() < 1e-12);
         close(errors.covariance[(1, 1)], variance / 10.0);
@@ -164,7 +165,7 @@ mod tests {
     #[test]
     fn a_key_without_influence_has_no_covariance() {
         let z = [0.1, -0.2, 0.2, -0.2];
-        let errors = Errors::new(
+        let errors = ErrorAnalysis::new(
             &z,
             &[Some(vec![1.0; 4]), Some(vec![0.0; 4]), None],
             &[],
@@ -173,7 +174,7 @@ mod tests {
         assert!(errors.covariance[(0, 0)] > 0.0);
         assert_eq!(errors.covariance[(1, 1)], 0.0);
         assert_eq!(errors.covariance[(2, 2)], 0.0);
-        let twins = Errors::new(&z, &[Some(vec![1.0; 4]), Some(vec![1.0; 4])], &[], false);
+        let twins = ErrorAnalysis::new(&z, &[Some(vec![1.0; 4]), Some(vec![1.0; 4])], &[], false);
         assert_eq!(twins.covariance[(0, 0)], 0.0);
     }
 
@@ -182,8 +183,8 @@ mod tests {
     fn weights_that_are_estimated_add_to_the_variance() {
         let z = [0.3, -0.3, 0.3, -0.3, 0.3, -0.3, 0.3, -0.3];
         let ones = [Some(vec![1.0; 8])];
-        let given = Errors::new(&z, &ones, &[], false).covariance[(0, 0)];
-        let weighed = Errors::new(&z, &ones, &[0..2, 2..8], false).covariance[(0, 0)];
+        let given = ErrorAnalysis::new(&z, &ones, &[], false).covariance[(0, 0)];
+        let weighed = ErrorAnalysis::new(&z, &ones, &[0..2, 2..8], false).covariance[(0, 0)];
         let (m, n) = (2.0, 6.0);
         let freedom = |points: f64| points - points / 8.0;
         let added = 4.0 * (1.0 / freedom(m) + 1.0 / freedom(n)) * (m * n / 8.0) / 8.0;

@@ -7,7 +7,7 @@
 use anyhow::Result;
 
 use super::coarse::FINER;
-use super::errors::Errors;
+use super::errors::ErrorAnalysis;
 use super::search::{Found, Search};
 use super::solver::Free;
 use crate::studies::refinement::{Level, difference_per_error};
@@ -27,7 +27,10 @@ const MOST_WORK: f64 = 5e5;
 ///
 /// # Errors
 /// If the scenario does not allow a finer level.
-pub(super) fn refine(search: &mut Search, found: &mut Found) -> Result<(Errors, Option<Vec<f64>>)> {
+pub(super) fn refine(
+    search: &mut Search,
+    found: &mut Found,
+) -> Result<(ErrorAnalysis, Option<Vec<f64>>)> {
     let accuracy = search.fit.scenario.accuracy();
     let mut errors = search.uncertainty(found, &[]);
     let mut numerical = None;

@@ -69,7 +69,7 @@ pub enum Switch {
 
 /// How to fit.
 #[derive(Debug, Clone, Default)]
-pub struct Options {
+pub struct FitOptions {
     /// Number of cycles of each run; default: `run.cycles`, or the last cycle of the histories.
     pub cycles: Option<f64>,
     /// Whether outliers count less.
@@ -91,7 +91,7 @@ pub struct Fit {
     free: Vec<Free>,
     /// The cycles of each run: loops that state no cycle are compared with the last one.
     pub cycles: f64,
-    options: Options,
+    options: FitOptions,
 }
 
 impl Fit {
@@ -104,7 +104,7 @@ impl Fit {
         scenario: Scenario,
         mut data: Vec<Measured>,
         free: &[String],
-        options: Options,
+        options: FitOptions,
     ) -> Result<Self> {
         let scenario = checked::with_stroke(scenario, &data, free, options.takes_stroke)?;
         let free = free.iter().map(|key| Free::new(&scenario, key));

@@ -4,7 +4,7 @@
 //! The other keys follow at their best, and the interval ends where Σz² has risen by 2²: S. S. Wilks (1938), Ann. Math.
 //! Stat. 9, 60–62.
 
-use super::errors::Errors;
+use super::errors::ErrorAnalysis;
 use super::search::{Found, Search};
 
 /// Keys whose logarithm has a larger standard error get an interval, unless it ends near two standard errors on both
@@ -25,7 +25,11 @@ const KNOWN: f64 = 0.06;
 pub(super) type Interval = [Option<f64>; 2];
 
 /// Returns the interval of each key that needs one.
-pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<Option<Interval>> {
+pub(super) fn intervals(
+    search: &Search,
+    found: &Found,
+    errors: &ErrorAnalysis,
+) -> Vec<Option<Interval>> {
     let keys = search.fit.free.iter().enumerate();
     let is_vague = keys.map(|(i, free)| {
         let error = errors.standard_error(i);
@@ -39,7 +43,7 @@ pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<
     let Ok((theta, least)) = search.least_squares(&found.theta, None) else {
         return none;
     };
-    let mut profile = Profile {
+    let mut profile = LikelihoodProfile {
         search,
         theta,
         least,
@@ -60,7 +64,7 @@ pub(super) fn intervals(search: &Search, found: &Found, errors: &Errors) -> Vec<
 }
 
 /// The profile of Σz² around its minimum.
-struct Profile<'a> {
+struct LikelihoodProfile<'a> {
     search: &'a Search<'a>,
     theta: Vec<f64>,
     /// The least Σz² so far: a plateau may fall slightly.
@@ -68,7 +72,7 @@ struct Profile<'a> {
     freedom: f64,
 }
 
-impl Profile<'_> {
+impl LikelihoodProfile<'_> {
     /// Where the profile of key `i` has risen enough in one direction; `None` if it does not.
     fn end(&mut self, i: usize, sense: f64) -> Option<f64> {
         let (free, start) = (&self.search.fit.free[i], self.theta[i]);

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-use super::errors::{Errors, degrees_of_freedom};
+use super::errors::{ErrorAnalysis, degrees_of_freedom};
 use super::nuisance::NAMES;
 use super::profile::Interval;
 use super::search::{Found, Search, residuals};
@@ -99,7 +99,7 @@ impl Fitted {
     pub(super) fn new(
         search: &Search,
         found: &Found,
-        (errors, numerical): (&Errors, Option<Vec<f64>>),
+        (errors, numerical): (&ErrorAnalysis, Option<Vec<f64>>),
         intervals: &[Option<Interval>],
         scenario: Scenario,
     ) -> Self {
@@ -200,7 +200,7 @@ fn limits(key: &str, unit: &str, ends: Interval) -> Option<String> {
     }
 }
 
-fn sets(search: &Search, found: &Found, errors: &Errors) -> Vec<SetResult> {
+fn sets(search: &Search, found: &Found, errors: &ErrorAnalysis) -> Vec<SetResult> {
     let mut next = found.theta.len();
     let mut result = |i: usize, (set, place): (&Measured, Range<usize>), simulated: &Vec<f64>| {
         let left = residuals(set, simulated);

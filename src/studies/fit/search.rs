@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use anyhow::{Result, anyhow};
 
-use super::errors::{Errors, degrees_of_freedom};
+use super::errors::{ErrorAnalysis, degrees_of_freedom};
 use super::model::{self, Prediction};
 use super::nuisance::{self, Nuisances};
 use super::solver::{self, Free};
@@ -312,7 +312,7 @@ impl<'a> Search<'a> {
     }
 
     /// Errors and correlations at a minimum: of the keys but those that are `held`, then of the nuisances.
-    pub fn uncertainty(&self, found: &Found, held: &[usize]) -> Errors {
+    pub fn uncertainty(&self, found: &Found, held: &[usize]) -> ErrorAnalysis {
         let mut derivatives = self.derivatives(found, held);
         if let Ok(responses) = self.responses(&found.theta) {
             for (i, (set, place)) in self.places().enumerate() {
@@ -338,7 +338,7 @@ impl<'a> Search<'a> {
         }
         let estimated = self.places().filter(|(set, _)| set.errors.is_none());
         let estimated: Vec<Range<usize>> = estimated.map(|(_, points)| points).collect();
-        Errors::new(&found.z, &derivatives, &estimated, self.fit.options.robust)
+        ErrorAnalysis::new(&found.z, &derivatives, &estimated, self.fit.options.robust)
     }
 
     /// The size of residuals; by their median if outliers count less.

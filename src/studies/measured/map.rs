@@ -16,10 +16,10 @@ const FINEST: f64 = 1e-4;
 const MUCH_LESS: f64 = 0.3;
 
 /// The sums over a ring or a strip: points, places, values and their squares.
-type Ring = [f64; 4];
+type RingSums = [f64; 4];
 
 /// The sums over rings or strips up to a place `end` (m).
-fn sums(places: impl Iterator<Item = f64>, values: &[f64], end: f64) -> [Ring; RINGS] {
+fn sums(places: impl Iterator<Item = f64>, values: &[f64], end: f64) -> [RingSums; RINGS] {
     let mut rings = [[0.0; 4]; RINGS];
     for (r, z) in places.zip(values) {
         if let Some([count, radius, sum, squares]) =
@@ -33,7 +33,7 @@ fn sums(places: impl Iterator<Item = f64>, values: &[f64], end: f64) -> [Ring; R
 }
 
 /// The mean square of what the values of each ring differ by.
-fn scatter(rings: &[Ring]) -> f64 {
+fn scatter(rings: &[RingSums]) -> f64 {
     let sums = rings.iter().filter(|ring| ring[0] > 1.0);
     let (scatter, count) = sums.fold((0.0, 0.0), |(scatter, count), [n, _, sum, squares]| {
         (scatter + squares - sum * sum / n, count + n)
@@ -86,11 +86,12 @@ pub(super) fn read(columns: &Columns, axes: Axes) -> Result<Measured, Refusal> {
         }
         !is_line
     });
-    let kept: Vec<Ring> = rings.into_iter().filter(|ring| ring[0] > 3.0).collect();
+    let kept: Vec<RingSums> = rings.into_iter().filter(|ring| ring[0] > 3.0).collect();
     if kept.len() < FEWEST {
         return Err(columns.refuse("a map needs 4 rows or more in each of 3 rings around its axis"));
     }
-    let error = |[n, _, sum, squares]: &Ring| ((squares - sum * sum / n) / (n - 1.0) / n).sqrt();
+    let error =
+        |[n, _, sum, squares]: &RingSums| ((squares - sum * sum / n) / (n - 1.0) / n).sqrt();
     let typical = best.sqrt() / (x.len() as f64 / RINGS as f64).sqrt();
     Ok(Measured {
         name: columns.path.clone(),

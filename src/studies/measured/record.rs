@@ -84,11 +84,11 @@ pub const COLUMNS: [Column; 10] = [
 ];
 
 /// A value for each of [`COLUMNS`].
-pub type Row = [f64; COLUMNS.len()];
+pub type FigureRow = [f64; COLUMNS.len()];
 
 impl Figures {
     /// Returns the figures under a normal force, N; NaN for μ_e = E_d/(4 P δ₀) without one.
-    pub fn row(&self, normal_force: Option<f64>) -> Row {
+    pub fn row(&self, normal_force: Option<f64>) -> FigureRow {
         let a = self.energy / (4.0 * self.force * self.amplitude);
         let d = self.opening / self.amplitude;
         let load = normal_force.unwrap_or(f64::NAN);

@@ -46,7 +46,7 @@ const LEAST: f64 = 1e-3;
 
 /// Measurements of a cycle, scaled to K = 1.
 #[derive(Default)]
-struct Cycle {
+struct PredictedCycle {
     /// Largest z of each step.
     stiffness: Vec<f64>,
     /// Largest G.
@@ -55,7 +55,7 @@ struct Cycle {
     worn: f64,
 }
 
-impl Cycle {
+impl PredictedCycle {
     /// Returns the K from which errors grow over the cycle.
     fn growing(&self, scheme: Scheme) -> f64 {
         growing_from(scheme, &self.stiffness).unwrap_or(f64::INFINITY)
@@ -127,8 +127,12 @@ fn letting_go(mut run: Session, small: f64, boundary: f64) -> Result<f64, Sessio
 
 /// Runs one cycle at `wear_number`; counts the nodes with enough pressure to keep a sawtooth of `height` (relative
 /// to the largest depth) in contact.
-fn cycle(session: &mut Session, wear_number: f64, height: f64) -> Result<Cycle, SessionError> {
-    let mut cycle = Cycle::default();
+fn cycle(
+    session: &mut Session,
+    wear_number: f64,
+    height: f64,
+) -> Result<PredictedCycle, SessionError> {
+    let mut cycle = PredictedCycle::default();
     let before = session.simulation().worn_depth().to_vec();
     let mut last = session.simulation().pressure();
     let end = session.simulation().cycle().floor() + 1.0;

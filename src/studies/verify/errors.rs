@@ -4,7 +4,7 @@ use crate::math::quadrature::trapezoid;
 
 /// Errors at the nodes of one result, all non-negative.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Errors {
+pub struct NodalErrors {
     /// r/a of the compared nodes.
     pub radii: Vec<f64>,
     /// The error at each.
@@ -19,7 +19,7 @@ pub struct Errors {
 /// A node: r/a, result and theory.
 pub type Sample = (f64, f64, f64);
 
-impl Errors {
+impl NodalErrors {
     /// Computes |result − theory|/`unit`, or relative to theory without a unit, as in the paper's Fig. 2.
     pub fn new(unit: Option<f64>, samples: impl Iterator<Item = Sample>) -> Self {
         let mut all = Self::default();
@@ -65,12 +65,12 @@ mod tests {
             (0.8, 1.0, 1.0),
             (1.0, 3.0, f64::INFINITY),
         ];
-        let errors = Errors::new(None, samples.into_iter());
+        let errors = NodalErrors::new(None, samples.into_iter());
         assert_eq!(errors.left_out, [0.0, 1.0]);
         assert_eq!((errors.max(), errors.rms()), (0.5, 0.125f64.sqrt()));
-        let errors = Errors::new(Some(2.0), samples.into_iter());
+        let errors = NodalErrors::new(Some(2.0), samples.into_iter());
         assert_eq!(errors.errors, [0.05, 0.25, 0.0]);
         let broken = [(0.1, f64::NAN, 1.0), (0.2, 1.0, 1.0)];
-        assert!(Errors::new(None, broken.into_iter()).max().is_nan());
+        assert!(NodalErrors::new(None, broken.into_iter()).max().is_nan());
     }
 }

@@ -1,12 +1,12 @@
 //! The three transforms, each of exact data, on the paraboloid of the paper's Fig. 2 with a = d = R = E* = 1.
 
-use super::errors::Errors;
+use super::errors::NodalErrors;
 use super::exact;
 use crate::math::abel::{AbelMethod, AbelPlan};
 use crate::math::grid::RadialGrid;
 
 /// Computes errors of g by Eq. (1), of p by Eq. (3) and of w by Eq. (2), relative to theory.
-pub fn transforms(method: AbelMethod, points: usize) -> Vec<Errors> {
+pub fn transforms(method: AbelMethod, points: usize) -> Vec<NodalErrors> {
     type Transform = fn(&AbelPlan, &[f64], &mut [f64]);
     type Curve = fn(f64) -> f64;
     let grid = RadialGrid::uniform(points, 1.0).expect("a grid");
@@ -17,7 +17,7 @@ pub fn transforms(method: AbelMethod, points: usize) -> Vec<Errors> {
         let mut image = vec![f64::NAN; source.len()];
         transform(&plan, &source, &mut image);
         let samples = nodes.iter().zip(&image);
-        Errors::new(None, samples.map(|(&r, &value)| (r, value, theory(r))))
+        NodalErrors::new(None, samples.map(|(&r, &value)| (r, value, theory(r))))
     };
     let load = |x: f64| 1.0 - x * x;
     vec![

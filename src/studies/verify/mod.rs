@@ -15,7 +15,7 @@ pub mod problem;
 pub mod report;
 mod sliding;
 
-use errors::Errors;
+use errors::NodalErrors;
 pub use problem::{Problem, STICK_RADIUS};
 
 /// Default values of N.
@@ -38,7 +38,7 @@ pub struct Solved {
     /// The task.
     pub task: Task,
     /// The errors of the problem's quantities, in their order; or why there are none.
-    pub errors: Result<Vec<Errors>, Breakdown>,
+    pub errors: Result<Vec<NodalErrors>, Breakdown>,
 }
 
 /// Returns the tasks of some problems, by problem, method and

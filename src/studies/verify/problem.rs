@@ -2,7 +2,7 @@
 
 use strum::{Display, IntoStaticStr, VariantArray};
 
-use super::errors::Errors;
+use super::errors::NodalErrors;
 use super::{hertz, sliding};
 use crate::math::abel::AbelMethod;
 use crate::simulation::Breakdown;
@@ -24,7 +24,7 @@ pub const STICK_RADIUS: &str = "c";
 
 /// Facts about a problem.
 #[derive(Debug)]
-pub struct Facts {
+pub struct ProblemFacts {
     /// Symbols of the compared quantities.
     pub quantities: &'static [&'static str],
     /// What is solved and how, where the edges lie, the unit of the error and what is left out: lines of at most 78
@@ -42,9 +42,9 @@ impl Problem {
     }
 
     /// Returns the facts about it.
-    pub const fn facts(self) -> Facts {
+    pub const fn facts(self) -> ProblemFacts {
         match self {
-            Self::Hertz => Facts {
+            Self::Hertz => ProblemFacts {
                 quantities: &["g", "p", "w"],
                 description: "\
 Paraboloid, as in Fig. 2 of the paper: N cells over the contact, the edge a on
@@ -52,7 +52,7 @@ the last node; g of the exact f, p of the exact q, w of the exact u = d - g.
 Error relative to theory at each node. Left out: g at r = 0 and p at r = a,
 where theory is 0.",
             },
-            Self::Cattaneo => Facts {
+            Self::Cattaneo => ProblemFacts {
                 quantities: &["tau", "slip"],
                 description: "\
 Partial slip of a paraboloid on first loading, c = a/2, a quarter of a cycle
@@ -60,7 +60,7 @@ of the simulation without wear: N cells over 1.5 a, a and c a third of a cell
 past a node. Error of tau in its peak at all nodes, of the slip of the surface
 in its peak at the nodes inside a.",
             },
-            Self::Limit => Facts {
+            Self::Limit => ProblemFacts {
                 quantities: &["f", "c"],
                 description: "\
 Limiting profile: paraboloid at constant depth d, mu = 0.1, nu = 0.3,
@@ -72,7 +72,11 @@ radius; relative error of the permanent stick radius c.",
     }
 
     /// Solves it by a method on N cells; returns the errors of the quantities.
-    pub(super) fn solve(self, method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+    pub(super) fn solve(
+        self,
+        method: AbelMethod,
+        points: usize,
+    ) -> Result<Vec<NodalErrors>, Breakdown> {
         match self {
             Self::Hertz => Ok(hertz::transforms(method, points)),
             Self::Cattaneo => sliding::cattaneo(method, points),

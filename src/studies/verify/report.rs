@@ -1,6 +1,6 @@
 //! Tables of a study: one per problem to read, one of all rows for JSON, one of all nodes for CSV.
 
-use super::errors::Errors;
+use super::errors::NodalErrors;
 use super::{Problem, STICK_RADIUS, Solved};
 use crate::scenario::scalars::Value;
 use crate::studies::table::Rows;
@@ -42,9 +42,9 @@ fn group(outcome: &Solved, at: usize, outcomes: &[Solved]) -> Vec<Value> {
     match &outcome.errors {
         Ok(errors) => vec![
             errors[at].max().into(),
-            order(outcome, at, outcomes, Errors::max).into(),
+            order(outcome, at, outcomes, NodalErrors::max).into(),
             errors[at].rms().into(),
-            order(outcome, at, outcomes, Errors::rms).into(),
+            order(outcome, at, outcomes, NodalErrors::rms).into(),
         ],
         Err(stop) => {
             let stopped = format!("stopped at cycle {:.2}", stop.cycle);
@@ -59,7 +59,7 @@ fn order(
     outcome: &Solved,
     at: usize,
     outcomes: &[Solved],
-    size: fn(&Errors) -> f64,
+    size: fn(&NodalErrors) -> f64,
 ) -> Option<f64> {
     let task = outcome.task;
     let is_alike = |o: &&Solved| (o.task.problem, o.task.method) == (task.problem, task.method);

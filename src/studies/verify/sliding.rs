@@ -1,6 +1,6 @@
 //! Tangential contact of a paraboloid with a = d = R = E* = 1: first loading, and the limit of wear.
 
-use super::errors::Errors;
+use super::errors::NodalErrors;
 use super::exact::{self, FRICTION, GROSS_SLIP, POISSON};
 use crate::contact::indenter::Indenter;
 use crate::contact::material::Material;
@@ -50,7 +50,7 @@ fn moved(method: AbelMethod, points: usize, domain: f64, amplitude: f64) -> Setu
 }
 
 /// Computes errors of τ and slip after a quarter of a cycle without wear: c² = 1 − κU.
-pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<NodalErrors>, Breakdown> {
     let (domain, inner) = between_nodes(points);
     let amplitude = (1.0 - inner * inner) * GROSS_SLIP;
     let mut simulation = Simulation::new(moved(method, points, domain, amplitude))?;
@@ -63,8 +63,8 @@ pub fn cattaneo(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakd
     let slip = slip.map(|(r, surface)| (r, seen.moment.shift - surface, exact::slip(inner, r)));
     // τ rises up to c and falls beyond; the slip rises up to a.
     Ok(vec![
-        Errors::new(Some(exact::shear(inner, inner)), shear),
-        Errors::new(Some(exact::slip(inner, 1.0)), slip),
+        NodalErrors::new(Some(exact::shear(inner, inner)), shear),
+        NodalErrors::new(Some(exact::slip(inner, 1.0)), slip),
     ])
 }
 
@@ -81,7 +81,7 @@ const WEAR: f64 = 3.0;
 const CYCLES: f64 = 400.0;
 
 /// Computes errors of f and the permanent stick radius after a long run.
-pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown> {
+pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<NodalErrors>, Breakdown> {
     let stick_radius = (1.0 - AMPLITUDE / GROSS_SLIP).sqrt();
     let mut setup = moved(method, points, DOMAIN, AMPLITUDE);
     setup.wear = Some(WearLaw::archard(WEAR).expect("a law"));
@@ -92,8 +92,8 @@ pub fn limit(method: AbelMethod, points: usize) -> Result<Vec<Errors>, Breakdown
     let worn = seen.radii().iter().zip(seen.profile());
     let worn = worn.map(|(&r, &f)| (r, f, exact::limit(stick_radius, r)));
     let found = seen.moment.permanent_stick_radius.unwrap_or(f64::NAN);
-    let mut profile = Errors::new(Some(1.0), worn);
+    let mut profile = NodalErrors::new(Some(1.0), worn);
     profile.over_radius = true;
     let stick = [(stick_radius, found, stick_radius)];
-    Ok(vec![profile, Errors::new(None, stick.into_iter())])
+    Ok(vec![profile, NodalErrors::new(None, stick.into_iter())])
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, SystemTime};
 use std::{fs, thread};
 
-use super::range::Range;
+use super::range::SweepRange;
 use super::view::MapView;
 use crate::panics::locked;
 use crate::scenario::{Refusal, Scenario};
@@ -89,7 +89,7 @@ impl LiveStudy {
     ///
     /// Returns the reason if the range does not make a study or one of its points is invalid.
     pub fn start(
-        range: &Range,
+        range: &SweepRange,
         scenario: &Scenario,
         cycles: f64,
         tell: impl Fn() + Send + 'static,

@@ -25,7 +25,7 @@ const COLUMNS: [Column; 7] = [
 
 /// The argument of `sweep`: a key and the ends of its axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Range {
+pub struct SweepRange {
     /// The dotted path.
     pub key: String,
     /// The first value.
@@ -34,7 +34,7 @@ pub struct Range {
     pub to: f64,
 }
 
-impl Range {
+impl SweepRange {
     /// Reads `KEY A..B` or a variant: `KEY = A .. B`, `KEY A to B`, `KEY A B`, each end with an optional unit. A part
     /// of a key is enough if only one of `keys` contains it.
     pub fn parse(text: &str, keys: &[(&str, &'static str)]) -> Option<Self> {
@@ -92,13 +92,13 @@ mod tests {
 
     #[test]
     fn a_range_is_a_key_and_two_ends() {
-        let range = Range::parse(" friction.coefficient 0.1..0.5 ", KEYS).expect("a range");
+        let range = SweepRange::parse(" friction.coefficient 0.1..0.5 ", KEYS).expect("a range");
         assert_eq!(
             (range.key.as_str(), range.from, range.to),
             ("friction.coefficient", 0.1, 0.5)
         );
         assert_eq!(
-            Range::parse("wear.coefficient 1e-12 .. 1e-9", KEYS).map(|r| r.to),
+            SweepRange::parse("wear.coefficient 1e-12 .. 1e-9", KEYS).map(|r| r.to),
             Some(1e-9)
         );
         for text in [
@@ -107,9 +107,9 @@ mod tests {
             "friction 0.1 to 0.5",
             "friction 0.1 0.5",
         ] {
-            assert_eq!(Range::parse(text, KEYS), Some(range.clone()), "{text}");
+            assert_eq!(SweepRange::parse(text, KEYS), Some(range.clone()), "{text}");
         }
-        let range = Range::parse("tangential.amplitude 50 nm..0.2 um", KEYS).expect("units");
+        let range = SweepRange::parse("tangential.amplitude 50 nm..0.2 um", KEYS).expect("units");
         assert_eq!((range.from, range.to), (5e-8, 2e-7));
         for wrong in [
             "",
@@ -118,7 +118,7 @@ mod tests {
             "a 1..x",
             "a ..2",
         ] {
-            assert_eq!(Range::parse(wrong, KEYS), None, "{wrong}");
+            assert_eq!(SweepRange::parse(wrong, KEYS), None, "{wrong}");
         }
     }
 }

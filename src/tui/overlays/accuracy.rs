@@ -6,9 +6,9 @@ use ratatui::widgets::Paragraph;
 use crate::plot::theme::Role;
 use crate::reading::Quantity;
 use crate::studies::refinement::Level;
-use crate::tui::beside::NOTHING_YET;
 use crate::tui::canvas::Canvas;
 use crate::tui::command::Command;
+use crate::tui::following::NOTHING_YET;
 use crate::tui::frame::Frame;
 
 /// The commands that close the panel, and those that run while it stays open, so that the run can be watched.

@@ -10,7 +10,7 @@ use ratatui::widgets::Paragraph;
 
 use crate::plot::theme::Role;
 use crate::tui::canvas::Canvas;
-use crate::tui::command::{self, Command, Row};
+use crate::tui::command::{self, Command, CommandRow};
 use crate::tui::keys::{Keystroke, Named};
 use crate::tui::line::wrapped;
 use crate::tui::manual::groups;
@@ -51,7 +51,8 @@ impl Help {
                 lines.push(Line::default());
             }
             lines.push(Line::styled(format!(" {group}"), style));
-            let explained = |row: &Row| explain(&row.key_names().join(" "), row.help, room, style);
+            let explained =
+                |row: &CommandRow| explain(&row.key_names().join(" "), row.help, room, style);
             lines.extend(rows.iter().flat_map(explained));
         }
         lines.extend([Line::default(), Line::styled(" mouse", style)]);

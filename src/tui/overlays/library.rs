@@ -30,14 +30,14 @@ pub struct Library {
     at: usize,
     /// The text typed to find an entry.
     pub(super) filter: LineEdit,
-    entries: Vec<Entry>,
+    entries: Vec<LibraryEntry>,
     /// The description of the selected entry.
     about: String,
 }
 
 /// An entry of the list.
 #[derive(Debug)]
-struct Entry {
+struct LibraryEntry {
     name: String,
     /// A path, or the name of a preset.
     path: PathBuf,
@@ -55,7 +55,7 @@ enum EntryKind {
     Directory,
 }
 
-impl Entry {
+impl LibraryEntry {
     fn preset(preset: &'static Preset) -> Self {
         Self {
             name: preset.name.to_owned(),
@@ -111,24 +111,24 @@ impl Entry {
 }
 
 /// Lists a directory, in any order.
-fn list(directory: &Path) -> std::io::Result<Vec<Entry>> {
+fn list(directory: &Path) -> std::io::Result<Vec<LibraryEntry>> {
     let entries = std::fs::read_dir(directory)?;
-    let found = entries.map(|entry| Ok(Entry::at(entry?.path())));
+    let found = entries.map(|entry| Ok(LibraryEntry::at(entry?.path())));
     found.filter_map(Result::transpose).take(LONGEST).collect()
 }
 
 /// Lists the scenarios and directories in a directory, by name.
-fn files(directory: &Path) -> Vec<Entry> {
+fn files(directory: &Path) -> Vec<LibraryEntry> {
     let mut found = list(directory).unwrap_or_else(|error| {
-        vec![Entry {
+        vec![LibraryEntry {
             name: format!("cannot be listed: {error}"),
             path: directory.to_owned(),
             kind: EntryKind::Directory,
         }]
     });
-    let is_file = |entry: &Entry| matches!(entry.kind, EntryKind::Scenario);
+    let is_file = |entry: &LibraryEntry| matches!(entry.kind, EntryKind::Scenario);
     found.sort_by_cached_key(|entry| (!is_file(entry), entry.name.clone()));
-    found.push(Entry {
+    found.push(LibraryEntry {
         name: "../".into(),
         path: directory.join(".."),
         kind: EntryKind::Directory,
@@ -142,20 +142,20 @@ impl Library {
         let mut library = Self::default();
         library.enter(".".into());
         let here = Path::new(".").join(origin);
-        let is_shown = |entry: &Entry| entry.path == Path::new(origin) || entry.path == here;
+        let is_shown = |entry: &LibraryEntry| entry.path == Path::new(origin) || entry.path == here;
         let at = library.entries.iter().position(is_shown);
         library.select(at.unwrap_or(0));
         library
     }
 
     fn enter(&mut self, directory: PathBuf) {
-        self.entries = preset::ALL.iter().map(Entry::preset).collect();
+        self.entries = preset::ALL.iter().map(LibraryEntry::preset).collect();
         self.entries.extend(files(&directory));
     }
 
     /// Returns the entries that pass the filter.
-    fn fitting(&self) -> Vec<&Entry> {
-        let fits = |of: &&Entry| self.filter.fits(&format!("{} {}", of.name, of.title()));
+    fn fitting(&self) -> Vec<&LibraryEntry> {
+        let fits = |of: &&LibraryEntry| self.filter.fits(&format!("{} {}", of.name, of.title()));
         self.entries.iter().filter(fits).collect()
     }
 
@@ -209,7 +209,7 @@ impl Library {
         let (theme, shown) = (inside.theme, inside.area.height.saturating_sub(WORDS));
         let rows = Layout::vertical([Length(shown), Length(1), Fill(1)]);
         let [above, _, below] = rows.areas(inside.area);
-        let line = |entry: &Entry| {
+        let line = |entry: &LibraryEntry| {
             let [name, title] = [&*entry.name, entry.title()].map(|text| theme.printable(text));
             Line::raw(format!(" {name:width$}  {title} "))
         };

@@ -8,7 +8,7 @@ use crate::guide::Topic;
 use crate::plot::theme::Role;
 use crate::scenario::hint::nearest;
 use crate::tui::canvas::Canvas;
-use crate::tui::command::{Act, COMMANDS, Command, Row};
+use crate::tui::command::{Act, COMMANDS, Command, CommandRow};
 use crate::tui::completion::{self, Completion};
 use crate::tui::explorer::Explorer;
 use crate::tui::frame::Frame;
@@ -67,7 +67,7 @@ fn completions(typed: &str, frame: &Frame) -> Vec<(Completion, Option<Command>)>
 }
 
 /// Ranks how `typed` matches: at the start of a name, within it, or by words in keys, name and help.
-fn rank(typed: &str, row: &Row) -> Option<usize> {
+fn rank(typed: &str, row: &CommandRow) -> Option<usize> {
     let typed = typed.trim_end().to_lowercase();
     let all = format!("{} {} {}", row.key_names().join(" "), row.name, row.help).to_lowercase();
     let position = [

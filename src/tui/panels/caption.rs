@@ -7,7 +7,7 @@ use ratatui::layout::{Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::{Line, Span};
 
-use super::cut::Section;
+use super::cut::ContactSection;
 use crate::math::scan::largest;
 use crate::plot::shades::{self, has_blocks};
 use crate::plot::theme::{Depth, Look, Role, Theme};
@@ -149,7 +149,7 @@ fn write_over(canvas: &mut Canvas, x: u16, y: u16, text: &str) {
 }
 
 /// Draws the text on the picture and below it.
-pub fn draw(section: &Section, mut canvas: Canvas, below: Rect) {
+pub fn draw(section: &ContactSection, mut canvas: Canvas, below: Rect) {
     let (frame, area) = (section.of.frame, canvas.area);
     let (seen, moment) = (section.of.calm, &frame.live.observation.moment);
     let value = |value, unit| format_value(value, unit, 3);
@@ -228,7 +228,7 @@ fn write_phase(frame: &Frame, forces: &str, canvas: &mut Canvas) {
 }
 
 /// Draws c and a: a short line over each border, and its name.
-fn radii(section: &Section, canvas: &mut Canvas) {
+fn radii(section: &ContactSection, canvas: &mut Canvas) {
     let moment = &section.of.calm.live.observation.moment;
     let a = Some(moment.contact_radius).filter(|a| *a > 0.0);
     let marks = [("c", sticking(moment)), ("a", a)];
@@ -259,7 +259,7 @@ fn body_key(theme: &Theme) -> Line<'static> {
 }
 
 /// Returns the scale of the stress in as many words as fit into `width` cells; empty without a stress.
-fn stress_key(section: &Section, width: u16) -> Line<'static> {
+fn stress_key(section: &ContactSection, width: u16) -> Line<'static> {
     let (theme, stress) = (&section.theme, section.of.stress);
     // A scale of no more than 1 Pa means that nothing is loaded yet.
     let Some(bounds) = stress.bounds().filter(|bounds| bounds[1] > 1.0) else {

@@ -85,7 +85,7 @@ pub fn heights(frame: &Frame) -> Option<[f64; 2]> {
 }
 
 /// A frame as a cut in an area: its lengths, m, and the magnifications.
-pub struct Section<'a> {
+pub struct ContactSection<'a> {
     /// What to draw, and the look of the terminal.
     pub of: &'a Shown<'a>,
     pub theme: Theme,
@@ -114,7 +114,7 @@ pub struct Section<'a> {
     pub stress: Option<Shares>,
 }
 
-impl<'a> Section<'a> {
+impl<'a> ContactSection<'a> {
     /// Makes the cut; `None` if there is nothing to draw.
     pub fn new(of: &'a Shown<'a>, theme: &Theme, area: Rect) -> Option<Self> {
         let frame = of.frame;

@@ -17,7 +17,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::cut::{Cut, LARGE, Matter, Section, heights, round_to_step};
+use super::cut::{ContactSection, Cut, LARGE, Matter, heights, round_to_step};
 use super::{Picture, Shown, caption};
 use crate::charts::{Recipe, U_X};
 use crate::math::grid::interpolate;
@@ -69,7 +69,7 @@ impl Matter {
     }
 }
 
-impl Section<'_> {
+impl ContactSection<'_> {
     /// Draws the bodies.
     fn bodies(&self, canvas: &mut Canvas) {
         let area = self.area;
@@ -219,7 +219,7 @@ fn draw(shown: &Shown, mut canvas: Canvas) {
     let room = usize::from(canvas.area.width.saturating_sub(2));
     let inner = canvas.titled(RECIPE.title, shown.role).area;
     let [picture, below] = caption::split(inner);
-    let Some(section) = Section::new(shown, &canvas.theme, picture) else {
+    let Some(section) = ContactSection::new(shown, &canvas.theme, picture) else {
         return;
     };
     canvas.titled(&section.title(RECIPE.title, room), shown.role);

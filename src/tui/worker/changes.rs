@@ -4,8 +4,8 @@ use std::mem::replace;
 
 use strum::VariantArray;
 
-use super::outlet::Facts;
-use super::{Change, Worker};
+use super::outlet::ScenarioFacts;
+use super::{SessionChange, Worker};
 use crate::math::abel::AbelMethod;
 use crate::math::scan::shifted;
 use crate::panics::locked;
@@ -13,7 +13,7 @@ use crate::scenario::session::{Session, SessionError};
 use crate::scenario::spec::Spec;
 use crate::scenario::{Refusal, Scenario};
 use crate::studies::refinement::{self, Level};
-use crate::tui::beside::Twin;
+use crate::tui::following::Twin;
 use crate::tui::frame::Activity;
 use crate::tui::ghosts::Source;
 use crate::tui::recorded::Recorded;
@@ -26,7 +26,7 @@ const STRIDE: f64 = 1.5;
 const COARSEST: usize = 8;
 
 /// Sets a key; further `, KEY=VALUE` in `value` change at the same time.
-pub(in crate::tui) fn set(key: impl Into<String>, value: impl Into<String>) -> Change {
+pub(in crate::tui) fn set(key: impl Into<String>, value: impl Into<String>) -> SessionChange {
     let (key, value) = (key.into(), value.into());
     Box::new(move |run| {
         run.assign(&assignments(&key, &value))?;
@@ -35,7 +35,7 @@ pub(in crate::tui) fn set(key: impl Into<String>, value: impl Into<String>) -> C
 }
 
 /// Steps by this many places through the wear laws.
-pub(in crate::tui) fn shift_law(places: isize) -> Change {
+pub(in crate::tui) fn shift_law(places: isize) -> SessionChange {
     Box::new(move |run| {
         if run.simulation().setup().wear.is_none() {
             return refuse("this scenario has no wear, so it has no wear law to change");
@@ -49,7 +49,7 @@ pub(in crate::tui) fn shift_law(places: isize) -> Change {
 }
 
 /// Refines or coarsens cells and steps together, by `STRIDE` per place.
-pub(in crate::tui) fn refine(places: isize) -> Change {
+pub(in crate::tui) fn refine(places: isize) -> SessionChange {
     Box::new(move |run| {
         let now = Level::from_scenario(run.scenario());
         let factor = STRIDE.powf(places as f64);
@@ -103,7 +103,7 @@ impl Worker {
 
     /// Has `change` change the run from here on, and tells the user what it has done. If `beside`, the run from before
     /// the first such change continues as a ghost.
-    pub(super) fn change(&mut self, change: Change, beside: bool) {
+    pub(super) fn change(&mut self, change: SessionChange, beside: bool) {
         let mut changed = self.run.clone();
         let Some(done) = self.screen.or_notice(change(&mut changed.session)) else {
             return;
@@ -125,7 +125,7 @@ impl Worker {
 
     /// Updates the facts and the twin after a change of the scenario.
     pub(super) fn renew(&mut self) {
-        self.facts = Facts::new(&self.run.session);
+        self.facts = ScenarioFacts::new(&self.run.session);
         self.twin = Twin::new(&self.run.session);
     }
 

@@ -6,7 +6,7 @@ use super::Order;
 use crate::scenario::Scenario;
 use crate::tui::event::Event;
 use crate::tui::map::live::LiveStudy;
-use crate::tui::map::range::Range;
+use crate::tui::map::range::SweepRange;
 use crate::tui::recorded::Recorded;
 use crate::tui::{figure as drawing, snapshot as state};
 
@@ -22,7 +22,7 @@ pub enum Copied {
 }
 
 /// Starts a study of the present scenario, up to the present cycle.
-pub fn sweep(range: Range) -> Order {
+pub fn sweep(range: SweepRange) -> Order {
     Order::Make(Box::new(move |run, screen| {
         let cycles = match run.cycle() {
             0.0 => run.session.loaded().run().cycles.unwrap_or(1.0),

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::Worker;
 use crate::scenario::columns::Naming;
-use crate::tui::beside::Beside;
+use crate::tui::following::FollowingRun;
 use crate::tui::ghosts::{MOST, Since, Source};
 use crate::tui::recorded::Recorded;
 
@@ -37,7 +37,7 @@ impl Ghosts {
     }
 
     /// Returns those that run.
-    fn running(&mut self) -> impl Iterator<Item = &mut Beside> {
+    fn running(&mut self) -> impl Iterator<Item = &mut FollowingRun> {
         let rival = self.rival.as_mut().map(|rival| &mut rival.run);
         let all = self.fixed.iter_mut().chain(&mut self.before).chain(rival);
         all.flat_map(|ghost| ghost.beside.as_deref_mut())

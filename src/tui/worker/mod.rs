@@ -12,8 +12,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use super::beside::Twin;
 use super::event::Event;
+use super::following::Twin;
 use super::frame::Frame;
 use super::ghosts::Source;
 use super::loops::CycleLoads;
@@ -25,7 +25,7 @@ use crate::reading::Curves;
 use crate::scenario::Scenario;
 use crate::scenario::session::{Session, SessionError};
 use ghosts::Ghosts;
-use outlet::{Facts, Outlet};
+use outlet::{Outlet, ScenarioFacts};
 use pace::Pace;
 
 pub mod changes;
@@ -58,9 +58,9 @@ pub enum Order {
     /// Goes to the next (true) or the previous cycle at which the scenario writes a state.
     GoToPlanned(bool),
     /// Changes the scenario from here on.
-    Change(Change),
+    Change(SessionChange),
     /// The same. The run from before the first such change continues as a ghost, until it is dropped.
-    ChangeBeside(Change),
+    ChangeBeside(SessionChange),
     /// Steps by this many places through the transform methods, of a comparison if there is one.
     Method(isize),
     /// Changes what is drawn over the plots.
@@ -76,7 +76,7 @@ pub enum Order {
     /// Continues another run.
     Continue(Box<Recorded>),
     /// Makes something of the run, for a file or for the screen.
-    Make(Task),
+    Make(RunTask),
     /// Selects the curves in frames.
     Show(Curves),
     /// Returns the frame after all companions have caught up.
@@ -86,13 +86,13 @@ pub enum Order {
 }
 
 /// A change of a run from here on; returns what it has done.
-pub type Change = Box<dyn FnOnce(&mut Session) -> Result<String, SessionError> + Send>;
+pub type SessionChange = Box<dyn FnOnce(&mut Session) -> Result<String, SessionError> + Send>;
 
 /// A change of what is drawn over the plots of a run; returns the notice about it.
 pub type GhostChange = Box<dyn FnOnce(&mut Ghosts, &Recorded) -> Option<String> + Send>;
 
 /// Makes something of the run, and sends it to the screen.
-pub type Task = Box<dyn FnOnce(&Recorded, &mut Outlet) + Send>;
+pub type RunTask = Box<dyn FnOnce(&Recorded, &mut Outlet) + Send>;
 
 /// The channel to the worker. A worker that has ended has already reported it.
 #[derive(Clone)]
@@ -122,7 +122,7 @@ impl Orders {
 pub struct Worker {
     /// The run on the screen, present or past.
     run: Recorded,
-    facts: Facts,
+    facts: ScenarioFacts,
     past: Past,
     ghosts: Ghosts,
     /// The coarser run that estimates the errors of this one.
@@ -149,7 +149,7 @@ impl Worker {
         let run = run.into();
         let autosave = Autosave::new(None, None, Duration::ZERO, run.clone());
         Self {
-            facts: Facts::new(&run.session),
+            facts: ScenarioFacts::new(&run.session),
             ghosts: Ghosts::default(),
             twin: Twin::new(&run.session),
             autosave: Arc::new(Mutex::new(autosave)),

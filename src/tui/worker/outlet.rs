@@ -110,7 +110,7 @@ impl Worker {
     pub fn frame(&mut self) -> Frame {
         // The pressure may exceed the hardness in any step, and may not have done so yet in an earlier state.
         if self.facts.passed_hardness != self.run.session.log().passed_hardness() {
-            self.facts = Facts::new(&self.run.session);
+            self.facts = ScenarioFacts::new(&self.run.session);
         }
         let simulation = self.run.simulation();
         let curves = self.curves;
@@ -174,7 +174,7 @@ impl Worker {
 }
 
 /// What frames have of the scenario; made when it changes.
-pub(super) struct Facts {
+pub(super) struct ScenarioFacts {
     scenario: Arc<Scenario>,
     theory: Arc<Theory>,
     expected_wear: f64,
@@ -183,7 +183,7 @@ pub(super) struct Facts {
     passed_hardness: Option<Passed>,
 }
 
-impl Facts {
+impl ScenarioFacts {
     /// Collects the facts of the scenario that `session` runs now.
     pub fn new(session: &Session) -> Self {
         let scenario = session.scenario();

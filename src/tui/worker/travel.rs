@@ -1,6 +1,6 @@
 //! Time travel: back to earlier states, and on from there.
 
-use super::outlet::Facts;
+use super::outlet::ScenarioFacts;
 use super::{BROKEN_DOWN, Worker};
 use crate::panics::locked;
 use crate::scenario::Change;
@@ -35,7 +35,7 @@ impl Worker {
 
     /// Shows a state of the past.
     fn show(&mut self, run: Recorded) {
-        self.facts = Facts::new(&run.session);
+        self.facts = ScenarioFacts::new(&run.session);
         self.run = run;
     }
 

@@ -192,7 +192,7 @@ impl Transform for Inwards {
 
 /// Eq. (1) on the worn depth, on a grid with a border.
 #[derive(Debug)]
-pub(super) struct Worn {
+pub(super) struct WornTransform {
     border: usize,
     inner: Outwards,
     /// x and z of the nodes from the border on, and 1/Δz of their cells.
@@ -202,7 +202,7 @@ pub(super) struct Worn {
     outer: Causal,
 }
 
-impl Worn {
+impl WornTransform {
     /// Plans it with the `roots` of Eq. (1) and separate powers to the `tolerance`; `None` if that is out of reach.
     pub fn new(grid: &RadialGrid, border: usize, roots: &Powers, tolerance: f64) -> Option<Self> {
         let x = &grid.nodes()[border..];
@@ -218,7 +218,7 @@ impl Worn {
     }
 }
 
-impl Transform for Worn {
+impl Transform for WornTransform {
     fn apply_from(&self, _: usize, depth: &[f64], g: &mut [f64]) -> usize {
         self.inner.apply_from(0, depth, g);
         // F = (δ − δ_c)/z; at the border it takes the next node's value: flat in the first cell.

@@ -13,7 +13,7 @@ use crate::studies::refinement::{self, Difference, Outcome};
 
 /// The second run.
 #[derive(Debug, Clone)]
-pub(super) struct Beside {
+pub(super) struct FollowingRun {
     pub run: Recorded,
     /// The run before its first step, from which it restarts when the first run goes back in time.
     start: Option<Session>,
@@ -21,7 +21,7 @@ pub(super) struct Beside {
     pub stopped: Option<String>,
 }
 
-impl Beside {
+impl FollowingRun {
     /// Makes a run that begins at the state of `session`. If it `restarts`, it begins again there whenever the first
     /// run goes back in time.
     pub fn new(session: Session, restarts: bool) -> Self {
@@ -70,7 +70,7 @@ pub(super) const NOTHING_YET: &str = "nothing to compare yet: let it run for a c
 /// The twin, and its last result.
 #[derive(Debug)]
 pub(super) struct Twin {
-    beside: Beside,
+    beside: FollowingRun,
     /// The cycle of the next comparison.
     due: f64,
     /// The run at that cycle, once it has reached it.
@@ -85,7 +85,7 @@ impl Twin {
     pub fn new(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
-            beside: Beside::new(refinement::twin(session)?.ok()?, false),
+            beside: FollowingRun::new(refinement::twin(session)?.ok()?, false),
             due: 1.0,
             run: None,
             told: None,

@@ -1,4 +1,4 @@
-//! What `benches/compare.py` sets beside other programs, as lines `name,n,seconds`; lower deciles.
+//! What `benches/compare.py` compares with other programs, as lines `name,n,seconds`; lower deciles.
 //!
 //! `cargo bench --bench rivals`: transforms in their forms, nalgebra's matrix–vector product on the same
 //! weights, the formulas of the paper evaluated on the fly, and the run of the paper's Fig. 3, also with

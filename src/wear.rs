@@ -98,7 +98,7 @@ pub struct References {
 }
 
 impl LawParameters {
-    /// Returns these, and those of `usual` where nothing is given.
+    /// Returns these, with the values of `usual` for keys that are not given.
     #[must_use]
     pub fn or(self, usual: Self) -> Self {
         Self {

@@ -152,7 +152,7 @@ impl Recipe {
             }
         }
         chart.curves.sort_by_key(|curve| match curve.role {
-            // On paper, curves of other sources lie over those of the run.
+            // On paper, curves of other sources lie over the run's.
             Role::Ghost(k) if !view.is_on_screen() => k + 1,
             // On a screen, closed forms lie below what they explain.
             _ => usize::from(view.is_on_screen() && !curve.is_theory),

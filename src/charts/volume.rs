@@ -1,5 +1,5 @@
 //! Wear volume V over cycles. V = k E_d from the friction work would differ by less than the width of a line; the panel
-//! beside it shows the difference.
+//! next to it shows the difference.
 
 use super::{E_D, Recipe, Subject, V, View, ghosts, over_cycles, series};
 use crate::charts::run::Run;

@@ -1,4 +1,4 @@
-//! The figures of each cycle of a measured record, beside those of a scenario: a table, and plots over the cycles.
+//! The figures of each cycle of a measured record, compared with a scenario's: a table, and plots over the cycles.
 
 use anyhow::{Context, Result, ensure};
 use serde::{Serialize, Serializer};
@@ -88,7 +88,7 @@ impl CycleRow {
     }
 }
 
-/// Whether a column tells a zero of the instrument, which has a line of its own and no ratio to the model's.
+/// Whether a column is a zero of the instrument, which has a separate line and no ratio to the model's.
 fn is_zero(column: Column) -> bool {
     [Column::MeanShift, Column::MeanForce].contains(&column)
 }
@@ -104,8 +104,8 @@ fn shown<T>(cycles: &[T]) -> Vec<&T> {
 }
 
 impl Cycles {
-    /// Computes the figures of a record, with μ_e under a normal force, N, and beside them those of a scenario's cycles:
-    /// the record ends at the given one, and its cycles follow each other. Without a force, the scenario's is taken.
+    /// Computes the figures of a record, with μ_e under a normal force, N, and the figures of a scenario's cycles: the
+    /// record ends at the given one, and its cycles follow each other. Without a force, uses the scenario's.
     ///
     /// # Errors
     /// A scenario without a loop, or whose contact cannot be computed.

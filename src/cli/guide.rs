@@ -43,7 +43,7 @@ fn unknown(name: &str) -> Refusal {
     Refusal::new(format_args!("guide {name}"), "no such topic").or(hint)
 }
 
-/// Breaks lines that are wider than the terminal at blanks; code stays as it is.
+/// Breaks lines that are wider than the terminal at blanks; leaves code unchanged.
 fn fitted(text: &str, columns: usize) -> String {
     let (mut is_code, mut fitted) = (false, String::new());
     for line in text.lines() {

@@ -1,4 +1,4 @@
-//! What a run still has to do and what it has recorded. Checkpoints hold it beside the session, so that an interrupted
+//! What a run still has to do and what it has recorded. Checkpoints hold it next to the session, so that an interrupted
 //! run writes the same files as an uninterrupted one.
 
 use std::path::{Path, PathBuf};

@@ -180,7 +180,8 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(io_error)
 }
 
-/// Returns an error that suggests the nearest command, or the option of that name, if `word` looks like a mistyped one and is no preset or path.
+/// Returns an error that suggests the nearest command, or the option of that name, if `word` looks like a mistyped one
+/// and is neither a preset nor a path.
 fn mistyped_command(word: &str) -> Option<Refusal> {
     let program = Arguments::command();
     let commands = program.get_subcommands().map(clap::Command::get_name);

@@ -68,7 +68,7 @@ pub fn signal() -> Result<Arc<AtomicBool>> {
     Ok(stop)
 }
 
-/// Calls `end` in a thread of its own when `stop` is set and the time `grace` has passed.
+/// Calls `end` in a separate thread once `stop` is set and the time `grace` has passed.
 pub fn after(stop: &Arc<AtomicBool>, grace: Duration, end: impl FnOnce() + Send + 'static) {
     let stop = Arc::clone(stop);
     let watch = move || {

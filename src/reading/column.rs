@@ -169,7 +169,7 @@ macro_rules! columns {
             EXPLORER {
                 StepCost "step_cost_s" "t" "time per step";
             }
-            /// What is measured, beside the above.
+            /// Further measured quantities.
             MEASURED {
                 LoopShift "u_m" "u_x" "displacement";
                 LoopForce "F_N" "F_x" "force";

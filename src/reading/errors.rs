@@ -8,7 +8,7 @@ use strum::EnumCount;
 
 use super::Quantity;
 
-/// Stated errors of a run: those of its quantities with two digits.
+/// Stated errors of a run, one for each quantity, with two digits.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Errors {
     /// The accuracy that was asked for.

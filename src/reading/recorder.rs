@@ -36,7 +36,7 @@ impl Recorder {
     }
 
     /// Makes a recorder with one row per cycle from the cycle `start` on; beyond `most` rows, with one per 2, 4, 8, …
-    /// cycles. The first row stays that of the first cycle.
+    /// cycles. The first row always belongs to the first cycle.
     pub fn of_cycles(columns: impl IntoIterator<Item = Column>, start: f64, most: usize) -> Self {
         Self {
             start,

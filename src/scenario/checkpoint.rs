@@ -28,7 +28,7 @@ use crate::reading::{Errors, Log};
 use crate::simulation::{Saved, Simulation};
 
 /// Each format version with the checksum of its shape: the fields of what is saved, and the columns of a history. A test
-/// compares the last one with what is saved now, so whoever changes that adds a version here.
+/// compares the last one with what is saved now, so a change of the format needs a new version here.
 pub const SHAPES: [(u32, u32); 1] = [(9, 0xb00c_4c6e)];
 
 /// The format version written, and the only one read.

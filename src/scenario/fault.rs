@@ -77,7 +77,7 @@ impl Faults {
         self.note(path, |of| Refusal::new(of.place(path, value), rule));
     }
 
-    /// Refuses the value of a key: as it was given, or as it is in `spec`.
+    /// Refuses the value of a key, quoting it as given, or else as `spec` has it.
     pub fn refuse<T>(&mut self, spec: &Spec, path: &str, rule: impl Display) -> Option<T> {
         self.refuse_or(spec, path, None, rule)
     }

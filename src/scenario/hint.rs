@@ -50,8 +50,8 @@ fn score(typed: &str, known: &str) -> f64 {
     }
 }
 
-/// The keys that the unknown `path` most likely stands for, each with a remark to show beside its name; none if there
-/// is nothing near.
+/// Returns the keys that the unknown `path` most likely stands for, each with a remark to show next to its name; empty
+/// if no key is similar.
 pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
     let (section, key) = split(path);
     let word = key.to_lowercase();

@@ -114,7 +114,7 @@ impl<'a> Reading<'a> {
             .unwrap_or(f64::NAN)
     }
 
-    /// Returns the same as it is written.
+    /// Returns the same in its written form.
     pub fn value(&self, scalar: Column) -> Value {
         value(scalar, self.number(scalar))
     }

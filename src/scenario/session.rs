@@ -131,8 +131,8 @@ impl Session {
         self.now.simulation.checks(&self.now.log)
     }
 
-    /// A line for each way in which the run lies outside the theory, or beyond what any grid sees, and for what was left out of its
-    /// files.
+    /// Returns a line for each way in which the run lies outside the theory, or beyond what any grid resolves, and for
+    /// what was left out of its files.
     pub fn warnings(&self) -> Vec<String> {
         let notes = self.loaded.notes().iter().cloned();
         notes

@@ -1,7 +1,7 @@
 //! Numbers with units, as people write them: `radius = "10 mm"`, `phase = "45°"`.
 //!
 //! A text is a number and a unit, which combines known units by `·`, `*`, `/`, powers and parentheses, with SI
-//! prefixes: `230.8 GPa`, `0.13 mm³/J`, `1.3e8 um^3/J`. It is accepted if its dimension is that of the key. Powers of
+//! prefixes: `230.8 GPa`, `0.13 mm³/J`, `1.3e8 um^3/J`. It is accepted if its dimension is the key's. Powers of
 //! ten go into the exponent of the number before it is parsed, so that `"10 mm"` is the same float as `0.01`. One hertz
 //! is 2π rad/s.
 

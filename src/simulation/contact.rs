@@ -97,7 +97,7 @@ pub(super) struct ContactProblem<'a> {
 }
 
 impl<'a> ContactProblem<'a> {
-    /// That of springs on a `profile`, which stood as in the contact `before`.
+    /// Makes the problem of springs on a `profile`, whose previous contact was `before`.
     pub fn new(model: &'a Model, profile: &'a Profile, before: &'a Contact) -> Self {
         Self {
             model,

@@ -110,7 +110,7 @@ impl Deref for Model {
 }
 
 impl Model {
-    /// Plans the operators of a setup; reuses those of the model `before` if they fit.
+    /// Plans the operators of a setup; reuses the operators of the model `before` if they fit.
     pub fn new(setup: Setup, before: Option<&Self>) -> Self {
         let fits = |before: &&Self| {
             before.setup.grid == setup.grid

@@ -40,7 +40,7 @@ impl Sliding {
         }
     }
 
-    /// Finds the nodes that wear between two contacts, with the slip of the surface due to that of the springs (m): up to
+    /// Finds the nodes that wear between two contacts, with the surface slip due to the slip of the springs (m): up to
     /// the edge behind the last node that touches in either; method B's stress looks one node across. The first `stuck`
     /// springs did not slip.
     pub fn find(

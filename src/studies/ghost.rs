@@ -1,4 +1,4 @@
-//! Curves to draw with those of a simulation: measurements, the files of a run, or a frozen state.
+//! Curves to draw over a simulation's: measurements, the files of a run, or a frozen state.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use crate::simulation::drive::Control;
 use crate::simulation::{Setup, Unworn};
 
-/// A depth, m, whose load gives that of other depths.
+/// A reference depth, m; loads at other depths follow from its load.
 const REFERENCE: f64 = 1e-6;
 
 /// The closed forms that apply.
@@ -73,8 +73,8 @@ impl Theory {
         Some(reached.min(most)).filter(|depth| *depth > 0.0)
     }
 
-    /// Returns the amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N): that of a line is
-    /// relative to its gauge.
+    /// Returns the amplitude of u_x, m, from which the unworn indenter slips as a whole under `load` (N);
+    /// relative to the gauge for a line.
     pub fn gross_slip_amplitude(&self, load: f64) -> Option<f64> {
         let unworn = Unworn::new(&self.setup);
         let exponent = self.setup.indenter.exponent()?;

@@ -117,7 +117,7 @@ impl App {
         self.explorer.show();
     }
 
-    /// Makes room for the list of parameters beside the panels; when it closes, drops the run that it compared with.
+    /// Makes room for the list of parameters next to the panels; when it closes, drops the run that it compared with.
     fn make_room(&mut self) {
         let is_form = |overlay: &Overlay| matches!(overlay, Overlay::Form(_));
         let has_list = self.overlays.iter().any(is_form);

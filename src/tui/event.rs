@@ -17,7 +17,7 @@ pub enum Event {
     Resize,
     /// A new frame is in the slot.
     Frame(Arc<Slot>),
-    /// A run or study beside may have something new to show.
+    /// A comparison run or a study may have something new to show.
     News,
     /// A text for the clipboard, and its name.
     Copied(String, &'static str),

@@ -1,5 +1,5 @@
-//! Sources of ghosts: files, states frozen by the user, and runs beside this one: of another scenario, by another
-//! method or on half the cells, or as it was before a change.
+//! Sources of ghosts: files, states frozen by the user, and runs that follow this one: of another scenario, by
+//! another method or on half the cells, or as it was before a change.
 
 use std::ffi::OsStr;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Turns the bytes from the terminal into keys, pasted text, clicks and answers.
 //!
-//! The Escape key is distinguished from the start of a sequence by what follows it, or by the pause after it: nothing is bound to
-//! Alt. Ctrl-C is recognised whatever it comes in.
+//! The Escape key is distinguished from the start of a sequence by what follows it, or by the pause after it: nothing is
+//! bound to Alt. Ctrl-C is recognised whatever it comes in.
 
 use std::str::from_utf8;
 

@@ -48,7 +48,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let [shown, list] = explorer.stage.with_list(middle);
     panels(explorer, canvas.at(shown));
     footer::draw(app, canvas.at(bottom));
-    // An explanation is placed beside its panel; lists need every row.
+    // An explanation is placed next to its panel; lists need every row.
     let under = match overlay {
         Some(Overlay::Explain) => shown,
         Some(Overlay::Form(_)) if !list.is_empty() => list,

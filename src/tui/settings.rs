@@ -58,7 +58,7 @@ impl Setting {
         has_unit.then(|| reading(value, self.unit, ascii))
     }
 
-    /// Returns the hint beside a value being typed: the unit of a bare number, as in a scenario file, and the one in the
+    /// Returns the hint next to a value being typed: the unit of a bare number, as in a scenario file, and the one in the
     /// list if it differs.
     pub fn typed_unit(&self) -> String {
         match (self.unit, shown_in(self.unit)) {
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(next.as_deref(), Some("46 deg"));
         let modulus = of("material.effective_modulus");
         assert_eq!(modulus.shown(true), "230.77 GPa");
-        // What is shown means the same when typed, and its unit is named beside the line.
+        // What is shown means the same when typed, and its unit is named next to the line.
         for setting in settings.iter().filter(|known| known.value.is_some()) {
             let path = setting.key.path;
             for shown in [true, false].map(|ascii| setting.shown(ascii)) {

@@ -40,7 +40,7 @@ pub struct Stage {
     pub area: Rect,
     /// Whether the last click has toggled the zoom.
     click_has_zoomed: bool,
-    /// Whether the list of parameters is open beside the panels.
+    /// Whether the list of parameters is open next to the panels.
     pub has_list: bool,
     /// What happens in the scenario: panels of more than that are shown only when they have the focus.
     pub happens: Subject,
@@ -48,7 +48,7 @@ pub struct Stage {
     first: Vec<Panel>,
 }
 
-/// Minimum columns for a list beside the panels.
+/// Minimum columns for a list next to the panels.
 const WITH_LIST: u16 = 100;
 
 /// The columns of the list.
@@ -66,7 +66,7 @@ impl Stage {
         self.with_list(layout::panels(self.area))[0]
     }
 
-    /// Divides an area between the panels and a list beside them, which is empty if there is none.
+    /// Divides an area between the panels and a list next to them, which is empty if no list is open.
     pub fn with_list(&self, area: Rect) -> [Rect; 2] {
         let taken = LIST * u16::from(self.has_list && area.width >= WITH_LIST);
         Layout::horizontal([Min(0), Length(taken)]).areas(area)

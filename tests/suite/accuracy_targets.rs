@@ -332,8 +332,8 @@ fn what_has_worn_is_what_friction_has_worked() {
     holds("rate of wear at N = 100", largest(errors), 2.5e-3);
 }
 
-/// So does a fine grid, where the edge passes many cells in a step, and where contact begins anew in it: the
-/// second cycle, as it has no first contact in it.
+/// So does a fine grid, where the edge passes many cells in a step, and where contact begins again in it: the second
+/// cycle, which does not contain the first contact.
 #[test]
 fn an_edge_that_passes_many_cells_in_a_step_wears_what_it_has_worked() {
     for (name, cells, steps, bound) in [

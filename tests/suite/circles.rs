@@ -1,4 +1,4 @@
-//! No circle of files: what a file imports never leads back to it.
+//! No import circles: what a file imports never leads back to it.
 //!
 //! A file may import from the `mod.rs` of its own folder, whose parts they both are; and a name that a `mod.rs` hands on is
 //! followed to the file that has it.
@@ -6,14 +6,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::floors::{is_test_file, paths, sources, without_tests};
+use super::layers::{is_test_file, paths, sources, without_tests};
 
 type Module = Vec<String>;
 
 /// The modules that are files, each with the paths in its code.
-struct House(BTreeMap<Module, Vec<Vec<String>>>);
+struct Imports(BTreeMap<Module, Vec<Vec<String>>>);
 
-impl House {
+impl Imports {
     fn of<'a>(files: impl IntoIterator<Item = (&'a Path, String)>) -> Self {
         let files = files.into_iter().map(|(path, text)| {
             let names = path.with_extension("");
@@ -24,7 +24,7 @@ impl House {
         Self(files.collect())
     }
 
-    /// The file that a path in the code of `module` leads to; `None` where that is none of the house's.
+    /// The file that a path in the code of `module` leads to; `None` if it leads outside `src`.
     fn resolve(&self, module: &[String], path: &[String]) -> Option<Module> {
         let ups = path.iter().take_while(|name| *name == "super").count();
         let (mut at, rest) = match path[0].as_str() {
@@ -84,25 +84,25 @@ fn no_file_imports_what_leads_back_to_it() {
         .iter()
         .map(|file| (file, file.strip_prefix(&root).expect("a path below src")));
     let files = files.filter(|(_, path)| !is_test_file(path) && !path.ends_with("main.rs"));
-    let house = House::of(
+    let imports = Imports::of(
         files.map(|(file, path)| (path, std::fs::read_to_string(file).expect("a source"))),
     );
     assert!(
-        house.0.len() > 200,
+        imports.0.len() > 200,
         "only {} files were read",
-        house.0.len()
+        imports.0.len()
     );
-    let circles = house.circles();
+    let circles = imports.circles();
     assert!(circles.is_empty(), "{circles:#?}");
 }
 
 #[test]
 fn a_circle_is_found_through_groups_and_through_names_that_are_handed_on() {
-    let house = |code: &[(&str, &str)]| {
+    let count = |code: &[(&str, &str)]| {
         let files = code
             .iter()
             .map(|(path, text)| (Path::new(*path), text.to_string()));
-        House::of(files).circles().len()
+        Imports::of(files).circles().len()
     };
     let parent = (
         "a/mod.rs",
@@ -120,13 +120,13 @@ fn a_circle_is_found_through_groups_and_through_names_that_are_handed_on() {
         ("use super::c;", "pub(in super::b) struct C;", 0),
     ] {
         assert_eq!(
-            house(&[parent, ("a/b.rs", b), ("a/c.rs", c)]),
+            count(&[parent, ("a/b.rs", b), ("a/c.rs", c)]),
             left,
             "{b} {c}"
         );
     }
     assert_eq!(
-        house(&[
+        count(&[
             ("a.rs", "use crate::d::D;"),
             ("d.rs", "use crate::a::A;"),
             ("e.rs", "use crate::a::A;")

@@ -2,11 +2,11 @@
 //!
 //! - `== heading` begins a section, in a new directory, and `- WORDS` is a remark. `> file` writes a file up to `<`, and
 //!   `% file FROM => TO` replaces text that must be there.
-//! - `$ LINE` runs the program, which must succeed and tell nothing on stderr; `$1 LINE` runs it to that exit code, and
+//! - `$ LINE` runs the program, which must succeed and print nothing on stderr; `$1 LINE` runs it to that exit code, and
 //!   `$* LINE` to any. `NAME=VALUE` before the words set the environment.
 //! - `# LINE` is a line of bash, which must succeed; `$BIN` in it is the program.
 //! - `= PRESET KEY=VALUE ..` loads a scenario, whose parts are `toml` and `=KEY`, which is `none` where there is no value.
-//! - `LINE | TEXT` must be refused with that text in one line, and nothing written (`|+` if other faults are told with it);
+//! - `LINE | TEXT` must be refused with that text in one line, and nothing written (`|+` if other faults are listed with it);
 //!   `@ WORDS` stand before such lines.
 //! - `? PART VERB TEXT` looks at what the last command has said or at files. Parts are `out`, `err`, `FILE`, `FILE#KEY` (the
 //!   value of a header line), `FILE:COLUMN` (its fields, `-` where they are empty), `FILE:COLUMN@ROW` (one of them, from 0,

@@ -1,7 +1,7 @@
 //! Conformance: every transform pair of the catalogue by every method on uniform and graded grids, with its observed
 //! order of convergence.
 //!
-//! `conformance.csv` has the orders; `UPDATE_ORDERS=1 cargo test conformance::` writes it anew, to be read before it
+//! `conformance.csv` has the orders; `UPDATE_ORDERS=1 cargo test conformance::` rewrites it, to be reviewed before it
 //! is kept. A kink is a third of a cell away from the nearest node of a uniform grid and on a node of a graded one,
 //! as where a simulation grades its own.
 

@@ -150,7 +150,7 @@ impl Rig {
         Scenario::from_toml(&text, "rig", &sets.collect::<Vec<_>>()).expect("a scenario")
     }
 
-    /// How many standard errors each of the keys is off, and what was said beside.
+    /// Returns by how many standard errors each of the keys is off.
     fn deviations(&mut self, data: Vec<Measured>, amplitude: f64, keys: &[&str]) -> Vec<f64> {
         let truth = |key: &str| match key {
             K => self.k,

@@ -208,7 +208,7 @@ fn lines(svg: &str) -> Vec<(Vec<[f64; 2]>, &str)> {
         .collect()
 }
 
-/// Frames of a sheet stand in rows and columns, whatever the words beside and below them are.
+/// Frames of a sheet are aligned in rows and columns, whatever the words next to and below them.
 #[test]
 fn frames_of_a_sheet_are_aligned_and_dashes_lie_on_top() {
     let dir = TestDir::new();

@@ -308,7 +308,7 @@ fn far_starts_lead_to_the_same_minimum() {
     }
 }
 
-/// A model that misses something is told, whatever the errors are.
+/// A model that misses something is reported, whatever the errors are.
 #[test]
 fn residuals_that_are_no_noise_are_said() {
     let [_, (_, rows)] = exact();

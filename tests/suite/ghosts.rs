@@ -76,7 +76,7 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
     );
     assert_eq!(rows("wear volume", "volume.csv")[3][5], "1e-17");
     assert_eq!(rows("depth over cycles", "depth.csv").len(), 4);
-    // The curve under the points has a name beside theirs.
+    // The curve under the points has a name next to theirs.
     has(&dir.read("f.svg"), ">computed<");
     // A symbol of four corners and a bar for each point of the scar, in two charts.
     let svg = dir.read("f.svg");
@@ -95,7 +95,7 @@ fn figures_have_measured_points_with_their_errors_beside_the_run() {
         rows.map(|row| row[2..].to_vec()).collect()
     };
     assert!(!of("").is_empty() && of("state.csv") == of("") && of("li2019-fig3") == of(""));
-    // What is drawn stays as it is: the data go beside it.
+    // What is drawn stays unchanged: the data go into a file next to it.
     let measured = dir.read("scar.csv");
     let names = dir.done("figure x --overlay scar.csv -o scar.svg --force");
     assert_eq!(names, "scar.svg and scar-drawn.csv\n");

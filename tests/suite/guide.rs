@@ -1,7 +1,7 @@
 //! The guide and the README hold: their commands parse, their scenarios load, their examples run,
 //! and what they list is what the program knows.
 //!
-//! `UPDATE_DOCS=1 cargo test guide::` writes the lists anew, to be read before they are kept.
+//! `UPDATE_DOCS=1 cargo test guide::` rewrites the lists, to be reviewed before they are kept.
 
 use std::fs;
 use std::path::{Path, PathBuf};

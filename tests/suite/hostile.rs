@@ -1,5 +1,5 @@
-//! Hostile input: what the fuzz targets check, on mutations that are made up anew each time; sizes
-//! that are refused before they cost anything; and text that would do something to a terminal.
+//! Hostile input: what the fuzz targets check, on mutations that differ in each run; sizes that are
+//! refused before they cost anything; and text that would do something to a terminal.
 
 #[path = "../fuzz/src/lib.rs"]
 pub mod fuzzed;
@@ -165,7 +165,7 @@ fn rude_paths_and_arguments_reach_no_terminal() {
     ] {
         assert_harmless(&dir.refuse(&arguments, ""), &format!("{arguments:?}"));
     }
-    // A directory of that name is written to, and told of, without harm.
+    // A directory of that name is written to, and its name printed, without harm.
     let said = dir.say(&["run", "hertz", "--cycles", "0.1", "--out", rude]);
     assert_eq!(said.code, 0, "{}", said.err);
     assert_harmless(&(said.out + &said.err), "--out");

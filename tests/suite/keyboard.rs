@@ -118,8 +118,8 @@ fn typing_in_the_parameter_list_loses_no_run() {
     }
 }
 
-/// Keys do what the topmost overlay says: none changes the run below, its pace or its plan. What steps the run beside an
-/// overlay is left out, and Enter, which chooses.
+/// Keys do what the topmost overlay says: none changes the run below, its pace or its plan. Keys that step the run under
+/// an overlay are left out, and Enter, which chooses.
 #[test]
 fn no_key_of_an_overlay_changes_the_run() {
     let sets = ["numerics.points=20", "numerics.steps_per_cycle=10"];

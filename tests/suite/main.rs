@@ -35,7 +35,6 @@ mod fatigue;
 mod figures;
 mod fine_period;
 mod fit;
-mod floors;
 mod flow;
 mod ghosts;
 mod growth;
@@ -47,6 +46,7 @@ mod hostile;
 mod key_fuzz;
 mod keyboard;
 #[cfg(target_os = "linux")]
+mod layers;
 mod limits;
 mod line;
 mod measured_shapes;

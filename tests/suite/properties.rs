@@ -20,7 +20,7 @@ fn any_method() -> impl Strategy<Value = AbelMethod> {
     prop::sample::select(AbelMethod::ALL.to_vec())
 }
 
-/// Few cases and no files beside the sources.
+/// Few cases and no files next to the sources.
 fn few(cases: u32) -> ProptestConfig {
     let failure_persistence = None;
     ProptestConfig {

@@ -218,8 +218,8 @@ fn b_loses_the_stick_zone_of_fig_3() {
     assert!(c < 0.4164 - 2.0 * h, "{c}");
 }
 
-/// The first cycles of Fig. 3 as commit 12f6992 computed them, before the simulation was written anew; on one machine
-/// the two agree to the last bit. V (m³), E_d (J), F_x and F_z (N), a and c (m) and the largest p (Pa). Other
+/// The first cycles of Fig. 3 as commit 12f6992 computed them, before the simulation was rewritten; on one machine the
+/// two agree to the last bit. V (m³), E_d (J), F_x and F_z (N), a and c (m) and the largest p (Pa). Other
 /// processors round otherwise.
 #[test]
 fn published_methods_are_as_they_were() {

@@ -1,8 +1,8 @@
-//! Screens: a few that tell much are pinned, all others must fit their size and not fail.
+//! Screens: a few that show much are pinned, all others must fit their size and not fail.
 //!
 //! Keys are played by `--keys`, and the screen comes from `--print`, so no terminal is needed. The
-//! pinned screens stand in `snapshots/`; `INSTA_UPDATE=always cargo test screens::` writes them
-//! anew, to be read before they are kept.
+//! pinned screens are in `snapshots/`; `INSTA_UPDATE=always cargo test screens::` rewrites them, to
+//! be reviewed before they are kept.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -273,7 +273,7 @@ fn the_status_line_has_fixed_slots() {
     }
 }
 
-/// The phase of the motion is told of a run that is shown at one phase, and of no other.
+/// The phase of the motion is shown only for a run that is shown at one phase.
 #[test]
 fn no_phase_is_told_when_the_run_is_done() {
     let mut stage = explorer("li2019-fig3");
@@ -311,7 +311,7 @@ fn a_preset_asks_for_a_logarithmic_scale() {
 /// A run of 20 cycles.
 const SHORT: [&str; 2] = ["li2019-fig3", "--set=run.cycles=20"];
 
-/// Where a legend has no room beside the curves, their names stand at their ends.
+/// Where a legend has no room next to the curves, their names stand at their ends.
 #[test]
 fn a_small_panel_hides_no_curve_behind_its_names() {
     let dir = TestDir::new();
@@ -495,7 +495,7 @@ fn the_status_line_begins_sensibly_however_narrow() {
         let begun = end.strip_suffix("..").unwrap_or(end);
         let is_whole = end.is_empty() || end == whole || begun != end;
         assert!(is_whole && whole.starts_with(begun), "{columns}: {status}");
-        // That nothing is wrong is told less than how right it is.
+        // The estimated error has precedence over the note that nothing is wrong.
         if columns >= 80 {
             has(status, "wear ±0.");
         }

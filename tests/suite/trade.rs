@@ -27,7 +27,7 @@ fn the_front_is_printed_and_drawn_and_everything_is_written() {
     let own = out.split("; its own error is ").nth(1);
     let own = own.and_then(|rest| rest.split(' ').next()?.parse::<f64>().ok());
     assert!(own.is_some_and(|own| own < 1e-3), "{out}");
-    // What an accuracy costs that finds its level by itself, beside the best fixed setting.
+    // The cost of an accuracy that finds its level by itself, next to the best fixed setting.
     for accuracy in ["1e-2: ", "1e-3: "] {
         let start = format!("numerics.accuracy = {accuracy}");
         let line = out.lines().find(|line| line.contains(&start));

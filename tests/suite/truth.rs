@@ -320,7 +320,7 @@ fn no_key_pressed_in_a_modal_changes_the_run() {
     let expected = state(&before);
     for open in ["?", "p", "e", ":", "a<Tab>", "<Enter>"] {
         for &key in &keys {
-            // The run can be watched beside these: what runs and steps it is theirs.
+            // These leave the run visible, and have keys that run and step it.
             let is_watched = match open {
                 "a<Tab>" | "<Enter>" => " .,+-=",
                 "e" => " ,[]+-=",

@@ -1,4 +1,4 @@
-//! Two programs that want the same files: one has them, the other is told so.
+//! Two programs that want the same files: one has them, the other is refused and says why.
 
 use std::fs;
 use std::thread;
@@ -19,7 +19,7 @@ fn race(dir: &TestDir, lines: [&str; 2], pause: Duration) -> (usize, Said, Said)
     }
 }
 
-/// The loser is told in one line: the winner is at work, or what it has left says so.
+/// The loser fails with one line: that the other program is at work, or what it has left.
 #[track_caller]
 fn hears_why(loser: &Said, left: &str) {
     let under_way = loser.err.contains("another run is writing there");

@@ -115,8 +115,8 @@ fn joined(
         .collect()
 }
 
-/// Returns the edges of a map's cells between points of different running conditions; `edges` are those of its columns
-/// and rows.
+/// Returns the edges of a map's cells between points of different running conditions; `edges` are its column and
+/// row edges.
 pub fn changes(slice: &Slice, [across, up]: [&[f64]; 2]) -> Option<Curve> {
     let [wide, high] = slice.size();
     let regime = |x: usize, y: usize| slice.results.regime(slice.point_at([x, y]));

@@ -15,7 +15,7 @@ pub use slice::Slice;
 /// Positive values with at least this ratio of largest to smallest get a logarithmic scale.
 const DECADES: f64 = 100.0;
 
-/// Free space beside curves with symbols, relative to the data's extent.
+/// Free space next to curves with symbols, relative to the data's extent.
 const MARGIN: f64 = 0.04;
 
 /// The column of the words.

@@ -76,7 +76,7 @@ pub enum Command {
     Figure(Figure),
     /// Find parameters from measured scars, loops and histories.
     Fit(Fit),
-    /// Tell what is understood of a measured table: columns, units, cycles, zeros; and draw it.
+    /// Show how a measured table is read: columns, units, cycles, zeros; and draw it.
     Inspect(Inspect),
     /// Print a completion script for a shell.
     #[command(
@@ -111,7 +111,7 @@ pub struct Explore {
     ///
     /// FILE is a CSV file (a scar: r_um, wear_nm; a loop: u_um, F_N; a history: cycle, wear_volume_um3 or depth_um;
     /// error_... for error bars), a run's or a snapshot's directory, one of its tables, or a scenario, which runs
-    /// beside.
+    /// alongside.
     #[arg(long, value_name = "FILE", add = ArgValueCompleter::new(complete::overlays))]
     pub overlay: Vec<OsString>,
     /// How the columns of measured overlays are to be read.
@@ -131,7 +131,7 @@ pub struct Explore {
     pub screen: Screen,
 }
 
-/// What opens the screen may say of it.
+/// Display options.
 #[derive(Debug, Clone, Args)]
 pub struct Screen {
     /// Maximum frame rate per second; default 10.

@@ -182,7 +182,7 @@ pub struct Fit {
     /// If loops and scenario differ in their stroke: refuse, or use the stroke of the loops.
     #[arg(long, value_enum, default_value_t)]
     pub stroke: StrokeSource,
-    /// Time limit of the search, e.g. 60s or 5min; then the best found so far is told.
+    /// Time limit of the search, e.g. 60s or 5min; then the best result so far is reported.
     #[arg(long, value_name = "TIME", value_parser = budget)]
     pub budget: Option<f64>,
     /// Write the fitted scenario to this file.
@@ -245,14 +245,14 @@ pub struct Inspect {
     /// How its columns are to be read.
     #[command(flatten)]
     pub naming: NamingOptions,
-    /// Print the figures of this scenario beside those of each cycle of a loop's record, which ends with the scenario's cycle
-    /// X with FILE@X, else with its last one.
+    /// Print the figures of this scenario next to the figures of each cycle of a loop's record, which ends with the
+    /// scenario's cycle X with FILE@X, else with its last one.
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<OsString>,
     /// Look at these cycles of a loop's record, counted from 1.
     #[arg(long, value_name = "FIRST..LAST")]
     pub pick: Option<Pick>,
-    /// The normal force, for the coefficient of friction of each cycle, e.g. 30N; default: that of --scenario.
+    /// The normal force, for the coefficient of friction of each cycle, e.g. 30N; default: the one of --scenario.
     #[arg(long, value_name = "FORCE", value_parser = load)]
     pub load: Option<f64>,
     /// What the plot is made of.
@@ -280,7 +280,7 @@ fn wear_numbers() -> impl Fn(&str) -> Result<f64, String> + Clone {
 /// What `stability` does with stiff steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Guard {
-    /// Take every step as it is.
+    /// Take every step unsplit.
     Off,
     /// Split stiff steps.
     On,

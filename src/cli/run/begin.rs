@@ -91,7 +91,7 @@ impl<'a> Job<'a> {
             }
         };
         bring_files(&mut job, &folder)?;
-        // The session goes on here, so nobody needs to be told of it any more.
+        // The session is resumed here, so the notice about its crash is no longer needed.
         autosave::forget_crash(file);
         let resumed = Self::new(options, name, session, job, folder);
         let cycle = resumed.session.simulation().cycle();

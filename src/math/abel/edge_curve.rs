@@ -20,7 +20,7 @@
 //!
 //! - **Order**: of an even pressure, what is left of the error is a tenth of it at N = 60, and falls with the cells.
 //! - **Cost**: a logarithm, an arc tangent and a few square roots for each of the last nodes.
-//! - **At the contact edge**: nodes outside of it are left as they are.
+//! - **At the contact edge**: nodes outside it stay unchanged.
 //! - **Known failure**: of a line contact, r is taken for x, which are nearly the same in the last cells.
 
 use std::f64::consts::PI;
@@ -38,7 +38,7 @@ pub struct EdgeCurve {
 }
 
 impl EdgeCurve {
-    /// That at the `edge` a² (m²) under a dome of the `height` h/E*.
+    /// Makes the curve at the `edge` a² (m²) under a dome of the `height` h/E*.
     pub fn new(height: f64, edge: f64) -> Self {
         let steepness = height / (2.0 * PI * edge.sqrt());
         Self { steepness, edge }

@@ -88,7 +88,7 @@ pub struct Sawtooth {
     ///
     /// Measured, not derived: on the motion of Fig. 3 with 20 cycles, at N from 25 to 200 and 50 to 400 steps per cycle,
     /// 0.38 to 0.44 with b and 0.038 to 0.055 with benad. The eigenvalues of the map from a profile to its wear per cycle
-    /// do not predict this: with b they equal those of other methods, with benad they change fourfold with N. On other
+    /// do not predict this: with b they equal the other methods', with benad they change fourfold with N. On other
     /// motions the constants may be off by more than 1.5.
     pub from: f64,
     /// Its cause.

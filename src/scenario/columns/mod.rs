@@ -39,7 +39,8 @@ pub struct Columns {
     pub names: Vec<String>,
     /// How the text is written: its encoding, its separators, its decimal mark.
     pub written: String,
-    /// The same names in units of [`UNITS`](crate::reading::column::UNITS), and what one of the file's units is worth in those.
+    /// The same names in units of [`UNITS`](crate::reading::column::UNITS), and the value of one of the file's units in
+    /// these.
     own: Vec<(String, f64)>,
     /// The line of each row, counted from 1, and its fields.
     rows: Vec<NumberedLine>,

@@ -18,7 +18,7 @@
 //! springs shake down. If it would need more cycles than it covers, cycles are stepped directly for
 //! a while.
 //!
-//! - **Order**: second in the length of the jump; the wear within one cycle is that of the scheme.
+//! - **Order**: second in the length of the jump; within one cycle, the order of the scheme.
 //! - **Cost**: as many evaluated cycles as stages, or two, whatever the number of cycles covered.
 //! - **Known failure**: motions that never repeat cannot be jumped; they are stepped directly.
 
@@ -88,7 +88,7 @@ pub(in super::super) fn is_possible(setup: &Setup, state: &State) -> bool {
 
 /// Jumps over at most `most` cycles, into `next`; if jumps do not pay, `next` is `state` with a rest.
 ///
-/// The first try is as long as it would be without a goal. A run saved at the end of a jump towards a distant goal is
+/// The goal does not shorten the first try. A run saved at the end of a jump towards a distant goal is
 /// repeated with that cycle as its goal; a shorter first try, if rejected, would lead to other jumps.
 pub(in super::super) fn jump(
     model: &Model,

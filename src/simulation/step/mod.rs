@@ -15,8 +15,8 @@
 //! and returns a reference to it, which the next phases take.
 //!
 //! [`euler`] and [`trapezoid`] choose the profile for the contact and the stress for the wear.
-//! [`attempt`] tries a step, [`substep`] takes it, in parts where it is too stiff; [`cycle_jump`] takes many cycles at once, by the
-//! wear of a [steady-state cycle](steady_cycle).
+//! [`attempt`] tries a step, [`substep`] takes it, in parts where it is too stiff; [`cycle_jump`] takes many cycles at
+//! once, by the wear of a [steady-state cycle](steady_cycle).
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;

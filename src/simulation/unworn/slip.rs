@@ -54,7 +54,7 @@ impl Unworn<'_> {
     }
 
     /// Returns the displacement, m, from which the whole contact slips at a held `depth` (m): U = d/κ, κ = G*/(μE*), for
-    /// any shape; that of a line is relative to its gauge.
+    /// any shape; relative to the gauge for a line.
     pub fn gross_slip_shift(&self, depth: f64) -> f64 {
         match self.geometry {
             Geometry::Round => depth / self.material.stick_ratio(),

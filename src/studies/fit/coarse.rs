@@ -25,7 +25,7 @@ pub(super) fn of_search(scenario: &Scenario) -> Result<Scenario> {
     Ok(level.of_scenario(scenario)?)
 }
 
-/// The scenario on the first level on which a fit may end: two finer than that of the search.
+/// Returns the scenario on the first level on which a fit may end: two levels finer than the search.
 pub(super) fn of_figures(scenario: &Scenario) -> Result<Scenario> {
     let search = of_search(scenario)?;
     if scenario.accuracy().is_none() {

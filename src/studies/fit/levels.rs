@@ -12,13 +12,13 @@ use super::search::{Found, Search};
 use super::solver::Free;
 use crate::studies::refinement::{Level, difference_per_error};
 
-/// How much smaller its tolerance of jumps is: their errors add up to its power of two thirds.
+/// How much smaller its tolerance of jumps is: their errors add up to this to the power of two thirds.
 const LESS_TOLERANT: f64 = 2.0;
 
-/// An error is small that is less than this part of the statistical one.
+/// An error is small if it is less than this fraction of the statistical one.
 const SMALL: f64 = 0.3;
 
-/// The most levels, and the most cells times steps of one that is followed by a finer one though the accuracy is met.
+/// Maximum number of levels, and of cells times steps of a level that is refined although the accuracy is met.
 const MOST_LEVELS: usize = 5;
 const MOST_WORK: f64 = 5e5;
 

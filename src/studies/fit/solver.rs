@@ -167,7 +167,8 @@ impl MPFitter for LeastSquares<'_> {
     }
 }
 
-/// Seeks the minimum of the sum of squares of `residuals`, of which there are `points`, from `theta`. Returns the keys there, positive ones by their logarithms.
+/// Seeks the minimum of the sum of squares of the `points` values of `residuals` from `theta`. Returns the keys there,
+/// positive ones by their logarithms.
 ///
 /// # Errors
 /// In words, where the search cannot begin or does not end.

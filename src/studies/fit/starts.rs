@@ -10,7 +10,7 @@ use super::structure::Structure;
 /// Starts that are tried around the given ones, in e-folds of each key: factors of 10 and 100.
 const STARTS: [f64; 5] = [0.0, -LN_10, LN_10, -2.0 * LN_10, 2.0 * LN_10];
 
-/// Maximum number of keys varied together when looking for a start; more are varied one by one.
+/// Maximum number of keys varied together when looking for a start; more are varied in turn.
 const TOGETHER: usize = 2;
 
 /// Starts from which the minimum is sought.

@@ -36,8 +36,8 @@ const LEAST_GAIN: f64 = 1.5;
 /// the scar.
 const PILOT: Ratio = [1.0, 0.5, 1.0];
 
-/// The most jumps of that run. On few cells and steps, jumps may never settle, since a node touches
-/// and leaves in turn, a few cycles each (Fig. 3 at 10⁶ cycles: 73,763 jumps); by then the scar has the shape that cells need.
+/// Maximum number of jumps of that run. On few cells and steps, jumps may never settle, since a node touches and leaves
+/// in turn, a few cycles each (Fig. 3 at 10⁶ cycles: 73,763 jumps); by then the scar has the shape that cells need.
 const PILOT_JUMPS: u64 = 500;
 
 /// Runs of at least this many periods of the motion jump over cycles.

@@ -60,7 +60,7 @@ pub fn validated(study: &Study, point: usize) -> Result<(), Refusal> {
 }
 
 /// Runs the points `todo` of `study` on as many `threads`, and passes each row to `finished` on the calling thread as
-/// soon as it is there. If `go_on` or `finished` returns false, stops after the current steps and loses unfinished
+/// soon as it is complete. If `go_on` or `finished` returns false, stops after the current steps and loses unfinished
 /// points.
 ///
 /// # Errors

@@ -39,7 +39,7 @@ impl Results {
     }
 
     /// Reads the rows of `records`, tables of the same study, whose points belong to a shard. A row goes to the first
-    /// point with its values that has none.
+    /// point with its values that has no row yet.
     ///
     /// # Errors
     ///

@@ -122,7 +122,7 @@ fn mark(view: &MapView, chart: &mut Chart) {
     chart.points.extend(signs);
 }
 
-/// Returns what the cursor reads: the point with its place on the axes, and its values, that of the shown column first.
+/// Returns what the cursor reads: the point with its place on the axes, and its values, the shown column first.
 fn told(view: &MapView, theme: &Theme, width: u16) -> Vec<Line<'static>> {
     let (study, point) = (&view.slice.results.study, view.point());
     let axes = study.axes.iter().zip(study.places(point));

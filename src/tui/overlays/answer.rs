@@ -25,8 +25,8 @@ pub enum Answer {
     Run(Command),
 }
 
-/// Handles a key in an overlay beside which the run can be watched: `closing` commands only close it, `watched`
-/// commands run while it stays, and other keys do nothing.
+/// Handles a key in an overlay that leaves the run visible: `closing` commands only close it, `watched` commands run
+/// while it stays, and other keys do nothing.
 pub(super) fn watch(key: Keystroke, closing: &[Command], watched: &[Command]) -> Answer {
     match command::of_key(key) {
         Some(Command::Quit) => Answer::Close,

@@ -41,16 +41,16 @@ const WATCHED: &[Command] = &[
     Command::TimeForth,
 ];
 
-/// The width of the keys, in cells, and in a narrow list or one beside the panels.
+/// The width of the keys, in cells; the second is for a narrow list or one next to the panels.
 const KEYS: usize = 38;
 const BRIEF: usize = 30;
 
 /// Minimum width for whole keys and a title with all of the keys.
 const WIDE: u16 = 76;
 
-/// The rows of the description below the list, and in the list beside the panels.
+/// The rows of the description below the list; the second is for the list next to the panels.
 const BELOW: u16 = 4;
-const BESIDE: u16 = 6;
+const NEXT_TO_PANELS: u16 = 6;
 
 impl Form {
     /// Returns the settings that pass the filter.
@@ -172,7 +172,7 @@ impl Form {
         };
         let rows = (canvas.area.height / 2).clamp(8, 20);
         let (mut inside, told) = if is_beside {
-            (canvas.popup(&title, (LIST, u16::MAX)), BESIDE)
+            (canvas.popup(&title, (LIST, u16::MAX)), NEXT_TO_PANELS)
         } else {
             (canvas.docked(&title, rows + BELOW), BELOW)
         };
@@ -264,5 +264,5 @@ fn describe(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'s
 
 fn change(setting: &Setting, value: String, explorer: &mut Explorer) {
     let key = setting.key.path;
-    explorer.order(Order::ChangeBeside(changes::set(key, value)));
+    explorer.order(Order::ChangeWithGhost(changes::set(key, value)));
 }

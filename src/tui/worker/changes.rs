@@ -101,16 +101,16 @@ impl Worker {
         self.change(shift, false);
     }
 
-    /// Has `change` change the run from here on, and tells the user what it has done. If `beside`, the run from before
-    /// the first such change continues as a ghost.
-    pub(super) fn change(&mut self, change: SessionChange, beside: bool) {
+    /// Applies `change` to the run from here on, and shows what it has done. If `with_ghost`, the run from before the
+    /// first such change continues as a ghost.
+    pub(super) fn change(&mut self, change: SessionChange, with_ghost: bool) {
         let mut changed = self.run.clone();
         let Some(done) = self.screen.or_notice(change(&mut changed.session)) else {
             return;
         };
         self.past.store(&self.run);
         let before = replace(&mut self.run, changed).session;
-        if beside && before.changes().len() != self.run.session.changes().len() {
+        if with_ghost && before.changes().len() != self.run.session.changes().len() {
             let ghost = &mut self.ghosts.before;
             ghost.get_or_insert_with(|| Source::unchanged(before));
         }

@@ -1,4 +1,4 @@
-//! What the user asks for beside the run: files, texts and studies.
+//! What the user asks for besides the run: files, texts and studies.
 
 use std::path::PathBuf;
 

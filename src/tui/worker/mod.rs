@@ -60,7 +60,7 @@ pub enum Order {
     /// Changes the scenario from here on.
     Change(SessionChange),
     /// The same. The run from before the first such change continues as a ghost, until it is dropped.
-    ChangeBeside(SessionChange),
+    ChangeWithGhost(SessionChange),
     /// Steps by this many places through the transform methods, of a comparison if there is one.
     Method(isize),
     /// Changes what is drawn over the plots.
@@ -179,7 +179,7 @@ impl Worker {
         locked(&self.autosave).finish(run)
     }
 
-    /// Handles orders and steps in between, until told to quit.
+    /// Handles orders and steps in between, until ordered to quit.
     pub fn serve(&mut self, orders: &Receiver<Order>) {
         self.publish();
         loop {
@@ -225,7 +225,7 @@ impl Worker {
             Order::GoTo(cycle) => self.go_to(cycle),
             Order::GoToPlanned(forward) => self.go_to_planned(forward),
             Order::Change(change) => self.change(change, false),
-            Order::ChangeBeside(change) => self.change(change, true),
+            Order::ChangeWithGhost(change) => self.change(change, true),
             Order::Method(places) => self.change_method(places),
             Order::Ghosts(act) => self.screen.tell(act(&mut self.ghosts, &self.run)),
             Order::EstimateErrors => self.compare_twin(true),

@@ -132,8 +132,9 @@ impl Pace {
         self.requested() <= BLURRED && !simulation.may_jump()
     }
 
-    /// Returns the seconds until the next step is due: none on the way to a cycle at full speed. A jump over many cycles is due a fixed time after the one
-    /// before: its length must not depend on the pace, or runs would not be repeatable.
+    /// Returns the seconds until the next step is due: 0 on the way to a cycle at full speed. A jump over many cycles is
+    /// due a fixed time after the previous one: its length must not depend on the pace, or runs would not be
+    /// repeatable.
     pub(super) fn ahead(&self, simulation: &Simulation) -> f64 {
         let pace = self.requested();
         if self.stop_at.is_some() {

@@ -1,4 +1,4 @@
-//! The house stands upright: a floor imports only from the floors below it.
+//! Layers: a module imports only from the layers below its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,9 +7,9 @@ use mdr_tui::reading::Column;
 
 use crate::tables;
 
-/// A floor's height; none for what is not a floor. `cli` stands on `tui`.
-fn height(floor: &str) -> Option<u8> {
-    Some(match floor {
+/// Returns the height of a layer, or `None` if there is no such layer. `cli` is above `tui`.
+fn height(layer: &str) -> Option<u8> {
+    Some(match layer {
         "math" | "guide" => 0,
         "contact" => 1,
         "wear" => 2,
@@ -26,37 +26,37 @@ fn height(floor: &str) -> Option<u8> {
     })
 }
 
-/// What is wrong with the imports of one file of `floor`, one line each.
-fn faults(floor: &str, text: &str) -> Vec<String> {
+/// Returns what is wrong with the imports of one file of `layer`, one line each.
+fn faults(layer: &str, text: &str) -> Vec<String> {
     let code = without_tests(text);
     let mut faults: Vec<String> = imports(&code)
         .into_iter()
-        .filter(|target| !may_import(floor, target))
-        .map(|target| format!("{floor} imports {target}"))
+        .filter(|target| !may_import(layer, target))
+        .map(|target| format!("{layer} imports {target}"))
         .collect();
     if code.contains("use super::*") {
         faults.push(format!(
-            "{floor} imports all that its parent has, so that no line tells what it needs"
+            "{layer} imports everything that its parent has, so that no line shows what it needs"
         ));
     }
-    // What is above the readers sees observations of it.
-    if height(floor) > height("reading")
+    // Layers above the readers see observations of a simulation only.
+    if height(layer) > height("reading")
         && [".state()", ".model()"]
             .iter()
             .any(|inside| code.contains(inside))
     {
-        faults.push(format!("{floor} looks into the state of a simulation"));
+        faults.push(format!("{layer} looks into the state of a simulation"));
     }
     faults
 }
 
-fn may_import(floor: &str, target: &str) -> bool {
-    if floor == target {
+fn may_import(layer: &str, target: &str) -> bool {
+    if layer == target {
         return true;
     }
-    match (height(floor), height(target)) {
+    match (height(layer), height(target)) {
         (Some(from), Some(to)) => to < from,
-        // What the process does when it fails: below every floor.
+        // What the process does when it fails: below every layer.
         (Some(_), None) => ["failpoint", "panics"].contains(&target),
         _ => false,
     }
@@ -68,8 +68,8 @@ fn imports(code: &str) -> Vec<String> {
     of_ours.filter_map(|path| path.into_iter().nth(1)).collect()
 }
 
-/// Every path that is imported by `use`, or begins with `crate` or `super`, as its names; groups in braces are taken
-/// apart.
+/// Every path that is imported by `use`, or begins with `crate` or `super`, as its names; groups in braces are split
+/// into their members.
 pub fn paths(code: &str) -> Vec<Vec<String>> {
     let mut found = Vec::new();
     let mut before = ' ';
@@ -78,7 +78,7 @@ pub fn paths(code: &str) -> Vec<Vec<String>> {
         before = sign;
         match head(&code[at..]).as_str() {
             "use" if begins => _ = members(&code[at + 3..], &[], &mut found),
-            // How far something is seen is no import.
+            // A visibility is not an import.
             "crate" | "super" if begins && !code[..at].ends_with("(in ") => {
                 members(&code[at..], &[], &mut found);
             }
@@ -108,7 +108,7 @@ fn members<'t>(text: &'t str, before: &[String], found: &mut Vec<Vec<String>>) -
     match rest.strip_prefix("::") {
         Some(rest) => members(rest, &path, found),
         None => {
-            // Behind the last comma of a group nothing follows.
+            // Nothing follows the last comma of a group.
             found.extend((!is_empty).then_some(path));
             rest
         }
@@ -121,8 +121,8 @@ fn head(path: &str) -> String {
         .collect()
 }
 
-/// The code without comments, and without what stands under `#[cfg(test)]` up to where `rustfmt` ends an item: a line as
-/// far to the left that ends it.
+/// Returns the code without comments and without items under `#[cfg(test)]`. With `rustfmt`, such an item ends at a line
+/// of the same indentation that closes it.
 pub fn without_tests(text: &str) -> String {
     let mut kept = String::new();
     let mut lines = text.lines();
@@ -143,8 +143,8 @@ pub fn without_tests(text: &str) -> String {
     kept
 }
 
-/// The floor that a path below `src` belongs to; none for the entries and the module map.
-fn floor_of(path: &Path) -> Option<String> {
+/// Returns the layer that a path below `src` belongs to; `None` for the entry points and the module map.
+fn layer_of(path: &Path) -> Option<String> {
     let first = path.components().next()?.as_os_str().to_str()?;
     let name = first.strip_suffix(".rs").unwrap_or(first);
     (!["lib", "main", "failpoint", "panics"].contains(&name)).then(|| name.to_owned())
@@ -175,19 +175,19 @@ fn every_import_points_downwards() {
     let (mut seen, mut wrong) = (0, Vec::new());
     for file in sources(&root) {
         let path = file.strip_prefix(&root).expect("a path below src");
-        let Some(floor) = floor_of(path) else {
+        let Some(layer) = layer_of(path) else {
             continue;
         };
         if is_test_file(path) {
             continue;
         }
         assert!(
-            height(&floor).is_some(),
-            "{} stands on no known floor",
+            height(&layer).is_some(),
+            "{} is in no known layer",
             path.display()
         );
         let text = fs::read_to_string(&file).expect("a source");
-        let found = faults(&floor, &text);
+        let found = faults(&layer, &text);
         wrong.extend(
             found
                 .into_iter()
@@ -220,13 +220,13 @@ fn names_of_columns_stand_in_one_table() {
     }
 }
 
-/// `floors.txt` has code of floors, and whether it is wrong.
+/// `layers.txt` has code of layers, and whether it is wrong.
 #[test]
 fn the_checker_catches_what_it_must_and_lets_pass_what_is_right() {
-    for row in tables::read("floors.txt").lines().skip(2) {
-        let (judged, code) = row.split_once(" | ").expect("FLOOR is VERDICT | CODE");
-        let (floor, verdict) = judged.split_once(" is ").expect("FLOOR is VERDICT");
-        let found = faults(floor, &code.replace("\\n", "\n"));
+    for row in tables::read("layers.txt").lines().skip(2) {
+        let (judged, code) = row.split_once(" | ").expect("LAYER is VERDICT | CODE");
+        let (layer, verdict) = judged.split_once(" is ").expect("LAYER is VERDICT");
+        let found = faults(layer, &code.replace("\\n", "\n"));
         assert_eq!(
             found.len(),
             usize::from(verdict == "wrong"),

@@ -111,7 +111,7 @@ impl Run {
         let Some(last) = last.map(Arc::as_ref).or(self.field.as_ref()) else {
             return Vec::new();
         };
-        let told = [
+        let known = [
             "scenario",
             "method",
             "law",
@@ -124,7 +124,7 @@ impl Run {
             Column::ForceError.name(),
             "checks",
         ];
-        let mut facts: Vec<(String, String)> = told
+        let mut facts: Vec<(String, String)> = known
             .into_iter()
             .filter_map(|key| Some((key.to_owned(), last.fact(key)?.to_owned())))
             .collect();

@@ -47,10 +47,10 @@ pub fn figure(options: &Figure) -> Result<()> {
             continue;
         }
         files.push((Target::claim(path, options.force)?, format));
-        let beside = data_file(path, options);
-        if data_files.iter().all(|target| target.path() != beside) {
-            let is_replaced = options.force || is_data_of_a_figure(&beside);
-            data_files.push(Target::claim(&beside, is_replaced)?);
+        let data_path = data_file(path, options);
+        if data_files.iter().all(|target| target.path() != data_path) {
+            let is_replaced = options.force || is_data_of_a_figure(&data_path);
+            data_files.push(Target::claim(&data_path, is_replaced)?);
         }
     }
     let sheet = sheet(options)?;
@@ -82,14 +82,16 @@ fn data_file(path: &Path, options: &Figure) -> PathBuf {
     let real = |path: &Path| path.canonicalize().ok();
     let given = options.source.iter().chain(&options.overlay);
     let given: Vec<PathBuf> = given.filter_map(|name| real(Path::new(name))).collect();
-    let mut beside = path.with_extension("csv");
-    let is_drawn = |beside: &Path| real(beside).is_some_and(|beside| given.contains(&beside));
-    let is_free = |beside: &Path| beside.symlink_metadata().is_err() || is_data_of_a_figure(beside);
-    while is_drawn(&beside) || !is_free(&beside) {
-        let stem = beside.file_stem().unwrap_or_default().to_string_lossy();
-        beside = beside.with_file_name(format!("{stem}-drawn.csv"));
+    let mut data_path = path.with_extension("csv");
+    let is_drawn =
+        |data_path: &Path| real(data_path).is_some_and(|data_path| given.contains(&data_path));
+    let is_free =
+        |data_path: &Path| data_path.symlink_metadata().is_err() || is_data_of_a_figure(data_path);
+    while is_drawn(&data_path) || !is_free(&data_path) {
+        let stem = data_path.file_stem().unwrap_or_default().to_string_lossy();
+        data_path = data_path.with_file_name(format!("{stem}-drawn.csv"));
     }
-    beside
+    data_path
 }
 
 /// Whether a file was written by [`Sheet::csv`], judging by its header and columns.

@@ -56,11 +56,11 @@ pub fn inspect(options: &Inspect) -> Result<()> {
         let scenario = scenario
             .map(|name| given::scenario(name, &[]))
             .transpose()?;
-        let beside = scenario.as_ref().map(|scenario| {
+        let compared = scenario.as_ref().map(|scenario| {
             let end = cycle.or(measured.cycle).or(scenario.run().cycles);
             (scenario, end.unwrap_or(1.0))
         });
-        understood.cycles = Cycles::new(&measured, options.load, beside)?;
+        understood.cycles = Cycles::new(&measured, options.load, compared)?;
         understood.notes.extend(understood.cycles.trends());
     }
     let mut report = understood.report();

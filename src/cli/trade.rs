@@ -154,7 +154,7 @@ fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reached)
         Verdict::Met => "",
         _ => ", not reached",
     };
-    let beside = match cheapest(trials, accuracy) {
+    let cheapest_setting = match cheapest(trials, accuracy) {
         Some((trial, [fixed, _])) => format!(
             "{:.1} times the cheapest fixed setting ({}, {fixed:.1e} s)",
             seconds / fixed,
@@ -164,7 +164,7 @@ fn cost(accuracy: f64, reached: &Reached, trials: &[Trial], reference: &Reached)
     };
     format!(
         "numerics.accuracy = {accuracy:e}{met}: {seconds:.1e} s in all, ends at N = {points}, {steps} steps per cycle; \
-         error of scar and volume {:.1e}; {beside}",
+         error of scar and volume {:.1e}; {cheapest_setting}",
         errors.promised()
     )
 }

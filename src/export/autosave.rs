@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn any_name_beside_it_or_of_its_scenario_leaves_room_for_another() {
+    fn any_name_next_to_it_or_of_its_scenario_leaves_room_for_another() {
         let base = tempfile::tempdir().expect("a directory");
         for number in [u64::MAX, u64::from(u32::MAX)] {
             let path = base.path().join(format!("x-{number}.{ENDING}"));
@@ -451,7 +451,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_saved_at_home_goes_elsewhere_and_comes_back_and_is_told_once() {
+    fn what_cannot_be_saved_at_home_goes_elsewhere_and_comes_back_with_one_notice() {
         let base = tempfile::tempdir().expect("a directory");
         let [place, away, state] = ["run", "away", "state"].map(|name| base.path().join(name));
         let run = RunFolder::create(&place, false).expect("a directory");

@@ -201,8 +201,8 @@ impl Chart {
         let [x, y] = &frame.rulers;
         let below = [left + 0.5 * width, bottom + 2.7 * font];
         canvas.text(below, &title(&self.x, &x.unit), font, Anchor::Middle);
-        let beside = [edge + 1.2 * font, top + 0.5 * height];
-        canvas.text_upwards(beside, &title(&self.y, &y.unit), font);
+        let title_at = [edge + 1.2 * font, top + 0.5 * height];
+        canvas.text_upwards(title_at, &title(&self.y, &y.unit), font);
     }
 
     /// Draws the names of the curves in the corner where they cover the least of them, or below a map.

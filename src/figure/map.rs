@@ -35,13 +35,13 @@ impl<'a> ColorKey<'a> {
     pub fn draw(&self, frame: &Interior, canvas: &mut Page, look: &FigureStyle) {
         let font = look.font;
         let (left, top, height) = (frame.right() + 0.8 * font, frame.top, frame.size[1]);
-        let beside = left + 1.4 * font;
+        let label_x = left + 1.4 * font;
         let is_there = |k: usize| self.map.values.contains(&(k as f64));
         let words = self.map.words.iter().enumerate();
         for (line, (k, word)) in words.filter(|(k, _)| is_there(*k)).enumerate() {
             let y = top + 1.4 * font * line as f64;
             canvas.area([left, y], [font, font], look.regime(k));
-            canvas.text([beside, y + 0.86 * font], word, font, Anchor::Start);
+            canvas.text([label_x, y + 0.86 * font], word, font, Anchor::Start);
         }
         if !self.map.words.is_empty() {
             return;
@@ -57,7 +57,7 @@ impl<'a> ColorKey<'a> {
         for tick in &self.ruler.ticks {
             if let Some(share) = self.ruler.window.share(tick.value) {
                 let y = top + height * (1.0 - share) + 0.36 * font;
-                canvas.text([beside, y], &numeral(&tick.label), font, Anchor::Start);
+                canvas.text([label_x, y], &numeral(&tick.label), font, Anchor::Start);
             }
         }
         let title = title(&self.map.quantity, &self.ruler.unit);

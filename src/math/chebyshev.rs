@@ -200,7 +200,7 @@ mod tests {
 
     /// |λ| up to half the largest, up to 14° off the axis.
     #[test]
-    fn steps_are_stable_beside_the_real_axis() {
+    fn steps_are_stable_off_the_real_axis() {
         for stiffness in [3.0, 10.0, 35.0, 100.0, 250.0] {
             let stages = stages_for(stiffness);
             for (share, degrees) in [
@@ -241,10 +241,10 @@ mod tests {
             };
             let Ok(end) = step(stages, h, &[1.0], &[-1.0], slope);
             let made = end[0] - 1.0 / (1.0 + h);
-            let told = error(h, 1.0, end[0], -1.0, f(end[0]));
+            let estimated = error(h, 1.0, end[0], -1.0, f(end[0]));
             assert!(
-                (0.2..5.0).contains(&(told / made).abs()),
-                "{stages} {h}: {told} {made}"
+                (0.2..5.0).contains(&(estimated / made).abs()),
+                "{stages} {h}: {estimated} {made}"
             );
         }
     }

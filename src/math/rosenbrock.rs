@@ -109,7 +109,10 @@ mod tests {
         };
         let Ok(end) = step(h, &[0.0], &[1.0], solve, slope);
         let made = 1.0 - (-h).exp() - end[0];
-        let told = solve(&defect(h, [&[0.0], &end], [&[1.0], &[f(end[0])]]))[0];
-        assert!((0.5..2.0).contains(&(told / made).abs()), "{told} {made}");
+        let estimated = solve(&defect(h, [&[0.0], &end], [&[1.0], &[f(end[0])]]))[0];
+        assert!(
+            (0.5..2.0).contains(&(estimated / made).abs()),
+            "{estimated} {made}"
+        );
     }
 }

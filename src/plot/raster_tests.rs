@@ -25,7 +25,7 @@ fn drawn(points: &[Position]) -> Vec<(usize, usize)> {
 }
 
 #[test]
-fn every_marker_sets_the_dot_it_is_told() {
+fn every_marker_sets_the_dot_asked_for() {
     for marker in [
         Marker::Braille,
         Marker::HalfBlock,

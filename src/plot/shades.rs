@@ -137,11 +137,11 @@ mod tests {
                 let theme = Theme::new(look, Marker::Braille).with_depth(Depth::Indexed);
                 let share = |shade: usize| (shade as f64 + 0.5) / SHADES as f64;
                 let shades = (0..SHADES).map(|shade| color(&theme, map, share(shade)));
-                let mut told: Vec<_> = shades.collect();
-                told.dedup();
+                let mut distinct: Vec<_> = shades.collect();
+                distinct.dedup();
                 // The two shades next to zero in a diverging map share a grey.
                 let shared = usize::from(map == ColorMap::Diverging);
-                assert_eq!(told.len(), SHADES - shared, "{told:?}");
+                assert_eq!(distinct.len(), SHADES - shared, "{distinct:?}");
             }
         }
     }
@@ -152,16 +152,17 @@ mod tests {
             let theme = Theme::new(look, Marker::Braille).with_depth(Depth::True);
             let shares = (0..1000).map(|k| f64::from(k) / 999.0);
             let shown = |share| color(&theme, ColorMap::Sequential, share);
-            let mut told: Vec<_> = shares.map(shown).collect();
-            let [Some(&Some(Color::Rgb(r, g, b))), Some(&Some(last))] = [told.first(), told.last()]
+            let mut distinct: Vec<_> = shares.map(shown).collect();
+            let [Some(&Some(Color::Rgb(r, g, b))), Some(&Some(last))] =
+                [distinct.first(), distinct.last()]
             else {
                 panic!("no mixed colours");
             };
             let ends = [SEQUENTIAL[0], SEQUENTIAL[SHADES - 1]].map(indexed);
-            assert!(ends.contains(&[r, g, b]), "{:?}", told[0]);
-            assert_ne!(told[0], Some(last));
-            told.dedup();
-            assert_eq!(told.len(), FINE_SHADES as usize);
+            assert!(ends.contains(&[r, g, b]), "{:?}", distinct[0]);
+            assert_ne!(distinct[0], Some(last));
+            distinct.dedup();
+            assert_eq!(distinct.len(), FINE_SHADES as usize);
         }
     }
 }

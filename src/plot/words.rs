@@ -75,8 +75,8 @@ impl PlotLayout<'_> {
                 continue;
             }
             // Without room above the line, the label goes next to its upper end, unless a curve passes there.
-            let beside = [Some(column + 1), column.checked_sub(width)];
-            let mut spots = beside.into_iter().flatten();
+            let neighbours = [Some(column + 1), column.checked_sub(width)];
+            let mut spots = neighbours.into_iter().flatten();
             let spot = spots.find_map(|x| {
                 let around = Rect::new(x.saturating_sub(1), inner.y, width + 2, 1);
                 let is_taken = legend.as_ref().is_some_and(|it| it.area.intersects(around));

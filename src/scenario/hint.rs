@@ -66,8 +66,8 @@ pub(super) fn meant(path: &str) -> Vec<(&'static str, &'static str)> {
         let near = nearest(path, places().into_iter());
         return near.map(|key| (key, "")).into_iter().collect();
     }
-    let told = known.iter().map(|known| (known.path, known.remark));
-    told.collect()
+    let suggestions = known.iter().map(|known| (known.path, known.remark));
+    suggestions.collect()
 }
 
 /// All keys and tables.
@@ -88,8 +88,11 @@ fn key_hint(path: &str) -> String {
     }
     let meant = meant(path);
     if !meant.is_empty() {
-        let told = meant.iter().map(|(key, more)| format!("{key}{more}"));
-        return format!("did you mean {}?", told.collect::<Vec<_>>().join(" or "));
+        let suggestions = meant.iter().map(|(key, more)| format!("{key}{more}"));
+        return format!(
+            "did you mean {}?",
+            suggestions.collect::<Vec<_>>().join(" or ")
+        );
     }
     known_in(split(path).0)
 }

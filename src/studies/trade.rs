@@ -239,14 +239,14 @@ impl Trial {
                 row.push(simulation.steps().into());
                 row.push(simulation.stats().transforms.into());
                 let finite = |error: f64| Some(error).filter(|error| error.is_finite());
-                let told = [
+                let quantities = [
                     Quantity::WornDepth,
                     Quantity::Volume,
                     Quantity::Energy,
                     Quantity::Force,
                 ];
-                let told = told.into_iter().map(|of| errors[of]);
-                row.extend(told.chain([stick]).map(|error| finite(error).into()));
+                let quantities = quantities.into_iter().map(|of| errors[of]);
+                row.extend(quantities.chain([stick]).map(|error| finite(error).into()));
                 row.push(if complaints.is_empty() {
                     "ok".into()
                 } else {
@@ -389,8 +389,8 @@ mod tests {
         assert!(alone.point.is_none());
         let said = alone.row.last().and_then(Value::as_str).expect("words");
         assert!(said.starts_with("energy off by "), "{said}");
-        let beside = judged(coarse.0.clone());
-        assert_eq!(beside.row.last(), Some(&Value::from("ok")));
-        assert!(beside.point.is_some());
+        let again = judged(coarse.0.clone());
+        assert_eq!(again.row.last(), Some(&Value::from("ok")));
+        assert!(again.point.is_some());
     }
 }

@@ -64,12 +64,12 @@ impl Pen {
 
     /// Returns the shortest sequence that changes the pen `now` to this one.
     fn sequence(self, now: Self) -> String {
-        let (anew, codes) = (self.full_sequence(), self.codes(now));
+        let (in_full, codes) = (self.full_sequence(), self.codes(now));
         let adds = self.modifier.contains(now.modifier);
         match codes.strip_prefix(';').filter(|_| adds) {
             _ if now == self => String::new(),
-            Some(codes) if codes.len() + 3 <= anew.len() => format!("\x1b[{codes}m"),
-            _ => anew,
+            Some(codes) if codes.len() + 3 <= in_full.len() => format!("\x1b[{codes}m"),
+            _ => in_full,
         }
     }
 }

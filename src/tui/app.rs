@@ -58,7 +58,7 @@ impl App {
                 self.make_room();
             }
             Event::Opened => {
-                explorer.notice.take_if(|told| told == OPENING);
+                explorer.notice.take_if(|text| text == OPENING);
                 for overlay in self.overlays.drain(..) {
                     if let Overlay::Sweep(live) = overlay {
                         self.map = Some(live).filter(LiveStudy::is_of_file);

@@ -95,11 +95,11 @@ impl<'a> Canvas<'a> {
     /// Writes the text if there is one, or else keys and what they do: as many of `keys` as fit, and all of `always`.
     pub fn keys<S: AsRef<str>>(
         &mut self,
-        told: Option<(&str, Role)>,
+        message: Option<(&str, Role)>,
         keys: &[[S; 2]],
         always: &[[S; 2]],
     ) {
-        if let Some((text, role)) = told {
+        if let Some((text, role)) = message {
             return self.write_upwards(text, role);
         }
         let width = |texts: &[S; 2]| -> usize {

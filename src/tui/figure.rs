@@ -22,9 +22,9 @@ pub(super) fn write(of: &Recorded, path: &Path) -> Result<(), String> {
     let shown = path.display();
     let format =
         Format::from_path(path).ok_or(format!("{shown}: must end in .svg, .png or .pdf"))?;
-    let beside = path.with_extension("csv");
+    let data_path = path.with_extension("csv");
     let claim = |path: &Path| Target::claim(path, false).map_err(|error| error.to_string());
-    let (target, data_target) = (claim(path)?, claim(&beside)?);
+    let (target, data_target) = (claim(path)?, claim(&data_path)?);
     let scenario = of.session.scenario();
     let mut run = charts::Run::default().with_scenario(scenario);
     run.add_state(&of.session);

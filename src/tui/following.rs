@@ -70,13 +70,13 @@ pub(super) const NOTHING_YET: &str = "nothing to compare yet: let it run for a c
 /// The twin, and its last result.
 #[derive(Debug)]
 pub(super) struct Twin {
-    beside: FollowingRun,
+    twin_run: FollowingRun,
     /// The cycle of the next comparison.
     due: f64,
     /// The run at that cycle, once it has reached it.
     run: Option<Outcome>,
     /// The cycle of the last comparison, and the estimated errors there.
-    told: Option<(f64, Difference)>,
+    last: Option<(f64, Difference)>,
 }
 
 impl Twin {
@@ -85,10 +85,10 @@ impl Twin {
     pub fn new(session: &Session) -> Option<Self> {
         session.simulation().setup().wear?;
         let mut twin = Self {
-            beside: FollowingRun::new(refinement::twin(session)?.ok()?, false),
+            twin_run: FollowingRun::new(refinement::twin(session)?.ok()?, false),
             due: 1.0,
             run: None,
-            told: None,
+            last: None,
         };
         twin.look_at(session, true);
         Some(twin)
@@ -102,15 +102,15 @@ impl Twin {
         } else {
             NOTHING_YET
         };
-        let stopped = self.beside.stopped.as_deref();
-        self.told.ok_or_else(|| stopped.unwrap_or(waits).to_owned())
+        let stopped = self.twin_run.stopped.as_deref();
+        self.last.ok_or_else(|| stopped.unwrap_or(waits).to_owned())
     }
 
     /// Notes the run's outcome if a comparison is due or forced by `must`, unless the twin has jumped past it.
     pub fn look_at(&mut self, session: &Session, must: bool) {
         let cycle = session.simulation().cycle();
         let is_due = self.run.is_none() && cycle >= self.due;
-        let is_ahead = self.beside.run.cycle() > cycle;
+        let is_ahead = self.twin_run.run.cycle() > cycle;
         if cycle > 0.0 && (is_due || must) && !is_ahead {
             self.due = cycle;
             self.run = Some(Outcome::from_session(session));
@@ -119,16 +119,16 @@ impl Twin {
 
     /// Whether the error of the run, which is at `cycle`, is still to come.
     pub fn lags(&self, cycle: f64) -> bool {
-        self.beside.lags(cycle.min(self.due))
+        self.twin_run.lags(cycle.min(self.due))
     }
 
     /// Steps towards the next comparison for about `budget`, but not past the run, which is at `cycle`.
     pub fn follow_for(&mut self, cycle: f64, budget: Duration) {
-        self.beside.follow(self.due, cycle.min(self.due), budget);
-        let is_there = self.beside.run.cycle() >= self.due;
+        self.twin_run.follow(self.due, cycle.min(self.due), budget);
+        let is_there = self.twin_run.run.cycle() >= self.due;
         if let Some(run) = self.run.take_if(|_| is_there) {
-            let twin = Outcome::from_session(&self.beside.run.session);
-            self.told = Some((self.due, run.error_by(&twin, run.finer_than(&twin))));
+            let twin = Outcome::from_session(&self.twin_run.run.session);
+            self.last = Some((self.due, run.error_by(&twin, run.finer_than(&twin))));
             self.due = (NEXT * self.due).ceil().max(self.due.floor() + 1.0);
         }
     }

@@ -76,16 +76,16 @@ pub fn draw(app: &App, mut canvas: Canvas) {
     };
     let is_usual = explorer.stage.tour.is_none() && !explorer.stage.shows_contact();
     let hints = explorer.is_new && is_usual && HINT.len() < room;
-    let told = notice.map(|text| (text, Role::Notice)).or(stopped);
-    let told = told.or(hints.then_some((HINT, Role::Notice)));
+    let message = notice.map(|text| (text, Role::Notice)).or(stopped);
+    let message = message.or(hints.then_some((HINT, Role::Notice)));
     let focus = explorer.stage.focus;
-    if let (Some(place), None) = (explorer.cursor_in(focus), told) {
+    if let (Some(place), None) = (explorer.cursor_in(focus), message) {
         let charts = &explorer.charts;
         let text = readout::line_at(frame, charts, focus, place, room, &canvas.theme);
         return canvas.show(Line::raw(text));
     }
     let [keys, always] = [mode(explorer), ALWAYS].map(texts);
-    canvas.keys(told, &keys, &always);
+    canvas.keys(message, &keys, &always);
 }
 
 /// Returns the keys of commands and their names.

@@ -25,7 +25,7 @@ pub struct Source {
     /// Its name, and its curves if they do not change.
     ghost: Arc<Ghost>,
     /// A run that computes its curves at the same cycle, if it is one.
-    pub(super) beside: Option<Box<FollowingRun>>,
+    pub(super) follower: Option<Box<FollowingRun>>,
 }
 
 impl Source {
@@ -46,7 +46,7 @@ impl Source {
             let start = Session::start(refinement::resolve_soon(&scenario)?.scenario)?;
             return Ok(Self {
                 ghost: Arc::new(Ghost::new(&scenario.stem())),
-                beside: Some(Box::new(FollowingRun::new(start, true))),
+                follower: Some(Box::new(FollowingRun::new(start, true))),
             });
         }
         let ghost = Ghost::read(path, naming)?;
@@ -96,7 +96,7 @@ impl Source {
         );
         Ok(Self {
             ghost: Arc::new(Ghost::new(&name)),
-            beside: Some(Box::new(FollowingRun::new(session, false))),
+            follower: Some(Box::new(FollowingRun::new(session, false))),
         })
     }
 
@@ -104,7 +104,7 @@ impl Source {
     pub(super) fn unchanged(session: Session) -> Self {
         Self {
             ghost: Arc::new(Ghost::new("before")),
-            beside: Some(Box::new(FollowingRun::new(session, true))),
+            follower: Some(Box::new(FollowingRun::new(session, true))),
         }
     }
 
@@ -112,7 +112,7 @@ impl Source {
     fn still(ghost: Ghost) -> Self {
         Self {
             ghost: Arc::new(ghost),
-            beside: None,
+            follower: None,
         }
     }
 
@@ -123,14 +123,14 @@ impl Source {
 
     /// Returns its curves; if it is a run, those selected by `curves`.
     pub(super) fn curves(&self, curves: Curves) -> Arc<Ghost> {
-        let Some(beside) = &self.beside else {
+        let Some(follower) = &self.follower else {
             return Arc::clone(&self.ghost);
         };
         let mut name = self.name().to_owned();
-        if beside.stopped.is_some() {
-            name += &format!(" (ends at {:.2})", beside.run.cycle());
+        if follower.stopped.is_some() {
+            name += &format!(" (ends at {:.2})", follower.run.cycle());
         }
-        Arc::new(ghost(&name, &beside.run, curves))
+        Arc::new(ghost(&name, &follower.run, curves))
     }
 }
 

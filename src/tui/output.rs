@@ -60,12 +60,12 @@ impl TerminalOutput {
     /// Sends a text and waits until it is written. If the terminal has stopped reading, drops
     /// what it has not read, and if that does not help, this text too. Returns true if it was written.
     pub fn finish(&self, text: &str) -> bool {
-        let (tell, told) = channel();
-        let _ = self.chunks.send((text.to_owned(), Some(tell)));
-        if told.recv_timeout(DRAIN_TIMEOUT).is_ok() {
+        let (notify, done) = channel();
+        let _ = self.chunks.send((text.to_owned(), Some(notify)));
+        if done.recv_timeout(DRAIN_TIMEOUT).is_ok() {
             return true;
         }
         let _ = tcflush(io::stdout().as_fd(), FlushArg::TCOFLUSH);
-        told.recv_timeout(DRAIN_TIMEOUT).is_ok()
+        done.recv_timeout(DRAIN_TIMEOUT).is_ok()
     }
 }

@@ -72,9 +72,9 @@ impl Reader {
     fn byte(&mut self, byte: u8) {
         if !may_continue(&self.begun, byte) {
             // An Escape that does not end a string begins something else.
-            let is_anew = matches!(self.begun[..], [_, _, .., ESCAPE]);
+            let begins_again = matches!(self.begun[..], [_, _, .., ESCAPE]);
             self.typed();
-            if is_anew {
+            if begins_again {
                 self.begun.push(ESCAPE);
                 return self.byte(byte);
             }
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn the_background_is_read_however_it_is_told() {
+    fn the_background_is_read_in_every_notation() {
         let cases: [(&[u8], &[[u8; 3]]); 8] = [
             (b"\x1b]11;rgb:ffff/ffff/ffff\x1b\\", &[[255; 3]]),
             (b"\x1b]11;rgb:fdfd/f6f6/e3e3\x07", &[[0xfd, 0xf6, 0xe3]]),
@@ -291,14 +291,14 @@ mod tests {
             (b"\x1b[200~\x1b]11;rgb:ff/ff/ff\x07\x1b[201~", &[]),
         ];
         for (bytes, expected) in cases {
-            let mut told = read(&[bytes]);
-            told.retain(|input| matches!(input, Input::Background(_)));
+            let mut backgrounds = read(&[bytes]);
+            backgrounds.retain(|input| matches!(input, Input::Background(_)));
             let expected: Vec<_> = expected.iter().copied().map(Input::Background).collect();
-            assert_eq!(told, expected, "{}", bytes.escape_ascii());
+            assert_eq!(backgrounds, expected, "{}", bytes.escape_ascii());
             for split in 1..bytes.len() {
-                let mut told = read(&[&bytes[..split], &bytes[split..]]);
-                told.retain(|input| matches!(input, Input::Background(_)));
-                assert_eq!(told, expected, "{} {split}", bytes.escape_ascii());
+                let mut backgrounds = read(&[&bytes[..split], &bytes[split..]]);
+                backgrounds.retain(|input| matches!(input, Input::Background(_)));
+                assert_eq!(backgrounds, expected, "{} {split}", bytes.escape_ascii());
             }
         }
     }

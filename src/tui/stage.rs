@@ -84,12 +84,12 @@ impl Stage {
         let (columns, rows) = layout::grid(area);
         let [area, _] = self.with_tour(area);
         if self.presents {
-            let [contact, beside, _] = present::areas(area);
+            let [contact, side, _] = present::areas(area);
             let chart = match self.focus {
                 Panel::Section => present::CHART,
                 panel => panel,
             };
-            return vec![(Panel::Section, contact), (chart, beside)];
+            return vec![(Panel::Section, contact), (chart, side)];
         }
         if self.zoomed {
             return vec![(self.focus, area)];

@@ -60,8 +60,8 @@ const SCREENS: usize = 8;
 pub fn size() -> io::Result<Size> {
     // The size is all that crossterm does: its raw mode keeps the modes that it found first, which are wrong after SIGSTOP
     // and `fg`, and its events hold back the status reports by which the line is measured.
-    let told = crossterm::terminal::window_size()?;
-    let (columns, rows) = (told.columns, told.rows);
+    let window = crossterm::terminal::window_size()?;
+    let (columns, rows) = (window.columns, window.rows);
     let size = Size::new(columns.min(LARGEST), rows.min(LARGEST));
     let cells = SCREENS * usize::from(size.width) * usize::from(size.height);
     // A failed allocation would end the process and leave the terminal in raw mode.

@@ -72,7 +72,7 @@ pub enum Command {
     Guide(Guide),
     /// Run a study: one scenario with many values of some of its keys.
     Sweep(Sweep),
-    /// Draw figures for a paper: SVG, PNG or PDF, with their data beside them.
+    /// Draw figures for a paper: SVG, PNG or PDF, with their data next to them.
     Figure(Figure),
     /// Find parameters from measured scars, loops and histories.
     Fit(Fit),

@@ -116,10 +116,10 @@ mod tests {
         let peak = 2.0 * 2.3077e11 * 1e-2 / std::f64::consts::PI;
         let found = 1.5 * unworn.mean_pressure(depth);
         assert!((found / peak - 1.0).abs() < 2e-3, "{found}");
-        let told = Forecast::from_scenario(&scenario)
+        let forecast = Forecast::from_scenario(&scenario)
             .expect("a contact")
             .contact();
-        assert!(told.contains("Hertz pressure 1.47 GPa"), "{told}");
+        assert!(forecast.contains("Hertz pressure 1.47 GPa"), "{forecast}");
     }
 
     #[test]

@@ -62,8 +62,8 @@ pub fn run(options: &RunOptions) -> Result<ExitCode> {
             complain(line);
         }
     };
-    let told = remarks(&job.session);
-    told.iter().for_each(remark);
+    let remarks_before = remarks(&job.session);
+    remarks_before.iter().for_each(remark);
     *locked(&phase) = Phase::Running(Arc::clone(&job.autosave));
     // A bug must not destroy hours of computing.
     let outcome = catch_unwind(AssertUnwindSafe(|| job.advance(&why_stop)));
@@ -75,8 +75,8 @@ pub fn run(options: &RunOptions) -> Result<ExitCode> {
     }
     // Shows what has come up during the run; the same warning may now name another cycle.
     let now = remarks(&job.session);
-    if now.len() > told.len() {
-        let new = now.iter().filter(|line| !told.contains(line));
+    if now.len() > remarks_before.len() {
+        let new = now.iter().filter(|line| !remarks_before.contains(line));
         new.for_each(remark);
     }
     if job.job.estimates && matches!(outcome, Ok(None)) {

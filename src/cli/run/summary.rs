@@ -18,9 +18,9 @@ pub(super) fn remarks(session: &Session) -> Vec<String> {
     let never = session.simulation().why_never_jumped();
     let never = never.map(|why| format!("no cycle jumps: {why}"));
     let indenter = session.scenario().setup().indenter.remark();
-    let indenter = indenter.map(|told| format!("indenter: {told}"));
+    let indenter = indenter.map(|text| format!("indenter: {text}"));
     let geometry = session.scenario().setup().geometry.remark();
-    let geometry = geometry.map(|told| format!("geometry: {told}"));
+    let geometry = geometry.map(|text| format!("geometry: {text}"));
     let known = never.into_iter().chain(indenter).chain(geometry);
     known.chain(session.warnings()).collect()
 }
@@ -54,7 +54,7 @@ impl Job<'_> {
         lines.push(("worn volume", format!("{volume:.4e} m3")));
         lines.push(("dissipated energy", format!("{work:.4e} J")));
         let setup = simulation.setup();
-        lines.extend(setup.geometry.remark().map(|told| ("geometry", told)));
+        lines.extend(setup.geometry.remark().map(|text| ("geometry", text)));
         lines.extend(setup.wear.map(|law| {
             let k = law.coefficient();
             let per_load = k * setup.material.friction() * 1e9;

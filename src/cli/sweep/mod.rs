@@ -154,8 +154,8 @@ fn run(options: &Sweep, path: &Path, study: Study) -> Result<ExitCode> {
         complain(&format!("{why}: {hint}"));
         return Ok(ExitCode::from(UNFINISHED));
     }
-    let is_told = !options.quiet && !options.json && !output.target.is_stdout();
-    if complain_of_points(&output.results, options.quiet) && is_told {
+    let is_reported = !options.quiet && !options.json && !output.target.is_stdout();
+    if complain_of_points(&output.results, options.quiet) && is_reported {
         writeln!(io::stdout(), "{there} points in {}", shell_path(&out))?;
     }
     // Invalid points do not count as failures: they were to be skipped.
@@ -173,12 +173,12 @@ fn complain_of_points(results: &Results, quiet: bool) -> bool {
     let inaccurate = "did not reach numerics.accuracy; their status says what they reached";
     let unchecked = "fail a check; their status says which, and by how much";
     let without = "failed; their status says why, and --resume --failed runs them again";
-    for (count, is_told, what) in [
+    for (count, is_reported, what) in [
         (results.count(is_inaccurate), !quiet, inaccurate),
         (results.count(is_unchecked), !quiet, unchecked),
         (failed, true, without),
     ] {
-        if count > 0 && is_told {
+        if count > 0 && is_reported {
             complain(&format!("{count} of {there} points {what}"));
         }
     }

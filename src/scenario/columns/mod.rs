@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_and_words_are_told_with_their_line() {
+    fn gaps_and_words_are_refused_with_their_line() {
         let message = |text: &str| {
             let columns = Columns::parse(text, "scar.csv");
             let column = columns.and_then(|columns| columns.column("f_m"));

@@ -81,8 +81,8 @@ impl ErrorAnalysis {
         for points in estimated {
             let spent: f64 = errors.leverages[points.clone()].iter().sum();
             let rows = jacobian.rows(points.start, points.len());
-            let told = rows.transpose() * rows;
-            let weighed = &told - &told * &inverse * &told;
+            let information = rows.transpose() * rows;
+            let weighed = &information - &information * &inverse * &information;
             let freedom = degrees_of_freedom(points.len(), spent);
             covariance += (4.0 / freedom) * (&inverse * weighed * &inverse);
         }

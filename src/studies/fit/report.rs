@@ -128,8 +128,8 @@ impl Fitted {
             }
             let numerical_error = numerical.map(|numerical| free.error(theta, numerical));
             let (key, unit) = (free.key.path.to_owned(), free.unit);
-            if let Some(told) = intervals[i].and_then(|ends| limits(&key, unit, ends)) {
-                remarks.push(told);
+            if let Some(interval_text) = intervals[i].and_then(|ends| limits(&key, unit, ends)) {
+                remarks.push(interval_text);
             } else if at_bound {
                 remarks.push(format!(
                     "the data do not determine {key}: it reached the end of its range"

@@ -206,7 +206,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_range_is_kept_and_its_end_is_told() {
+    fn a_range_is_kept_and_its_end_is_reported() {
         let free = [Free {
             key: Key::find("wear.coefficient").expect("a key"),
             unit: "",

@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strokes_are_told_apart_and_interpolated() {
+    fn strokes_are_distinguished_and_interpolated() {
         // An ellipse-like loop that begins in the middle of its rising stroke.
         let points: Vec<(f64, f64)> = (0..400)
             .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0)

@@ -65,8 +65,8 @@ pub fn draw(view: &MapView, notice: Option<&str>, mut canvas: Canvas) {
     if area.width < 20 || area.height < 10 {
         return canvas.show(Line::raw("too small: needs 20x10 or more"));
     }
-    let told = told(view, &theme, area.width);
-    let rows = (told.len() as u16).min(area.height / 3);
+    let lines = cursor_lines(view, &theme, area.width);
+    let rows = (lines.len() as u16).min(area.height / 3);
     let layout = Layout::vertical([Length(1), Fill(1), Length(rows), Length(1)]);
     let [head, body, below, keys] = layout.areas(area);
     let styled =
@@ -82,7 +82,7 @@ pub fn draw(view: &MapView, notice: Option<&str>, mut canvas: Canvas) {
     canvas
         .at(body)
         .show(Plot::new(&chart, &theme).cursor(along));
-    canvas.at(below).show(Text::from(told));
+    canvas.at(below).show(Text::from(lines));
     let notice = notice.map(|text| (text, Role::Notice));
     canvas.at(keys).keys(notice, &KEYS, &ALWAYS);
 }
@@ -123,7 +123,7 @@ fn mark(view: &MapView, chart: &mut Chart) {
 }
 
 /// Returns what the cursor reads: the point with its place on the axes, and its values, the shown column first.
-fn told(view: &MapView, theme: &Theme, width: u16) -> Vec<Line<'static>> {
+fn cursor_lines(view: &MapView, theme: &Theme, width: u16) -> Vec<Line<'static>> {
     let (study, point) = (&view.slice.results.study, view.point());
     let axes = study.axes.iter().zip(study.places(point));
     let values = axes.map(|(axis, place)| match axis.number(place) {

@@ -162,7 +162,7 @@ impl Form {
         let seen = self.selected(&settings);
         let filter = self.filter.text();
         let is_typed = matches!(seen, Some((.., Some(_))));
-        let is_beside = canvas.area.width <= LIST;
+        let is_next_to_panels = canvas.area.width <= LIST;
         let is_narrow = canvas.area.width < WIDE;
         let title = match filter.as_str() {
             _ if is_typed => "parameters (Enter applies, Esc cancels)".to_owned(),
@@ -171,7 +171,7 @@ impl Form {
             filter => format!("parameters: {filter} (Enter: edit, arrows: step)"),
         };
         let rows = (canvas.area.height / 2).clamp(8, 20);
-        let (mut inside, told) = if is_beside {
+        let (mut inside, described) = if is_next_to_panels {
             (canvas.popup(&title, (LIST, u16::MAX)), NEXT_TO_PANELS)
         } else {
             (canvas.docked(&title, rows + BELOW), BELOW)
@@ -180,7 +180,7 @@ impl Form {
             return inside.write_text("no parameter has that", Role::Quiet);
         };
         let theme = inside.theme;
-        let rows = [Fill(1), Length(told.min(inside.area.height))];
+        let rows = [Fill(1), Length(described.min(inside.area.height))];
         let [above, below] = Layout::vertical(rows).areas(inside.area);
         let room = if is_narrow { BRIEF } else { KEYS };
         let key = |setting: &Setting| key(setting.key.path, room);
@@ -245,9 +245,9 @@ fn typed(
 }
 
 /// Returns the meaning and range of a setting, its effect, and the answer to the last change.
-fn describe(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'static>> {
+fn describe(setting: &Setting, notice: Option<&str>, theme: &Theme) -> Vec<Line<'static>> {
     let quiet = theme.style(Role::Quiet);
-    let told = match (told, setting.fixed()) {
+    let hint = match (notice, setting.fixed()) {
         (Some(text), _) => Span::styled(theme.printable(text), theme.style(Role::Notice)),
         (None, Some(because)) => Span::styled(because, quiet),
         (None, None) => {
@@ -257,7 +257,7 @@ fn describe(setting: &Setting, told: Option<&str>, theme: &Theme) -> Vec<Line<'s
     };
     vec![
         Line::raw(setting.key.meaning),
-        Line::from(told),
+        Line::from(hint),
         Line::styled(setting.key.effect, quiet),
     ]
 }

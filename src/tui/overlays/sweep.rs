@@ -48,6 +48,6 @@ pub(super) fn draw_keys(mut canvas: Canvas) {
 }
 
 /// Draws the study, with a message for the user if there is one.
-pub(super) fn draw(live: &LiveStudy, told: Option<&str>, canvas: Canvas) {
-    live.with_view(|view| draw::draw(view, told, canvas));
+pub(super) fn draw(live: &LiveStudy, notice: Option<&str>, canvas: Canvas) {
+    live.with_view(|view| draw::draw(view, notice, canvas));
 }

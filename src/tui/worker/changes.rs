@@ -134,8 +134,8 @@ impl Worker {
         let cycle = self.past.line(&self.run).cycle();
         self.load(self.run.session.loaded().clone());
         if cycle > 0.0 {
-            let told = format!("restarted; [ leads back to the run up to cycle {cycle:.2}");
-            self.screen.notice(&told);
+            let notice = format!("restarted; [ leads back to the run up to cycle {cycle:.2}");
+            self.screen.notice(&notice);
         }
     }
 

@@ -61,11 +61,11 @@ pub fn figure(path: PathBuf) -> Order {
 pub fn copy(what: Copied) -> Order {
     Order::Make(Box::new(move |run, screen| {
         let scenario = run.session.as_run(Vec::new()).to_toml();
-        let (text, told) = match what {
+        let (text, copied_name) = match what {
             Copied::Command => (command(run, scenario), "the command is"),
             _ => (scenario, "the scenario is"),
         };
-        screen.send(Event::Copied(text, told));
+        screen.send(Event::Copied(text, copied_name));
     }))
 }
 

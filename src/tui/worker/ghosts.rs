@@ -40,13 +40,13 @@ impl Ghosts {
     fn running(&mut self) -> impl Iterator<Item = &mut FollowingRun> {
         let rival = self.rival.as_mut().map(|rival| &mut rival.run);
         let all = self.fixed.iter_mut().chain(&mut self.before).chain(rival);
-        all.flat_map(|ghost| ghost.beside.as_deref_mut())
+        all.flat_map(|ghost| ghost.follower.as_deref_mut())
     }
 
     /// Lets them catch up with the run, which is at `cycle`.
     pub(super) fn follow(&mut self, cycle: f64) {
         self.running()
-            .for_each(|beside| beside.follow(cycle, cycle, CATCH_UP));
+            .for_each(|follower| follower.follow(cycle, cycle, CATCH_UP));
     }
 
     /// Drops the run from before the changes.
@@ -125,7 +125,7 @@ impl Worker {
         let cycle = self.run.cycle();
         let twin = self.twin.as_ref().filter(|_| !self.pace.is_running());
         let twin_lags = twin.is_some_and(|twin| twin.lags(cycle));
-        twin_lags || self.ghosts.running().any(|beside| beside.lags(cycle))
+        twin_lags || self.ghosts.running().any(|follower| follower.lags(cycle))
     }
 
     /// Lets the twin catch up with the run.

@@ -70,8 +70,8 @@ impl Outlet {
 
     /// Returns the value, or shows the error as a notice.
     pub fn or_notice<T>(&self, result: Result<T, impl Display>) -> Option<T> {
-        let told = |error| self.notice(&format!("{error}"));
-        result.map_err(told).ok()
+        let report = |error| self.notice(&format!("{error}"));
+        result.map_err(report).ok()
     }
 
     /// Tells the user where `what` was written, or why it was not.

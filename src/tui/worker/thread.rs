@@ -74,7 +74,7 @@ impl WorkerThread {
     /// recent copy.
     pub fn saved(&self) -> Option<String> {
         match self.saved.recv_timeout(LAST_STEP) {
-            Ok(told) => return told,
+            Ok(outcome) => return outcome,
             Err(RecvTimeoutError::Disconnected) => return None,
             Err(RecvTimeoutError::Timeout) => {}
         }

@@ -54,8 +54,8 @@ impl Worker {
             return self.screen.notice(BROKEN_DOWN);
         }
         (self.pace.activity, self.pace.stop_at) = (Activity::Running, Some(cycle));
-        let told = format!("on the way to cycle {cycle}; Space stops");
-        self.screen.notice(&told);
+        let under_way = format!("on the way to cycle {cycle}; Space stops");
+        self.screen.notice(&under_way);
     }
 
     /// Steps from the past state on the screen to `cycle`, with the same steps and changes as the run.

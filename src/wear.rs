@@ -401,6 +401,7 @@ mod tests {
                 slip_rate_exponent,
             } = law.traits();
             let name = law.name();
+            assert_eq!(name.parse(), Ok(Law::from(law.form())));
             let at = |tau: f64| worn_at(law, tau, [10.0 * tau; 2], slip, seconds);
             let wears = |tau: &&f64| at(**tau) > 0.0;
             let every =

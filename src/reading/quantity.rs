@@ -65,6 +65,9 @@ impl Quantity {
     }
 }
 
+/// Each stated error is that of a quantity.
+const _: () = assert!(Column::ERRORS.len() == Quantity::COUNT);
+
 #[cfg(test)]
 mod tests {
     use super::*;

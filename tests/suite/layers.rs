@@ -1,9 +1,11 @@
 //! Layers: a module imports only from the layers below its own.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use mdr_tui::reading::Column;
+use mdr_tui::scenario::scalars;
 
 use crate::tables;
 
@@ -218,6 +220,23 @@ fn names_of_columns_stand_in_one_table() {
             file.display()
         );
     }
+}
+
+/// A column that is no scalar of a run is read by code that names it.
+#[test]
+fn every_column_is_read_by_something() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let files = sources(&root).into_iter();
+    let code = files.filter(|file| !is_test_file(file) && !file.ends_with("reading/column.rs"));
+    let code = code.map(|file| without_tests(&fs::read_to_string(file).expect("a source")));
+    let code = code.collect::<String>();
+    let words = code.split(|sign: char| !sign.is_alphanumeric() && sign != ':');
+    let named: HashSet<&str> = words.collect();
+    let mut others = Column::ALL.to_vec();
+    others.retain(|column| scalars::all().all(|scalar| scalar != *column));
+    assert!(others.len() > 30);
+    others.retain(|column| !named.contains(format!("Column::{column:?}").as_str()));
+    assert!(others.is_empty(), "nothing reads {others:?}");
 }
 
 /// `layers.txt` has code of layers, and whether it is wrong.

@@ -214,7 +214,7 @@ mod tests {
             for (symbol, meaning) in symbols {
                 assert!(
                     symbol.chars().count() <= 11 && meaning.chars().count() <= 60,
-                    "{symbol}"
+                    "{panel:?}: at most 11 characters of {symbol:?}, at most 60 of {meaning:?}"
                 );
             }
         }

@@ -21,23 +21,16 @@ use std::f64::consts::FRAC_2_PI;
 
 use nalgebra::DMatrix;
 
-use super::kernel::{asin_step, root_step};
+use super::kernel::{asin_step, displacement_by_cells, root_step};
 
 /// Eq. (2): weights of the surface displacement.
 pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    weights[(0, 0)] = 1.0;
-    for (j, &r) in nodes.iter().enumerate().skip(1) {
-        for k in 0..j {
-            let (a, b) = (nodes[k], nodes[k + 1]);
-            let arc = asin_step(a, b, r);
-            // ∫ (x − a)/(b − a) dx/√(r² − x²): the right node's share.
-            let right = (root_step(a, b, r) - a * arc) / (b - a);
-            weights[(j, k)] += FRAC_2_PI * (arc - right);
-            weights[(j, k + 1)] += FRAC_2_PI * right;
-        }
-    }
-    weights
+    displacement_by_cells(nodes, |a, b, r| {
+        let arc = asin_step(a, b, r);
+        // ∫ (x − a)/(b − a) dx/√(r² − x²): the right node's share.
+        let right = (root_step(a, b, r) - a * arc) / (b - a);
+        [FRAC_2_PI * (arc - right), FRAC_2_PI * right]
+    })
 }
 
 #[cfg(test)]

@@ -25,7 +25,9 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
 use nalgebra::DMatrix;
 
-use super::kernel::{acosh_step, add_jump_at_rim, asin_step, central_difference};
+use super::kernel::{
+    acosh_step, add_jump_at_rim, asin_step, central_difference, displacement_by_cells,
+};
 
 /// Eq. (11): weights of the 1D profile.
 pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
@@ -46,16 +48,7 @@ pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
 
 /// Eq. (12): weights of the surface displacement.
 pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    weights[(0, 0)] = 1.0;
-    for (j, &r) in nodes.iter().enumerate().skip(1) {
-        for k in 1..=j {
-            let half = 0.5 * FRAC_2_PI * asin_step(nodes[k - 1], nodes[k], r);
-            weights[(j, k - 1)] += half;
-            weights[(j, k)] += half;
-        }
-    }
-    weights
+    displacement_by_cells(nodes, |a, b, r| [0.5 * FRAC_2_PI * asin_step(a, b, r); 2])
 }
 
 /// Eq. (13): weights of the stress. The line load ends at the last node.

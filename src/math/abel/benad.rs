@@ -34,21 +34,11 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
 
 use nalgebra::DMatrix;
 
-use super::kernel::{acosh_step, add_jump_at_rim, asin_step, central_difference};
+use super::kernel::{acosh_step, asin_step, central_difference, profile_by_steps, stress_by_steps};
 
 /// Eq. (1): weights of the 1D profile.
 pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    for (j, &x) in nodes.iter().enumerate() {
-        weights[(j, 0)] = 1.0;
-        for k in 0..j {
-            let (a, b) = (nodes[k], nodes[k + 1]);
-            let weight = x * asin_step(a, b, x) / (b - a);
-            weights[(j, k)] -= weight;
-            weights[(j, k + 1)] += weight;
-        }
-    }
-    weights
+    profile_by_steps(nodes, |a, b, x| x * asin_step(a, b, x) / (b - a))
 }
 
 /// Eq. (2): weights of the surface displacement.
@@ -77,24 +67,15 @@ pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
 /// Eq. (3): weights of the stress. The line load ends at the last node; if it is not zero there, it jumps, as at the
 /// rim of a punch.
 pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
-    let last = nodes.len() - 1;
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    for (j, &r) in nodes.iter().enumerate() {
-        for k in j..last {
-            let (a, b) = (nodes[k], nodes[k + 1]);
-            // ∫ q′ dx/√(x² − r²) over the cell, with q linear in x, or in x² where r = a = 0.
-            let integral = if b > 0.0 && a == 0.0 && r == 0.0 {
-                2.0
-            } else {
-                acosh_step(a, b, r)
-            };
-            let weight = FRAC_1_PI * integral / (b - a);
-            weights[(j, k)] += weight;
-            weights[(j, k + 1)] -= weight;
-        }
-    }
-    add_jump_at_rim(&mut weights, nodes);
-    weights
+    stress_by_steps(nodes, |a, b, r| {
+        // ∫ q′ dx/√(x² − r²) over the cell, with q linear in x, or in x² where r = a = 0.
+        let integral = if b > 0.0 && a == 0.0 && r == 0.0 {
+            2.0
+        } else {
+            acosh_step(a, b, r)
+        };
+        FRAC_1_PI * integral / (b - a)
+    })
 }
 
 #[cfg(test)]

@@ -45,6 +45,58 @@ pub(super) fn outer_root_step(a: f64, b: f64, r: f64) -> f64 {
     (b - a) * (b + a) / (leg(r, a) + leg(r, b))
 }
 
+/// Makes weights of Eq. (1) from the steps of the profile over the cells [a, b] inside x, each with a `weight(a, b, x)`.
+pub(super) fn profile_by_steps(
+    nodes: &[f64],
+    weight: impl Fn(f64, f64, f64) -> f64,
+) -> DMatrix<f64> {
+    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
+    for (j, &x) in nodes.iter().enumerate() {
+        weights[(j, 0)] = 1.0;
+        for k in 0..j {
+            let weight = weight(nodes[k], nodes[k + 1], x);
+            weights[(j, k)] -= weight;
+            weights[(j, k + 1)] += weight;
+        }
+    }
+    weights
+}
+
+/// Makes weights of Eq. (2) from the weights `ends(a, b, r)` of the two ends of each cell [a, b] inside r.
+pub(super) fn displacement_by_cells(
+    nodes: &[f64],
+    ends: impl Fn(f64, f64, f64) -> [f64; 2],
+) -> DMatrix<f64> {
+    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
+    weights[(0, 0)] = 1.0;
+    for (j, &r) in nodes.iter().enumerate().skip(1) {
+        for k in 0..j {
+            let [left, right] = ends(nodes[k], nodes[k + 1], r);
+            weights[(j, k)] += left;
+            weights[(j, k + 1)] += right;
+        }
+    }
+    weights
+}
+
+/// Makes weights of Eq. (3) from the steps of the load over the cells [a, b] outside r, each with a `weight(a, b, r)`. The
+/// load jumps to zero behind the last node.
+pub(super) fn stress_by_steps(
+    nodes: &[f64],
+    weight: impl Fn(f64, f64, f64) -> f64,
+) -> DMatrix<f64> {
+    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
+    for (j, &r) in nodes.iter().enumerate() {
+        for k in j..nodes.len() - 1 {
+            let weight = weight(nodes[k], nodes[k + 1], r);
+            weights[(j, k)] += weight;
+            weights[(j, k + 1)] -= weight;
+        }
+    }
+    add_jump_at_rim(&mut weights, nodes);
+    weights
+}
+
 /// Adds to the weights of Eq. (3) the effect of a jump of the line load from q to zero at the last node,
 /// q/(π√(a² − r²)). It is infinite at the rim itself, where the mean over the last cell replaces it.
 pub(super) fn add_jump_at_rim(weights: &mut DMatrix<f64>, nodes: &[f64]) {

@@ -49,56 +49,33 @@ use std::f64::consts::FRAC_2_PI;
 
 use nalgebra::DMatrix;
 
-use super::kernel::{add_jump_at_rim, asin_step, outer_root_step, root_step, square_step};
+use super::kernel::{
+    asin_step, displacement_by_cells, outer_root_step, profile_by_steps, root_step, square_step,
+    stress_by_steps,
+};
 
 /// Eq. (1): weights of the 1D profile.
 pub fn profile(nodes: &[f64]) -> DMatrix<f64> {
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    for (j, &x) in nodes.iter().enumerate() {
-        weights[(j, 0)] = 1.0;
-        for k in 0..j {
-            let (a, b) = (nodes[k], nodes[k + 1]);
-            let root = root_step(a, b, x);
-            let weight = 2.0 * x * root / ((b - a) * (b + a));
-            weights[(j, k)] -= weight;
-            weights[(j, k + 1)] += weight;
-        }
-    }
-    weights
+    profile_by_steps(nodes, |a, b, x| {
+        2.0 * x * root_step(a, b, x) / ((b - a) * (b + a))
+    })
 }
 
 /// Eq. (2): weights of the surface displacement.
 pub fn displacement(nodes: &[f64]) -> DMatrix<f64> {
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    weights[(0, 0)] = 1.0;
-    for (j, &r) in nodes.iter().enumerate().skip(1) {
-        for k in 0..j {
-            let (a, b) = (nodes[k], nodes[k + 1]);
-            let arc = asin_step(a, b, r);
-            let square = square_step(a, b, r, arc);
-            let right = square / ((b - a) * (b + a));
-            weights[(j, k)] += FRAC_2_PI * (arc - right);
-            weights[(j, k + 1)] += FRAC_2_PI * right;
-        }
-    }
-    weights
+    displacement_by_cells(nodes, |a, b, r| {
+        let arc = asin_step(a, b, r);
+        let right = square_step(a, b, r, arc) / ((b - a) * (b + a));
+        [FRAC_2_PI * (arc - right), FRAC_2_PI * right]
+    })
 }
 
 /// Eq. (3): weights of the stress. The line load ends at the last node; if it is not zero there, it jumps, as at the
 /// rim of a punch.
 pub fn stress(nodes: &[f64]) -> DMatrix<f64> {
-    let last = nodes.len() - 1;
-    let mut weights = DMatrix::zeros(nodes.len(), nodes.len());
-    for (j, &r) in nodes.iter().enumerate() {
-        for k in j..last {
-            let (a, b) = (nodes[k], nodes[k + 1]);
-            let weight = FRAC_2_PI * outer_root_step(a, b, r) / ((b - a) * (b + a));
-            weights[(j, k)] += weight;
-            weights[(j, k + 1)] -= weight;
-        }
-    }
-    add_jump_at_rim(&mut weights, nodes);
-    weights
+    stress_by_steps(nodes, |a, b, r| {
+        FRAC_2_PI * outer_root_step(a, b, r) / ((b - a) * (b + a))
+    })
 }
 
 /// Returns the squared radius t at which `values` pass through zero within `cell`. `cusp` is the cusp of the values

@@ -36,13 +36,13 @@
 //!
 //! | to add | where |
 //! |---|---|
-//! | a wear law | `wear.rs`: a variant of [`wear::LawForm`] with its [`wear::LawTraits`]; its word and keys in `scenario/keys.toml`; the law itself in `guide/physics.md` |
-//! | a shape | `contact/indenter.rs`: a word of [`contact::indenter::Shape`], its profile and 1D image; word and keys in `keys.toml` |
-//! | a waveform | `simulation/waveform.rs`: a word of [`simulation::waveform::Wave`]; word and keys in `keys.toml`; `guide/rigs.md` |
+//! | a wear law | `wear.rs`: a variant of [`wear::LawForm`] with its [`wear::LawTraits`]; its word in `scenario/keys.toml`; its keys, as below; the law itself in `guide/physics.md` |
+//! | a shape | `contact/indenter.rs`: a word of [`contact::indenter::Shape`], its profile and 1D image; its word in `keys.toml`; its keys, as below |
+//! | a waveform | `simulation/waveform.rs`: a word of [`simulation::waveform::Wave`], and a variant of [`simulation::waveform::Waveform`] unless it is straight lines; its word in `keys.toml` in both directions, and in `used_by` of the keys that it shares; `guide/rigs.md` |
 //! | a transform method | a file in `math/abel` with its weights, a variant of [`math::abel::AbelMethod`] with its traits; its word in `keys.toml`; `UPDATE_ORDERS=1 cargo test conformance::` |
-//! | a key of scenarios | its block in `keys.toml`, a field of that name in `scenario/spec.rs`, what is made of it in `scenario/setup` |
-//! | a column | its row in `reading/column.rs`: name, symbol, meaning, how it is read and merged; new ones come last |
-//! | a chart | a file in `charts` with its [`charts::Recipe`], which names the columns it needs, and its entry in `charts/mod.rs` |
+//! | a key of scenarios | its block in `keys.toml`, a field of that name in `scenario/spec.rs`, what is made of it in `scenario/setup`; the field of a key of a law, shape or waveform is in `LawParameters`, `Dimensions` or `WaveParameters` next to it, and named in `fields!` of `spec.rs` |
+//! | a column | its row in `reading/column.rs`: name, symbol, meaning, how it is read and merged; new ones come last in their list; a column that is read from no run must be named where it is used |
+//! | a chart | a file in `charts` with its [`charts::Recipe`], which names the columns it needs, its `mod` and its entry in `ALL` of `charts/mod.rs`; without a panel, it is for paper alone |
 //! | a panel | the recipe's row in `tui/panels/mod.rs` |
 //! | a command of the explorer | its row in `tui/command.rs`: keys, name, help, action; help and palette are made from it |
 //! | a command of the program | a variant in `cli/args`, its file in `cli`, and a line in `tests/suite/commands.txt` |

@@ -41,7 +41,7 @@
 //! | a waveform | `simulation/waveform.rs`: a word of [`simulation::waveform::Wave`], and a variant of [`simulation::waveform::Waveform`] unless it is straight lines; its word in `keys.toml` in both directions, and in `used_by` of the keys that it shares; `guide/rigs.md` |
 //! | a transform method | a file in `math/abel` with its weights, a variant of [`math::abel::AbelMethod`] with its traits; its word in `keys.toml`; `UPDATE_ORDERS=1 cargo test conformance::` |
 //! | a key of scenarios | its block in `keys.toml`, a field of that name in `scenario/spec.rs`, what is made of it in `scenario/setup`; the field of a key of a law, shape or waveform is in `LawParameters`, `Dimensions` or `WaveParameters` next to it, and named in `fields!` of `spec.rs` |
-//! | a column | its row in `reading/column.rs`: name, symbol, meaning, how it is read and merged; new ones come last in their list; a column that is read from no run must be named where it is used |
+//! | a column | its row in `reading/column.rs`: name, symbol, meaning, how it is read and merged; new ones come last in their list; a column that is read from no run must be named where it is used; one of the history raises `VERSION` in `scenario/checkpoint.rs`, for which a test gives the number |
 //! | a chart | a file in `charts` with its [`charts::Recipe`], which names the columns it needs, its `mod` and its entry in `ALL` of `charts/mod.rs`; without a panel, it is for paper alone |
 //! | a panel | the recipe's row in `tui/panels/mod.rs` |
 //! | a command of the explorer | its row in `tui/command.rs`: keys, name, help, action; help and palette are made from it |

@@ -42,7 +42,7 @@ pub fn explore(options: &Explore, map: Option<LiveStudy>) -> Result<()> {
         }
         None if directory.is_dir() => {
             let rule = "continues as it was saved, so --set changes nothing; give its \
-                scenario.toml to start anew";
+                scenario.toml to start a new run";
             let is_as_saved = options.changes.set.is_empty();
             ensure!(is_as_saved, Refusal::new(name, rule));
             snapshot::open(directory).map_err(Refusal::from)?

@@ -22,7 +22,7 @@ use crate::studies::measured::Measured;
 use crate::traces::Axes;
 
 /// Fits, and prints, draws and writes the results.
-pub fn fit(options: &args::Fit) -> Result<()> {
+pub fn fit(options: &args::FitCommand) -> Result<()> {
     let scenario = given::scenario(&options.scenario, &options.changes.set)?;
     let fit = Fit::new(
         scenario,
@@ -53,7 +53,7 @@ fn run(fit: &Fit, quiet: bool) -> Result<(Fitted, u64)> {
 }
 
 /// Translates the command-line options into options of the fit.
-fn fit_options(options: &args::Fit) -> FitOptions {
+fn fit_options(options: &args::FitCommand) -> FitOptions {
     FitOptions {
         cycles: options.cycles,
         robust: options.robust,
@@ -91,7 +91,7 @@ impl<'a> Told<'a> {
 }
 
 /// Reads all data sets given by the options.
-fn data(options: &args::Fit) -> Result<Vec<Measured>> {
+fn data(options: &args::FitCommand) -> Result<Vec<Measured>> {
     let naming = options.naming.of_columns();
     let mut data = Vec::new();
     for path in &options.scar {

@@ -45,7 +45,7 @@ mod sweep;
 mod trade;
 mod verify;
 
-use args::{Arguments, Command};
+use args::{Arguments, CliCommand};
 
 /// Exit code of a run that failed.
 const FAILED: u8 = 1;
@@ -92,25 +92,25 @@ pub fn main() -> ExitCode {
 fn dispatch(arguments: Arguments) -> anyhow::Result<ExitCode> {
     crate::failpoint::hit("command");
     let command = &arguments.command;
-    if let Some(Command::Figure(_) | Command::Fit(_) | Command::Verify(_)) = command {
+    if let Some(CliCommand::Figure(_) | CliCommand::Fit(_) | CliCommand::Verify(_)) = command {
         stop::end_at_signal()?;
     }
     match arguments.command {
         None => explore::explore(&arguments.explore, None)?,
-        Some(Command::New(options)) => new::new(&options)?,
-        Some(Command::Presets(options)) => presets::presets(&options)?,
-        Some(Command::Verify(options)) => verify::verify(&options)?,
-        Some(Command::Fit(options)) => fit::fit(&options)?,
-        Some(Command::Inspect(options)) => inspect::inspect(&options)?,
-        Some(Command::Guide(options)) => guide::guide(&options)?,
-        Some(Command::Figure(options)) => figure::figure(&options)?,
-        Some(Command::Completions { shell }) => documents::completions(shell)?,
-        Some(Command::Man(options)) => documents::man(&options)?,
+        Some(CliCommand::New(options)) => new::new(&options)?,
+        Some(CliCommand::Presets(options)) => presets::presets(&options)?,
+        Some(CliCommand::Verify(options)) => verify::verify(&options)?,
+        Some(CliCommand::Fit(options)) => fit::fit(&options)?,
+        Some(CliCommand::Inspect(options)) => inspect::inspect(&options)?,
+        Some(CliCommand::Guide(options)) => guide::guide(&options)?,
+        Some(CliCommand::Figure(options)) => figure::figure(&options)?,
+        Some(CliCommand::Completions { shell }) => documents::completions(shell)?,
+        Some(CliCommand::Man(options)) => documents::man(&options)?,
         // These may end with less computed than was asked for.
-        Some(Command::Run(options)) => return run::run(&options),
-        Some(Command::Trade(options)) => return trade::trade(&options),
-        Some(Command::Stability(options)) => return stability::stability(&options),
-        Some(Command::Sweep(options)) => return sweep::sweep(&options),
+        Some(CliCommand::Run(options)) => return run::run(&options),
+        Some(CliCommand::Trade(options)) => return trade::trade(&options),
+        Some(CliCommand::Stability(options)) => return stability::stability(&options),
+        Some(CliCommand::Sweep(options)) => return sweep::sweep(&options),
     }
     Ok(ExitCode::SUCCESS)
 }

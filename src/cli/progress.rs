@@ -25,9 +25,9 @@ pub const COUNTS: bool = false;
 
 /// How far a command is, drawn by a separate thread, so that a terminal that stops reading does not stop the command. The
 /// line disappears when this is dropped.
-pub struct Bar(Arc<State>, Option<JoinHandle<()>>);
+pub struct Bar(Arc<BarState>, Option<JoinHandle<()>>);
 
-struct State {
+struct BarState {
     length: f64,
     is_timed: bool,
     /// What is being done, and how much of the length is done.
@@ -44,7 +44,7 @@ pub fn bar(length: usize, is_timed: bool, quiet: bool) -> Bar {
 impl Bar {
     /// Makes a bar with a message.
     pub fn new(message: &str, length: f64, is_timed: bool, quiet: bool) -> Self {
-        let state = Arc::new(State {
+        let state = Arc::new(BarState {
             length,
             is_timed,
             reached: Mutex::new((message.to_owned(), 0.0)),
@@ -91,7 +91,7 @@ impl Drop for Bar {
     }
 }
 
-impl State {
+impl BarState {
     /// Draws the line until the bar is dropped, then clears it.
     fn draw(&self) {
         let (start, mut before) = (Instant::now(), None);

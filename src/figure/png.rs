@@ -95,7 +95,7 @@ fn draw(shape: &Primitive, pixels: &mut Pixmap, to_pixels: Transform) {
                 .pre_scale(size, -size);
             let unit = font::unit() as f32;
             for (_, glyph, at, _) in font::glyphs(&text.words) {
-                let mut pen = Pen(PathBuilder::new());
+                let mut pen = GlyphPen(PathBuilder::new());
                 font::FACE.outline_glyph(glyph, &mut pen);
                 if let Some(path) = pen.0.finish() {
                     let place = place.pre_translate((at - before) as f32, 0.0);
@@ -114,9 +114,9 @@ fn paint([red, green, blue]: Rgb) -> Paint<'static> {
 }
 
 /// Makes a path from a glyph's outline.
-struct Pen(PathBuilder);
+struct GlyphPen(PathBuilder);
 
-impl OutlineBuilder for Pen {
+impl OutlineBuilder for GlyphPen {
     fn move_to(&mut self, x: f32, y: f32) {
         self.0.move_to(x, y);
     }

@@ -103,7 +103,7 @@ struct Stages {
     t: Vec<[f64; 3]>,
 }
 
-struct Stage {
+struct RecursionStage {
     mu: f64,
     nu: f64,
     mu_tilde: f64,
@@ -133,10 +133,10 @@ impl Stages {
     }
 
     /// Returns the stages from j = 2 on.
-    fn later(&self) -> impl Iterator<Item = Stage> {
+    fn later(&self) -> impl Iterator<Item = RecursionStage> {
         (2..self.t.len()).map(|j| {
             let mu_tilde = 2.0 * self.b(j) * self.w1 / self.b(j - 1);
-            Stage {
+            RecursionStage {
                 mu: 2.0 * self.b(j) * W0 / self.b(j - 1),
                 nu: -self.b(j) / self.b(j - 2),
                 mu_tilde,

@@ -21,7 +21,7 @@ const ROWS: usize = 16;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skyline {
     size: usize,
-    panels: Vec<Panel>,
+    panels: Vec<RowPanel>,
     /// Entries of the panels, column by column, zero where a row has none.
     entries: Vec<PanelColumn>,
 }
@@ -33,13 +33,13 @@ struct PanelColumn([f64; ROWS]);
 
 /// The columns of a panel, possibly empty.
 #[derive(Debug, Clone, PartialEq)]
-struct Panel {
+struct RowPanel {
     columns: Range<usize>,
     /// Index of its first column in the entries.
     start: usize,
 }
 
-impl Panel {
+impl RowPanel {
     /// Returns the part of its `columns` within `input`: where their entries are, and which columns these are.
     fn within(&self, input: &Range<usize>) -> (Range<usize>, Range<usize>) {
         let first = input.start.clamp(self.columns.start, self.columns.end);
@@ -86,7 +86,7 @@ impl Skyline {
                 let entry = |i| if i < rows { dense[(row + i, k)] } else { 0.0 };
                 PanelColumn(std::array::from_fn(entry))
             }));
-            panels.push(Panel { columns, start });
+            panels.push(RowPanel { columns, start });
         }
         Self {
             size,
@@ -142,7 +142,7 @@ impl Skyline {
 
     /// The entries of a row, each with its column.
     fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        let Panel { columns, start } = &self.panels[row / ROWS];
+        let RowPanel { columns, start } = &self.panels[row / ROWS];
         let columns = columns.clone().zip(&self.entries[*start..]);
         columns.map(move |(k, column)| (k, column.0[row % ROWS]))
     }

@@ -16,7 +16,7 @@ use super::segment::walk;
 use super::stroke::{DashPattern, draws};
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Cell {
+struct DotCell {
     /// Dots of curves and of the layer below, one bit each: bit `x + across * y`, y downwards.
     curve: u8,
     under: u8,
@@ -35,7 +35,7 @@ pub(super) struct Raster {
     marker: Marker,
     /// The area of the screen that it covers.
     pub(super) area: Rect,
-    cells: Vec<Cell>,
+    cells: Vec<DotCell>,
 }
 
 impl Raster {
@@ -44,7 +44,7 @@ impl Raster {
         Raster {
             marker,
             area,
-            cells: vec![Cell::default(); usize::from(area.width) * usize::from(area.height)],
+            cells: vec![DotCell::default(); usize::from(area.width) * usize::from(area.height)],
         }
     }
 
@@ -160,7 +160,7 @@ impl Raster {
     pub(super) fn blank(&mut self, area: Rect) {
         for place in self.area.intersection(area).positions() {
             let index = self.index(place);
-            self.cells[index] = Cell::default();
+            self.cells[index] = DotCell::default();
         }
     }
 
@@ -217,7 +217,7 @@ impl Raster {
     }
 
     /// Returns the cell that holds a dot, and the dot's bit in it; `None` outside.
-    fn locate(&mut self, column: usize, row: usize) -> Option<(&mut Cell, u16)> {
+    fn locate(&mut self, column: usize, row: usize) -> Option<(&mut DotCell, u16)> {
         let (across, down) = self.marker.dots();
         let (across, down) = (usize::from(across), usize::from(down));
         let row = (usize::from(self.area.height) * down).checked_sub(row + 1)?;
@@ -231,7 +231,7 @@ impl Raster {
     }
 
     /// Returns the character of a cell and its style; `None` if it is empty.
-    fn look(&self, cell: &Cell) -> Option<(char, Style)> {
+    fn look(&self, cell: &DotCell) -> Option<(char, Style)> {
         if cell.curve == 0 {
             let glyph = self.marker.under_glyph(cell.kind?, cell.under);
             return Some((glyph, cell.under_ink));

@@ -163,7 +163,7 @@ pub fn peak(radius: f64, [columns, rows]: [usize; 2], of: impl Fn(f64, f64) -> [
 
 /// What begins at x: the rise of the slopes of q_z and q_x over x² there (Pa/m).
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Kink {
+struct SlopeJump {
     x: f64,
     normal: f64,
     tangential: f64,
@@ -172,7 +172,7 @@ struct Kink {
 /// The line loads of one moment, as a source of stress in the half-space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringLoad {
-    kinks: Vec<Kink>,
+    kinks: Vec<SlopeJump>,
     /// q_z and q_x at the contact's edge a, N/m: not zero under a flat punch.
     end: [f64; 2],
     radius: f64,
@@ -348,7 +348,7 @@ fn thinned(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
 }
 
 /// Finds where the slopes over x² of the line loads `[x, q_z, q_x]` change: the kinks that add up to the loads.
-fn kinks(points: &[[f64; 3]]) -> Vec<Kink> {
+fn kinks(points: &[[f64; 3]]) -> Vec<SlopeJump> {
     let slope = |k: usize| {
         let (from, to) = (points[k], points[k + 1]);
         [1, 2].map(|i| (to[i] - from[i]) / ((to[0] - from[0]) * (to[0] + from[0])))
@@ -358,7 +358,7 @@ fn kinks(points: &[[f64; 3]]) -> Vec<Kink> {
     let mut kinks = Vec::with_capacity(points.len());
     for (k, point) in points.iter().enumerate() {
         let after = if k < last { slope(k) } else { [0.0, 0.0] };
-        kinks.push(Kink {
+        kinks.push(SlopeJump {
             x: point[0],
             normal: after[0] - before[0],
             tangential: after[1] - before[1],

@@ -6,7 +6,7 @@ use strum::{EnumString, IntoStaticStr, VariantNames};
 
 use super::change::Change;
 use super::key::{Default as Usual, Key, SCHEMA};
-use super::value::{Field, Section, Value, fields, section, words};
+use super::value::{KeyField, Section, Value, fields, section, words};
 use crate::contact::indenter::{Dimensions, Shape};
 use crate::math::abel::AbelMethod;
 use crate::simulation::waveform::{self, Wave};

@@ -186,7 +186,7 @@ pub(super) fn show(value: &Raw) -> String {
 }
 
 /// A field that holds the value of a key, or none.
-pub trait Field {
+pub trait KeyField {
     /// Returns the value.
     fn get(&self) -> Option<Value>;
     /// Replaces it; a value of another kind is none.
@@ -195,7 +195,7 @@ pub trait Field {
 
 macro_rules! values {
     ($($type:ty: $variant:ident, $($as:ty)?;)*) => {$(
-        impl Field for Option<$type> {
+        impl KeyField for Option<$type> {
             fn get(&self) -> Option<Value> {
                 self.clone().map(|value| Value::$variant(value $(as $as)?))
             }
@@ -213,7 +213,7 @@ values! { f64: Number,; usize: Whole, i64; u32: Whole, i64; bool: Flag,; String:
 
 macro_rules! words {
     ($($type:ty),* $(,)?) => {$(
-        impl Field for Option<$type> {
+        impl KeyField for Option<$type> {
             fn get(&self) -> Option<Value> {
                 self.map(|word| Value::Word(word.into()))
             }
@@ -228,7 +228,7 @@ macro_rules! words {
 }
 pub(super) use words;
 
-impl Field for Vec<f64> {
+impl KeyField for Vec<f64> {
     fn get(&self) -> Option<Value> {
         (!self.is_empty()).then(|| Value::Numbers(self.clone()))
     }
@@ -244,9 +244,9 @@ impl Field for Vec<f64> {
 /// Keys of one table.
 pub trait Section {
     /// The field of a key.
-    fn field(&self, key: &str) -> Option<&dyn Field>;
+    fn field(&self, key: &str) -> Option<&dyn KeyField>;
     /// The same, to be changed.
-    fn field_mut(&mut self, key: &str) -> Option<&mut dyn Field>;
+    fn field_mut(&mut self, key: &str) -> Option<&mut dyn KeyField>;
 }
 
 /// Declares the struct of a table: its keys by their names, then tables in it, then structs with further keys of it.
@@ -270,14 +270,14 @@ macro_rules! section {
 macro_rules! fields {
     ($name:ty { $($key:ident),* } $(parts { $($part:ident),* })?) => {
         impl Section for $name {
-            fn field(&self, key: &str) -> Option<&dyn Field> {
+            fn field(&self, key: &str) -> Option<&dyn KeyField> {
                 match key {
                     $(stringify!($key) => Some(&self.$key),)*
                     _ => None$($(.or_else(|| self.$part.field(key)))*)?,
                 }
             }
 
-            fn field_mut(&mut self, key: &str) -> Option<&mut dyn Field> {
+            fn field_mut(&mut self, key: &str) -> Option<&mut dyn KeyField> {
                 match key {
                     $(stringify!($key) => Some(&mut self.$key),)*
                     _ => None$($(.or_else(|| self.$part.field_mut(key)))*)?,

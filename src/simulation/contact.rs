@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::breakdown::{Cause, advice};
 use super::choices::Scheme;
-use super::drive::{Target, Targets};
+use super::drive::{Prescribed, Targets};
 use super::model::Model;
 use super::profile::Profile;
 use crate::contact::foundation::NormalContact;
@@ -126,11 +126,13 @@ impl<'a> ContactProblem<'a> {
         let is_stiff = self.model.setup.drive.rig_compliance() == 0.0;
         let (increment, shift) = match targets.tangential {
             None => return Ok(()),
-            Some(Target::Displacement(target)) if is_stiff => (target - before.shift, target),
+            Some(Prescribed::Displacement(target)) if is_stiff => (target - before.shift, target),
             Some(target) => {
                 let increment = match target {
-                    Target::Displacement(target) => self.increment_on_rig(after, slip, target)?,
-                    Target::Force(target) => self.increment_for_force(after, slip, target)?,
+                    Prescribed::Displacement(target) => {
+                        self.increment_on_rig(after, slip, target)?
+                    }
+                    Prescribed::Force(target) => self.increment_for_force(after, slip, target)?,
                 };
                 (increment, before.shift + increment)
             }
@@ -141,7 +143,7 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// Presses the indenter to a target, leaving the tangential springs unchanged.
-    fn press(self, target: Target, contact: &mut Contact) -> Result<(), Cause> {
+    fn press(self, target: Prescribed, contact: &mut Contact) -> Result<(), Cause> {
         let Self { model, profile, .. } = self;
         let setup = &model.setup;
         let depth = self.depth_at(target, contact)?;
@@ -181,7 +183,7 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// Returns the depth, m: prescribed, or the one that carries the prescribed force.
-    fn depth_at(self, target: Target, contact: &mut Contact) -> Result<f64, Cause> {
+    fn depth_at(self, target: Prescribed, contact: &mut Contact) -> Result<f64, Cause> {
         let Self {
             model,
             profile,
@@ -189,8 +191,8 @@ impl<'a> ContactProblem<'a> {
         } = self;
         let (g, setup) = (&profile.g, &model.setup);
         let force = match target {
-            Target::Displacement(depth) => return Ok(depth),
-            Target::Force(force) => force,
+            Prescribed::Displacement(depth) => return Ok(depth),
+            Prescribed::Force(force) => force,
         };
         let modulus = setup.material.normal_modulus();
         if let Some(length) = setup.geometry.length() {
@@ -253,7 +255,7 @@ impl<'a> ContactProblem<'a> {
     /// the rigid slip, that rises.
     fn shift_line(
         self,
-        target: Target,
+        target: Prescribed,
         after: &mut Contact,
         slip: &mut [f64],
     ) -> Result<(), Cause> {
@@ -262,7 +264,7 @@ impl<'a> ContactProblem<'a> {
         let rigid = before.shift - before.elastic_shift(model);
         let place = |after: &Contact, slip: &[f64]| rigid + slip[0] + after.elastic_shift(model);
         let target = match target {
-            Target::Force(force) => {
+            Prescribed::Force(force) => {
                 let limit = setup.material.friction() * after.normal_force(model);
                 if force.abs() >= limit && force != 0.0 {
                     return Err(Cause::FrictionExceeded { force, limit });
@@ -274,7 +276,7 @@ impl<'a> ContactProblem<'a> {
                 after.shift = place(after, slip);
                 return Ok(());
             }
-            Target::Displacement(target) => target,
+            Prescribed::Displacement(target) => target,
         };
         let compliance = setup.drive.rig_compliance();
         let span = 2.0 * after.normal.strongest * setup.material.reach();

@@ -76,7 +76,7 @@ impl Request {
 
 /// An unanswered request, and the bytes sent up to it since the previous one.
 #[derive(Debug, Clone, Copy)]
-struct Mark {
+struct SentRequest {
     sent: f64,
     bytes: f64,
     request: Request,
@@ -87,7 +87,7 @@ struct Mark {
 pub struct Flow {
     /// Chunks that the writer has not yet passed to the system.
     unwritten: usize,
-    marks: VecDeque<Mark>,
+    marks: VecDeque<SentRequest>,
     /// The shortest round trip, and when one close to it was last measured.
     base: f64,
     confirmed: f64,
@@ -112,7 +112,7 @@ impl Flow {
         }
         let rate = self.carried.map_or(SLOW, |[bytes, time]| bytes / time);
         // An answer that is late tells as much as one that has come.
-        let delay = |oldest: &Mark| now - self.base - oldest.sent.max(self.end());
+        let delay = |oldest: &SentRequest| now - self.base - oldest.sent.max(self.end());
         let oldest = self.marks.front();
         let late = oldest.map(|oldest| (oldest.bytes, delay(oldest)));
         let late = late.filter(|(_, time)| *time > TICK);
@@ -122,7 +122,7 @@ impl Flow {
     /// Returns how long the line will be busy with what was sent; negative if it is idle.
     fn wait(&self, now: f64) -> f64 {
         let rate = self.rate(now);
-        let carry = |end: f64, mark: &Mark| end.max(mark.sent) + mark.bytes / rate;
+        let carry = |end: f64, mark: &SentRequest| end.max(mark.sent) + mark.bytes / rate;
         self.marks.iter().fold(self.end(), carry) - now
     }
 
@@ -200,7 +200,7 @@ impl Flow {
 
     fn mark(&mut self, sent: f64, bytes: usize, request: Request) {
         let bytes = bytes as f64;
-        self.marks.push_back(Mark {
+        self.marks.push_back(SentRequest {
             sent,
             bytes,
             request,
@@ -217,7 +217,7 @@ impl Flow {
 
     /// Notes an answer of the terminal.
     pub fn answered(&mut self, now: f64, request: Request) {
-        let is_place = |mark: &Mark| mark.request == Request::Place;
+        let is_place = |mark: &SentRequest| mark.request == Request::Place;
         match (request, self.marks.iter().position(is_place)) {
             // What was asked before will have no answer.
             (Request::Place, Some(place)) => drop(self.marks.drain(..place)),

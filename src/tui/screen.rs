@@ -107,7 +107,7 @@ fn draw_panel(panel: Panel, explorer: &Explorer, mut canvas: Canvas) {
 fn status(frame: &Frame, mut canvas: Canvas) {
     let (theme, area, bar) = (canvas.theme, canvas.area, canvas.style(Role::Bar));
     let mut parts = status_parts(frame, area.width >= WITH_WORDS);
-    let text = |parts: &[Part]| {
+    let text = |parts: &[StatusPart]| {
         let slots = parts.iter();
         let slots = slots.map(|(_, text, width)| format!("{:1$}", theme.printable(text), width));
         slots.collect::<Vec<_>>().join(&theme.printable(" │ "))
@@ -129,7 +129,7 @@ const WITH_WORDS: u16 = 80;
 
 /// A part of the status line: its weight (the least important parts are dropped first), its text, and the minimum width
 /// of its slot, in cells.
-type Part = (u8, String, usize);
+type StatusPart = (u8, String, usize);
 
 /// Shortens a title to `room` cells, including a blank after it.
 fn shortened(mut text: String, room: usize) -> String {
@@ -148,7 +148,7 @@ fn shortened(mut text: String, room: usize) -> String {
 }
 
 /// Returns the parts of the status line, the state first.
-fn status_parts(frame: &Frame, has_room: bool) -> Vec<Part> {
+fn status_parts(frame: &Frame, has_room: bool) -> Vec<StatusPart> {
     let moment = &frame.live.observation.moment;
     let planned = frame.live.scenario.run().cycles;
     // Hundredths are of no interest among ten thousand cycles.

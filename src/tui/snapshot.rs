@@ -81,7 +81,7 @@ pub fn open(directory: &Path) -> Result<Recorded, String> {
     let Some(path) = checkpoint_in(directory) else {
         let shown = printable(&directory.display().to_string());
         return Err(format!(
-            "{shown}: is a directory without a {CHECKPOINT} to go on from; its scenario.toml starts anew"
+            "{shown}: is a directory without a {CHECKPOINT} to go on from; its scenario.toml starts a new run"
         ));
     };
     let kept = checkpoint::read::<IgnoredAny>(&path).map_err(|error| error.to_string())?;

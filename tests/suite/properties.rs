@@ -10,7 +10,7 @@ use mdr_tui::math::abel::AbelMethod::{self, A, APlusB, B};
 use mdr_tui::math::abel::AbelPlan;
 use mdr_tui::math::grid::RadialGrid;
 use mdr_tui::reading::{Curves, Observation, Zone};
-use mdr_tui::simulation::drive::{Control, Drive, Oscillation, Target};
+use mdr_tui::simulation::drive::{Control, Drive, Oscillation, Prescribed};
 use mdr_tui::simulation::{Simulation, State};
 use mdr_tui::wear::{Powers, WearLaw};
 use proptest::prelude::*;
@@ -436,7 +436,7 @@ fn every_frequency_ratio() {
 fn ten_million_cycles_on_the_drive_is_as_it_was() {
     let oscillation = |frequency| Oscillation::new(1.0, 0.1, frequency, 0.4).expect("a motion");
     let value = |target| match target {
-        Target::Displacement(value) | Target::Force(value) => value,
+        Prescribed::Displacement(value) | Prescribed::Force(value) => value,
     };
     for (ratio, turns) in [(1.0, 1.0), (2.0, 2.0), (1.5, 1.5), (SQRT_2, SQRT_2)] {
         let drive = Drive::new(

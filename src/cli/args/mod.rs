@@ -22,7 +22,8 @@ mod values;
 
 pub use figure::{Figure, PaperFigure};
 pub use studies::{
-    Fit, Guard, Inspect, NamingOptions, StabilityOptions, StrokeSource, TableOptions, Trade, Verify,
+    FitCommand, Guard, Inspect, NamingOptions, StabilityOptions, StrokeSource, TableOptions, Trade,
+    Verify,
 };
 pub use sweep::Sweep;
 pub use values::cycles;
@@ -43,7 +44,7 @@ use values::{budget, interval, listed};
 pub struct Arguments {
     /// What to do instead of opening the explorer.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<CliCommand>,
     /// The explorer's options.
     #[command(flatten)]
     pub explore: Explore,
@@ -51,7 +52,7 @@ pub struct Arguments {
 
 /// All commands except the explorer.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum CliCommand {
     /// Run a scenario without a screen and write its files.
     Run(RunOptions),
     /// List the presets, or print one as TOML.
@@ -75,7 +76,7 @@ pub enum Command {
     /// Draw figures for a paper: SVG, PNG or PDF, with their data next to them.
     Figure(Figure),
     /// Find parameters from measured scars, loops and histories.
-    Fit(Fit),
+    Fit(FitCommand),
     /// Show how a measured table is read: columns, units, cycles, zeros; and draw it.
     Inspect(Inspect),
     /// Print a completion script for a shell.

@@ -136,7 +136,7 @@ pub struct StabilityOptions {
     ("json", "Print the keys with values, standard errors and correlations as JSON"),
     ("force", "Write over the file of --out"),
 ]))]
-pub struct Fit {
+pub struct FitCommand {
     /// A preset's name, or a path to a .toml file; its values start the search.
     pub scenario: OsString,
     /// Changes to the scenario.

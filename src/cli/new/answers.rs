@@ -61,7 +61,7 @@ const JUMP_FROM: f64 = 1000.0;
 
 /// An answer: as a title names it, and the keys that it sets.
 #[derive(Debug, PartialEq)]
-pub struct Answer {
+pub struct Reply {
     text: String,
     sets: Vec<(String, Value)>,
 }
@@ -70,7 +70,7 @@ pub struct Answer {
 ///
 /// # Errors
 /// The rule that the answer breaks.
-pub fn read([option, key, unit, _]: Question, text: &str) -> Result<Answer, String> {
+pub fn read([option, key, unit, _]: Question, text: &str) -> Result<Reply, String> {
     let text = text.trim();
     let (text, mut sets) = match option {
         "material" | "against" => body(key, text)?,
@@ -87,7 +87,7 @@ pub fn read([option, key, unit, _]: Question, text: &str) -> Result<Answer, Stri
     };
     let words = WORDS.iter().filter(|(of, ..)| *of == option);
     sets.extend(words.map(|(_, key, word)| ((*key).to_owned(), Value::from(*word))));
-    Ok(Answer { text, sets })
+    Ok(Reply { text, sets })
 }
 
 /// Reads a material, a name of the list or `E,NU` such as `200 GPa,0.3`: its name, and the keys of its table.
@@ -140,7 +140,7 @@ fn quantity(text: &str, key: &str, unit: &str) -> Result<(String, f64), String> 
 
 /// The answers so far, by option.
 #[derive(Debug, Default)]
-pub struct Answers(pub BTreeMap<&'static str, Answer>);
+pub struct Answers(pub BTreeMap<&'static str, Reply>);
 
 impl Answers {
     /// Makes the scenario.
@@ -192,7 +192,7 @@ impl Answers {
 mod tests {
     use super::*;
 
-    fn answer(option: &str, text: &str) -> Result<Answer, String> {
+    fn answer(option: &str, text: &str) -> Result<Reply, String> {
         let found = QUESTIONS.iter().find(|[of, ..]| *of == option);
         read(*found.expect("a question"), text)
     }

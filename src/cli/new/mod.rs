@@ -19,7 +19,7 @@ use crate::tui::line::wrapped;
 mod answers;
 mod forecast;
 
-use answers::{Answer, Answers, QUESTIONS, Question, read};
+use answers::{Answers, QUESTIONS, Question, Reply, read};
 use forecast::Forecast;
 
 /// Writes a new scenario.
@@ -143,7 +143,7 @@ impl Interview {
     }
 
     /// Returns the answer to a question; asks the user again if it breaks a rule.
-    fn ask(&self, question: Question) -> Result<Answer> {
+    fn ask(&self, question: Question) -> Result<Reply> {
         let [option, .., usual] = question;
         while self.asks && self.given(option).is_none() {
             match read(question, &read_line(&help(option), usual)?) {

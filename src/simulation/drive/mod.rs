@@ -45,15 +45,15 @@ impl Plane {
 }
 
 /// A prescribed value at one moment.
-pub type Target = Control<f64>;
+pub type Prescribed = Control<f64>;
 
 /// The targets of both directions at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Targets {
     /// The normal direction.
-    pub normal: Target,
+    pub normal: Prescribed,
     /// The tangential direction, if it moves.
-    pub tangential: Option<Target>,
+    pub tangential: Option<Prescribed>,
 }
 
 impl Control {
@@ -73,11 +73,11 @@ impl Control {
     }
 
     /// The prescribed displacement or force after this many turns of the oscillation.
-    fn at(&self, turns: f64) -> Target {
+    fn at(&self, turns: f64) -> Prescribed {
         let value = self.oscillation().after_turns(turns);
         match self {
-            Self::Displacement(_) => Target::Displacement(value),
-            Self::Force(_) => Target::Force(value),
+            Self::Displacement(_) => Prescribed::Displacement(value),
+            Self::Force(_) => Prescribed::Force(value),
         }
     }
 }
@@ -325,12 +325,12 @@ mod tests {
         let cycles = 3.3;
         let time = cycles * drive.period();
         let expected = 1e-6 + 1e-7 * (200.0 * time).sin();
-        let Target::Displacement(depth) = drive.targets(cycles).normal else {
+        let Prescribed::Displacement(depth) = drive.targets(cycles).normal else {
             panic!("a displacement")
         };
         assert!((depth - expected).abs() < 1e-20);
         let expected = 1e-7 * (100.0 * time + 0.5).sin();
-        let Some(Target::Displacement(shift)) = drive.targets(cycles).tangential else {
+        let Some(Prescribed::Displacement(shift)) = drive.targets(cycles).tangential else {
             panic!("a displacement")
         };
         assert!((shift - expected).abs() < 1e-20);

@@ -177,7 +177,7 @@ fn first_crossing(function: impl Fn(f64) -> f64, ratio: f64, from: f64, until: f
 #[cfg(test)]
 mod tests {
     use super::super::tests::drive;
-    use super::super::{Oscillation, Target};
+    use super::super::{Oscillation, Prescribed};
     use super::*;
 
     #[test]
@@ -188,7 +188,7 @@ mod tests {
             .expect("a turn");
         let value = |cycles: f64| {
             let targets = drive.targets(cycles);
-            let (Target::Displacement(d), Some(Target::Displacement(u))) =
+            let (Prescribed::Displacement(d), Some(Prescribed::Displacement(u))) =
                 (targets.normal, targets.tangential)
             else {
                 panic!("displacements")

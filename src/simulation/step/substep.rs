@@ -35,7 +35,7 @@ const SMALLEST: f64 = 1e-4;
 
 /// How a step or a sub-step is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Part {
+enum SubStepKind {
     /// As it is, whatever the stiffness.
     Raw,
     /// Only if it is not too stiff.
@@ -73,13 +73,13 @@ pub(in super::super) fn step(
             cycle
         };
         let kind = match model.setup.stability {
-            _ if hopeless => Part::Raw,
-            Stability::Off => Part::Raw,
-            Stability::SubStep if part <= SMALLEST => Part::Unstable,
-            Stability::SubStep => Part::Guarded,
+            _ if hopeless => SubStepKind::Raw,
+            Stability::Off => SubStepKind::Raw,
+            Stability::SubStep if part <= SMALLEST => SubStepKind::Unstable,
+            Stability::SubStep => SubStepKind::Guarded,
         };
         let ahead = match scheme {
-            Scheme::Trapezoid if kind != Part::Unstable => {
+            Scheme::Trapezoid if kind != SubStepKind::Unstable => {
                 trapezoid::ahead(from, reach - from.cycle)
             }
             Scheme::Trapezoid | Scheme::Euler => 0.0,
@@ -93,16 +93,16 @@ pub(in super::super) fn step(
         let stiffness = attempt(model, from, next, scratch, reach)?;
         match kind {
             // No sub-step is short enough: taking this one shows what is wrong.
-            Part::Guarded if stiffness == f64::INFINITY => {
+            SubStepKind::Guarded if stiffness == f64::INFINITY => {
                 hopeless = true;
                 continue;
             }
-            Part::Guarded if stiffness > stiff => {
+            SubStepKind::Guarded if stiffness > stiff => {
                 part = (part * aim / stiffness).max(SMALLEST);
                 continue;
             }
-            Part::Guarded | Part::Raw => {}
-            Part::Unstable => scratch.increment.damp(model),
+            SubStepKind::Guarded | SubStepKind::Raw => {}
+            SubStepKind::Unstable => scratch.increment.damp(model),
         }
         accept(model, from, next, scratch, reach)?;
         stiffest = stiffest.max(stiffness);

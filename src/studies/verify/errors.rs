@@ -17,11 +17,11 @@ pub struct NodalErrors {
 }
 
 /// A node: r/a, result and theory.
-pub type Sample = (f64, f64, f64);
+pub type NodeSample = (f64, f64, f64);
 
 impl NodalErrors {
     /// Computes |result − theory|/`unit`, or relative to theory without a unit, as in the paper's Fig. 2.
-    pub fn new(unit: Option<f64>, samples: impl Iterator<Item = Sample>) -> Self {
+    pub fn new(unit: Option<f64>, samples: impl Iterator<Item = NodeSample>) -> Self {
         let mut all = Self::default();
         for (r, result, theory) in samples {
             let unit = unit.unwrap_or(theory.abs());

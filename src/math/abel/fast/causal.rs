@@ -12,7 +12,7 @@
 //!
 //! The last digits differ between CPUs with and without fused multiply-add, but never between runs on one machine.
 
-use super::powers::{LANES, MOST_GROUPS, Powers};
+use super::powers::{LANES, MOST_GROUPS, PowerSum};
 use crate::math::vector::{Fusing, with_widest};
 
 /// Maximum number of nearest rows.
@@ -40,7 +40,7 @@ pub(super) fn log_distance(one: f64, other: f64) -> f64 {
 
 impl Causal {
     /// Plans the sums for rows at `radii`, rising or falling, with separate weights where the `powers` do not reach.
-    pub fn new(radii: &[f64], powers: &Powers) -> Self {
+    pub fn new(radii: &[f64], powers: &PowerSum) -> Self {
         let decay = |step: f64, exponent: f64| match exponent {
             0.0 => 1.0,
             _ => (-exponent * step).exp(),

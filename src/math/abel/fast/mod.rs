@@ -49,7 +49,7 @@ mod tests;
 
 use causal::{BLOCK, Causal, REACH, log_distance};
 pub(super) use powers::{ARC, ROOT};
-use powers::{Kernel, Powers, WORN, fit};
+use powers::{Kernel, PowerSum, WORN, fit};
 
 /// Tolerance of the kernels in a run.
 pub const TOLERANCE: f64 = 1e-8;
@@ -60,7 +60,7 @@ pub(super) const TOLERANCES: [f64; 4] = [TOLERANCE, 1e-7, 1e-6, 1e-5];
 /// Fits the powers for rows at `radii` to a relative `tolerance` of the kernel;
 /// they cover all but the nearest neighbours. `None` if that is out of reach:
 /// below about 1e-12 on ordinary grids, earlier on grids with very narrow cells.
-pub(super) fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<Powers> {
+pub(super) fn powers(radii: &[f64], kernel: Kernel, tolerance: f64) -> Option<PowerSum> {
     let pairs = radii.iter().zip(&radii[REACH.min(radii.len() - 1)..]);
     let pairs = pairs.filter(|(inner, _)| **inner > 0.0);
     let least = pairs.map(|(&a, &b)| log_distance(a, b)).fold(1.0, f64::min);
@@ -106,7 +106,7 @@ pub(super) struct Outwards {
 
 impl Outwards {
     /// Plans the transform of values that are flat behind the first `cells`.
-    pub fn new(grid: &RadialGrid, cells: usize, powers: &Powers) -> Self {
+    pub fn new(grid: &RadialGrid, cells: usize, powers: &PowerSum) -> Self {
         Self {
             squares: grid.squares().to_vec(),
             inverse: inverse_widths(&grid.squares()[..=cells]),
@@ -144,7 +144,7 @@ pub(super) struct Inwards {
 }
 
 impl Inwards {
-    pub fn new(grid: &RadialGrid, roots: &Powers) -> Self {
+    pub fn new(grid: &RadialGrid, roots: &PowerSum) -> Self {
         let nodes = grid.nodes();
         let inwards: Vec<f64> = nodes.iter().rev().copied().collect();
         Self {
@@ -204,7 +204,7 @@ pub(super) struct WornTransform {
 
 impl WornTransform {
     /// Plans it with the `roots` of Eq. (1) and separate powers to the `tolerance`; `None` if that is out of reach.
-    pub fn new(grid: &RadialGrid, border: usize, roots: &Powers, tolerance: f64) -> Option<Self> {
+    pub fn new(grid: &RadialGrid, border: usize, roots: &PowerSum, tolerance: f64) -> Option<Self> {
         let x = &grid.nodes()[border..];
         let z: Vec<f64> = x.iter().map(|&r| leg(x[0], r)).collect();
         Some(Self {

@@ -90,7 +90,7 @@ pub(super) const WORN: Kernel = Kernel {
 
 /// Σ a_m v^(μ_m).
 #[derive(Debug, Clone)]
-pub(in super::super) struct Powers {
+pub(in super::super) struct PowerSum {
     /// Kernel that they approximate.
     pub kernel: Kernel,
     /// They approximate it for v ≤ exp(−`nearest`).
@@ -104,7 +104,7 @@ pub(in super::super) struct Powers {
 /// Fits the fewest powers that hold `kernel` to `tolerance` for v ≤ exp(−`nearest`).
 ///
 /// `None` if [`MOST_GROUPS`] do not suffice.
-pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers> {
+pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<PowerSum> {
     let range = (FARTHEST / nearest).ln();
     let last = (SAMPLES * range).ceil();
     let samples = DVector::from_fn(last as usize + 1, |i, _| {
@@ -121,7 +121,7 @@ pub(super) fn fit(kernel: Kernel, nearest: f64, tolerance: f64) -> Option<Powers
         let qr = powers.clone().qr();
         let factors = qr.r().solve_upper_triangular(&qr.q().tr_mul(&kinks))?;
         let worst = (powers * &factors - &kinks).amax();
-        (RESERVE * worst <= tolerance).then(|| Powers {
+        (RESERVE * worst <= tolerance).then(|| PowerSum {
             kernel,
             nearest,
             exponents,

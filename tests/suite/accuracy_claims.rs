@@ -140,7 +140,7 @@ fn lost_contact_is_met_when_it_is_lost() {
     }
 }
 
-/// c = 0.9995 a and closer: the ring has cells of its own, and E_d and V are those of Cattaneo and Mindlin.
+/// c = 0.9995 a and closer: the ring gets separate cells, and E_d and V match Cattaneo and Mindlin.
 #[test]
 fn thin_rings_of_slip_are_seen() {
     let (radius, depth, modulus) = (0.01, 1e-6, 2.3077e11);

@@ -1,4 +1,4 @@
-//! A run put away and taken up again is the run that was never put away, to the last bit.
+//! A run that is saved and resumed is bit-identical to an uninterrupted one.
 
 use std::fs;
 use std::path::Path;
@@ -202,7 +202,7 @@ fn shorten(value: &mut Value, left: &mut usize, inside: bool) -> bool {
     }
 }
 
-/// Puts extreme values in the place of every saved number in turn: each is refused in a line, or the run goes on.
+/// Replaces every saved number in turn by extreme values: each is refused in one line, or the run continues.
 #[test]
 fn no_saved_number_is_believed() {
     let session = ran(load("li2019-fig3", &["numerics.points=4"]), 0.31);
@@ -237,7 +237,7 @@ fn no_saved_number_is_believed() {
     assert!(place > 80 && refused > 20, "{refused} of {place}");
 }
 
-/// Puts an extreme value in the place of the number that comes after `left` others; false if there is none.
+/// Replaces the number that comes after `left` others by an extreme value; false if there is no such number.
 fn bend(value: &mut Value, left: &mut usize, which: usize) -> bool {
     let extreme = match value {
         Value::Map(fields) => {
@@ -256,7 +256,7 @@ fn bend(value: &mut Value, left: &mut usize, which: usize) -> bool {
     found
 }
 
-/// What is said of a file of another kind, and of one that is not whole.
+/// Returns the refusals of a file of another kind and of an incomplete one.
 const FOREIGN: &str = "is not a checkpoint of mdr-tui";
 const TORN: &str = "is damaged: ";
 

@@ -1,6 +1,6 @@
 //! No import circles: what a file imports never leads back to it.
 //!
-//! A file may import from the `mod.rs` of its own folder, whose parts they both are; and a name that a `mod.rs` hands on is
+//! A file may import from the `mod.rs` of its folder, whose parts they both are; and a name that a `mod.rs` hands on is
 //! followed to the file that has it.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -11,7 +11,7 @@
 //! - `? PART VERB TEXT` looks at what the last command has said or at files. Parts are `out`, `err`, `FILE`, `FILE#KEY` (the
 //!   value of a header line), `FILE:COLUMN` (its fields, `-` where they are empty), `FILE:COLUMN@ROW` (one of them, from 0,
 //!   or from the end by `-1`) and `DIRECTORY/` (the names in it).
-//! - Verbs are those of `screen_table.rs` and `lists` (a line or a word is the text), `lines N`, `rows N`, `each` (every
+//! - Verbs are the ones of `screen_table.rs` and `lists` (a line or a word is the text), `lines N`, `rows N`, `each` (every
 //!   field is the text), `runs` (the fields are these, each any number of times), `grows`, `within LOW HIGH` (every number
 //!   lies there, and is no NaN), `near NUMBER SHARE` (the last one is but for that share), `same PART`, `differs PART`, and
 //!   for directories `alike DIRECTORY/`.

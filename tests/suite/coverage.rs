@@ -12,7 +12,7 @@ use mdr_tui::studies::measured::Measured;
 
 use crate::random::Random;
 
-/// Cycles of a test that wears the contact by little: the closed forms are those of an unworn one, and a scar of 2e-3 of the
+/// Cycles of a test that wears the contact by little: the closed forms hold for an unworn one, and a scar of 2e-3 of the
 /// depth moves k by half a standard error.
 const CYCLES: f64 = 5000.0;
 
@@ -31,7 +31,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// A random one whose amplitude is this share of that of gross slip.
+    /// A random one whose amplitude is this fraction of the gross-slip amplitude.
     fn new(seed: u64, share: [f64; 2]) -> Self {
         let mut random = Random::new(seed);
         let mut contact = CattaneoMindlin {

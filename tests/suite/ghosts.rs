@@ -1,4 +1,4 @@
-//! Other curves over those of a run: measured data, runs, scenarios and frozen states, on screens and in
+//! Other curves over a run's: measured data, runs, scenarios and frozen states, on screens and in
 //! figures; and snapshots, which hold what is needed to go on.
 
 use crate::common::near;

@@ -307,7 +307,7 @@ fn the_columns_of_files_are_those_of_their_table() {
         "| column | meaning | unit |\n|---|---|---|\n".to_owned() + &rows.collect::<String>()
     };
     let page = root().join("src/guide/files.md");
-    // The displacement of the surface has the name of that of the indenter.
+    // The displacement of the surface is named like the indenter's.
     let springs = Column::STATE
         .iter()
         .position(|column| *column == Column::SpringShift);

@@ -138,7 +138,7 @@ fn resuming_shows_the_session_paused_where_it_was_and_goes_on() {
     assert!(terminal.has_its_modes_back(), "still in raw mode");
     assert_eq!(kept(&home), Some(path.clone()));
 
-    // A session that has gone on has a checkpoint of its own, and leaves the first as it was.
+    // A resumed session has a separate checkpoint, and leaves the first unchanged.
     let before = fs::read(&path).expect("the checkpoint");
     let mut terminal = Terminal::start(at_home(&home, &["--resume", &again]), 80, 24);
     terminal.wait_for("paused");
@@ -197,7 +197,7 @@ fn a_defect_keeps_the_session_of_a_moment_ago() {
     assert_exact(&read(&kept(&home).expect("a checkpoint")));
 }
 
-/// A server on the loopback with keys of its own.
+/// A server on the loopback interface with its own keys.
 struct Server {
     child: Child,
     directory: TempDir,
@@ -343,7 +343,7 @@ fn an_explorer_that_is_killed_loses_an_interval_at_most() {
     }
 }
 
-/// The next explorer names the session, has a file of its own, and asks no more once the session has gone on.
+/// The next explorer names the session, has a separate file, and asks no more once the session is resumed.
 #[test]
 fn an_explorer_that_was_killed_is_told_of_until_it_goes_on() {
     let home = home();

@@ -13,7 +13,7 @@ use mdr_tui::studies::refinement::{self, Budget, Difference, Level, Outcome, Ver
 use crate::random::Random;
 use crate::random_scenarios;
 
-/// Ratio of the cells and steps of the fine run to those of the rung that it judges: no whole number, so that they share
+/// Ratio of the cells and steps of the fine run to the ones of the rung that it judges: not whole, so that they share
 /// no moments.
 const FINER: f64 = 3.3;
 
@@ -152,7 +152,7 @@ pub fn judge_estimate(seed: u64) -> Result<(Difference, Difference), String> {
     ))
 }
 
-/// Runs the scenario of a seed as it is: how far it is from a much finer run, and whether all its checks hold.
+/// Runs the scenario of a seed unchanged: how far it is from a much finer run, and whether all its checks hold.
 ///
 /// # Errors
 /// A reason, if one of the runs does not come to its end.

@@ -147,7 +147,7 @@ fn a_click_in_a_plot_moves_the_cursor_there() {
     // Ten columns are as far everywhere in a plot, to a hundredth of it and half of the last digit.
     let steps = [seen[1] - seen[0], seen[2] - seen[1]];
     assert!((steps[0] - steps[1]).abs() < 0.1 * steps[0], "{seen:?}");
-    // A chart over something else has a cursor of its own, once it has the focus.
+    // A chart over something else has a separate cursor, once it has the focus.
     terminal.press(&click(60, 18));
     terminal.wait_until("cycles", |screen| {
         let text = screen.contents();

@@ -87,7 +87,7 @@ fn hertz() {
     check_normal(&PUBLISHED, shape, PowerLaw::paraboloid(1.0), bounds);
 }
 
-/// Exact to rounding for whoever takes f as piecewise linear; B's f′ = 0 at the tip costs order ½.
+/// Exact to rounding for methods that take f as piecewise linear; B's f′ = 0 at the tip costs order ½.
 #[test]
 fn cone() {
     let shape = Indenter::cone(FRAC_2_PI.atan()).expect("a shape");

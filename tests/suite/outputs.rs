@@ -157,7 +157,7 @@ fn force_removes_what_the_earlier_run_has_written_and_nothing_else() {
     let line = "run li2019-fig3 --set numerics.points=20 --quiet --cycles 2";
     dir.done(&format!("{line} --snapshot-at 1,1.5 --field --out x"));
     dir.done(&format!("{line} --snapshot-at 0.5 --out other"));
-    // Another run's table, one in the place of the run's, and a figure's data.
+    // Another run's table, one that replaces the run's, and a figure's data.
     fs::copy(dir.path("other/state-0.5.csv"), dir.path("x/state-0.5.csv")).expect("a copy");
     dir.write("x/state-1.5.csv", b"r_m,f_m\n0,0\n");
     dir.done("figure x -o x/state.svg --panel profile --quiet");

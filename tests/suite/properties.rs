@@ -106,7 +106,7 @@ proptest! {
     }
 }
 
-/// Fig. 3 in units of its own: depth d (m), radius R (m), modulus E* (Pa).
+/// Fig. 3 in its own units: depth d (m), radius R (m), modulus E* (Pa).
 fn scaled(method: AbelMethod, depth: f64, radius: f64, modulus: f64) -> Simulation {
     let a0 = (radius * depth).sqrt();
     let shape = Indenter::paraboloid(radius).expect("a shape");

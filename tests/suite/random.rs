@@ -1,5 +1,5 @@
 //! Random numbers that are the same on every machine and in every version: SplitMix64 (G. L. Steele, D. Lea,
-//! C. H. Flood, 2014, OOPSLA, doi 10.1145/2660193.2660195), since those of library crates may change.
+//! C. H. Flood, 2014, OOPSLA, doi 10.1145/2660193.2660195), since the ones of library crates may change.
 
 #![allow(dead_code, reason = "not every program needs all of it")]
 

@@ -43,7 +43,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// A guess at the work of the run, J: that of a sphere under a held load.
+    /// A guess at the work of the run, J, as for a sphere under a held load.
     fn work(&self) -> f64 {
         let share = self.shift / self.gross_slip;
         let per_cycle = match share < 1.0 {
@@ -142,7 +142,7 @@ pub fn choose(table: &mut Table, path: &str, word: &str, known: &Known, draw: &m
         let users = key.and_then(|key| key.used_by.get(path).cloned());
         users.is_none_or(|users| users.contains(&word))
     });
-    // Whoever takes the scenario tells of any other error.
+    // Any other error is reported where the scenario is used.
     while let Err(error) = Scenario::from_toml(&table.to_string(), word, &[])
         && let Some((missing, _)) = error.to_string().split_once(" is missing: ")
         && let Some(missing) = missing.rsplit(' ').next().and_then(Key::find)

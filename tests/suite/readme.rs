@@ -1,5 +1,5 @@
 //! The README is short and names what the program has; the manual page and the footer hold the
-//! table of commands. Its commands and scenarios are tried with those of the guide.
+//! table of commands. Its commands and scenarios are tried together with the guide's.
 
 use std::fs;
 use std::path::Path;

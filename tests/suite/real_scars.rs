@@ -81,7 +81,7 @@ fn energy_and_volume_are_compared_from_the_scar_on() {
     has(&told, "cannot change during a run");
 }
 
-/// A held force presses the indenter on from the scar that it has left: V and d are those of a run at once.
+/// A held force presses the indenter on from the scar that it has left: V and d are as in an uninterrupted run.
 #[test]
 fn a_held_force_sinks_in_from_its_scar() {
     let dir = TestDir::new();

@@ -135,7 +135,7 @@ fn coarser_twins_tell_the_errors_of_a_run() {
     }
 }
 
-/// The last rung is the result: the same numerics give the same bits, and its error is that of the statement.
+/// The last rung is the result: the same numerics give the same bits, and its error is the stated one.
 #[test]
 fn the_result_is_the_run_of_the_last_rung() {
     let scenario = load("li2019-fig3", &["run.cycles=10"]);

@@ -46,7 +46,7 @@ fn a_run_that_was_interrupted_writes_what_one_that_was_not_writes() {
         let said = end(child);
         assert_eq!(said.code, 75, "{}", said.err);
         let checkpoint = format!("{out}/run.checkpoint");
-        // The files of an interrupted run are those of the moment.
+        // The files of an interrupted run show the moment of the interruption.
         let history = dir.table(&format!("{out}/history.csv"));
         let state = dir.table(&format!("{out}/state.csv"));
         let cycle: f64 = state.header("cycle").parse().expect("a number");
@@ -98,7 +98,7 @@ fn a_copy_of_a_checkpoint_leaves_the_run_that_took_its_place_alone() {
     interrupted(&dir, "x", "--set friction.coefficient=0.3");
     dir.refuse_line("run --resume copy", "x: holds an interrupted run");
     dir.refuse_line("run --resume copy --out x", "x: holds an interrupted run");
-    // Neither its rows nor its snapshots are taken for those of the copy.
+    // Neither its rows nor its snapshots are mistaken for the copy's.
     let said = dir.line("run --resume copy --cycles 20 --out y --quiet");
     said.fails(0, "the history so far no longer exists");
     assert!(!names(&dir.path("y")).contains(&"state-1.csv".into()));

@@ -72,7 +72,7 @@ fn every_preset_and_valid_fixture_presses_its_contact_and_reads_back() {
     }
 }
 
-/// As in a study on a preset with cells and steps of its own.
+/// As in a study on a preset that names its cells and steps.
 #[test]
 fn an_accuracy_chooses_the_integrator_whatever_numbers_stood_there() {
     let fig3 = load("li2019-fig3", &[]);
@@ -405,7 +405,7 @@ proptest! {
             ("numerics.steps_per_cycle", steps.to_string()),
         ];
         let indenter = setup.indenter;
-        // A punch ends its own domain, and a tip of its own size must lie within any other.
+        // A punch ends its own domain, and a tip of given size must lie within any other.
         let free = indenter.rim().is_none() && indenter.tip_radius() == 0.0;
         let domain = domain.filter(|_| free);
         assignments.extend(domain.map(|domain| ("numerics.domain_radius", number(domain))));

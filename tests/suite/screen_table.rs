@@ -229,7 +229,7 @@ fn replays(arguments: &[String], keys: &str, changes: &str) {
     assert!(dir.read("again/state.csv") == state, "the states differ");
 }
 
-/// Pins a screen under a name of its own.
+/// Pins a screen under a separate name.
 pub fn pin(name: &str, screen: &str) {
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);

@@ -332,7 +332,7 @@ fn a_small_panel_hides_no_curve_behind_its_names() {
 
 #[test]
 fn a_comparison_can_begin_at_the_start() {
-    // It is the run of that method: the same numbers as in a run of its own.
+    // It is the run of that method: the same numbers as in a separate run.
     let keys = ",,,,,,C:focus wear volume<Enter>x";
     let text = shot("strong-wear", keys, (200, 50));
     let alone = ran(load("strong-wear", &["numerics.method=b"]), 6.0);

@@ -1,7 +1,7 @@
 //! Slow or stalled terminals: keys are answered first, and every end comes within a second.
 //!
 //! The line is a pseudo-terminal that is read at a limited rate. It holds some 16 kB that
-//! nobody has read yet, so that a program which sends what it has is soon half a minute behind.
+//! is unread, so that a program which sends what it has is soon half a minute behind.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -44,7 +44,7 @@ fn on_a_slow_line_a_key_shows_within_two_seconds() {
     eprintln!("{latencies:.1?}");
     assert_eq!(terminal.ends_soon("q"), 0);
     assert!(session(&home).simulation().cycle() > 0.0);
-    // Whoever runs all the tests at once has a busy machine: one of four may be late.
+    // All tests at once keep the machine busy: one of four may be late.
     let late = latencies
         .iter()
         .filter(|found| **found > Duration::from_secs(2));
@@ -78,7 +78,7 @@ fn a_terminal_that_never_answers_shows_the_whole_screen() {
     assert_eq!(terminal.ends_soon("TERM"), 0);
 }
 
-/// An explorer whose first screen is more than a line holds that nobody reads.
+/// An explorer whose first screen is more than an unread line holds.
 fn stalled(home: &TempDir, arguments: &[&str], fault: &str) -> Terminal {
     let line = Line {
         rate: Some(0),
@@ -177,7 +177,7 @@ fn a_run_on_a_terminal_that_stops_reading_answers_signals() {
         ..Line::default()
     };
     let bin = env!("CARGO_BIN_EXE_mdr-tui");
-    // What nobody reads is there already.
+    // The unread output is there already.
     let start = format!(
         "(yes | head -c 100000 >&2) & sleep 0.2; exec '{bin}' run li2019-fig3 --cycles 1e9 \
          --checkpoint-every 0.02 --out '{}/x'",

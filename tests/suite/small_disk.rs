@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use crate::test_dir::{TestDir, end, has, kill, names};
 
-/// A directory on a file system of its own.
+/// A directory on a separate file system.
 struct SmallDisk(PathBuf);
 
 impl SmallDisk {

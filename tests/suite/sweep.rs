@@ -180,7 +180,7 @@ fn the_map_shows_two_axes_and_reads_points() {
     let lowest = lowest.expect("a row of the map");
     let last = lowest.chars().rfind(|sign| "s~#".contains(*sign));
     assert_eq!(last, Some('#'), "{lines:?}");
-    // The cursor: two to the right, three up; the point is that of the row.
+    // The cursor: two to the right, three up; the point is the row's.
     let lines = screen(&dir, "map.csv", "ll<Up>kk");
     let is_read = |line: &&String| line.starts_with("worn volume V ") && line.contains("regime");
     let read = lines.iter().rfind(is_read).expect("readings");

@@ -597,7 +597,7 @@ fn ctrl_l_draws_the_whole_screen_anew() {
     assert_clean_end(&mut terminal);
 }
 
-/// What a terminal sends by itself, late and in parts, or from a mode that another program has left on, is no key.
+/// What a terminal sends by itself, late and in parts, or from a mode that another program has left on, is not a key.
 #[test]
 fn what_the_terminal_sends_in_parts_is_no_key() {
     let mut terminal = running(&[]);

@@ -1,4 +1,4 @@
-//! `mdr-tui trade`: what it prints, writes and refuses, and that its numbers are those of the runs.
+//! `mdr-tui trade`: what it prints, writes and refuses, and that its numbers are the runs'.
 
 use std::fs;
 

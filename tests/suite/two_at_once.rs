@@ -44,7 +44,7 @@ fn of_two_runs_into_one_directory_the_second_is_refused() {
         hears_why(&loser, "not empty");
         dir.alike(&format!("whole-{winner}"), &out);
     }
-    // Without --out each has a directory of its own.
+    // Without --out each has a separate directory.
     let [first, second] = [0, 1].map(|_| dir.start("run hertz --cycles 1 --quiet", &[]));
     assert_eq!((end(first).code, end(second).code), (0, 0));
     dir.alike("hertz-run", "hertz-run-2");

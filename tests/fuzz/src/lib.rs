@@ -141,7 +141,7 @@ pub fn session(bytes: &[u8]) {
     rehearse(session, theme, &strokes, Size::new(80, 24));
 }
 
-/// The last screen of an explorer of its own that does what `strokes` say. A panic in its worker continues here.
+/// Returns the last screen of a separate explorer that does what `strokes` say. A panic in its worker continues here.
 pub fn rehearse(session: Session, theme: Theme, strokes: &[ScriptStep], size: Size) -> String {
     let (orders, to_worker) = Orders::channel();
     let (events, inbox) = channel();

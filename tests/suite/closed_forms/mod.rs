@@ -2,7 +2,7 @@
 //!
 //! Everything here imports `std` only (and its own neighbours in this folder). Pure functions and small structs, SI units,
 //! `f64`. If a problem has no closed form, the defining integral is computed by adaptive quadrature, its singularity
-//! removed by substitution. Equation numbers are those of Li, Forsbach & Benad (2019), doi 10.22190/FUME190103012L.
+//! removed by substitution. Equation numbers refer to Li, Forsbach & Benad (2019), doi 10.22190/FUME190103012L.
 //! Arguments outside a function's domain give NaN, never a panic; each item says so where it can happen.
 //!
 //! | file | problem |

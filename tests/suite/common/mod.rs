@@ -339,7 +339,7 @@ pub fn change(session: &mut Session, key: &str, value: &str) {
     session.assign(&[(key, value)]).expect("a change");
 }
 
-/// What is said of a change that a session refuses.
+/// Returns the error of a change that a session refuses.
 #[track_caller]
 pub fn refused(session: &mut Session, key: &str, value: &str) -> String {
     let refusal = session.assign(&[(key, value)]);
@@ -402,7 +402,7 @@ pub fn rehearsed_on(session: Session, keys: &str, size: (usize, usize)) -> Strin
     fits(rehearse(session, theme, &strokes, area), size, keys)
 }
 
-/// An explorer's worker in a thread of its own, which ends with it.
+/// An explorer's worker in a separate thread, which ends with it.
 pub struct LiveWorker {
     /// The way to it.
     pub orders: Orders,
@@ -434,7 +434,7 @@ impl Drop for LiveWorker {
     }
 }
 
-/// The explorer on a worker of its own, without a terminal and without a process.
+/// The explorer on a separate worker, without a terminal and without a process.
 pub struct Explorer {
     /// The screen's side.
     pub app: App,

@@ -36,7 +36,7 @@ struct Output {
 /// How the terminal reads what comes out of the program.
 #[derive(Debug, Clone, Copy)]
 pub struct Line {
-    /// Bytes a second; none: as fast as they come. Zero: not at all.
+    /// Bytes per second; `None`: as fast as they come; 0: not at all.
     pub rate: Option<u32>,
     /// Whether it answers when it is asked whether it is ready, or where its cursor is, as most terminals do.
     pub answers: bool,
@@ -61,7 +61,7 @@ struct Handles {
     master: Box<dyn MasterPty + Send>,
     writer: Writer,
     /// Kept open, so that the terminal's modes can be read when the program is gone. None from then on: what the program
-    /// has written is all there when nobody has the terminal open any more.
+    /// has written is complete once no process has the terminal open.
     slave: Option<Box<dyn SlavePty + Send>>,
 }
 
@@ -85,7 +85,7 @@ pub fn state_home() -> &'static Path {
     Path::new(concat!(env!("CARGO_TARGET_TMPDIR"), "/state"))
 }
 
-/// The program with these arguments, in an environment of its own.
+/// The program with these arguments, in a separate environment.
 pub fn program(arguments: &[&str]) -> CommandBuilder {
     let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_mdr-tui"));
     command.args(arguments);
@@ -98,7 +98,7 @@ pub fn program(arguments: &[&str]) -> CommandBuilder {
     let made = seen.parent().map(std::fs::create_dir_all);
     assert!(made.is_some_and(|made| made.is_ok()));
     std::fs::write(&seen, "").expect("a file");
-    // Nor does a test remember how another one has left the screen: what is no file is neither read nor written.
+    // Nor does a test remember how another one has left the screen: a path that is not a file is neither read nor written.
     let _ = std::fs::create_dir(state_home().join("mdr-tui/look.toml"));
     command.env("TERM", "xterm-256color");
     command.env("LC_ALL", "C.UTF-8");

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// A working directory of its own, and the program in it.
+/// A separate working directory, and the program in it.
 pub struct TestDir(TempDir);
 
 /// What the program said when it had ended.
@@ -124,7 +124,7 @@ impl TestDir {
         said.out
     }
 
-    /// Runs the program, which must refuse: code 2, lines of its own without control characters that hold
+    /// Runs the program, which must refuse: code 2, its own lines without control characters that hold
     /// `expected`, nothing else said and nothing written. Returns what it said.
     #[track_caller]
     pub fn refuse(&self, arguments: &[&str], expected: &str) -> String {
@@ -203,7 +203,7 @@ impl TestDir {
         }
     }
 
-    /// Runs the scenario that a run has written again: both tables are the same to the last bit.
+    /// Runs the scenario that a run has written again: both tables are bit-identical.
     #[track_caller]
     pub fn replays(&self, first: &str, again: &str, options: &str) {
         self.done(&format!(

@@ -241,11 +241,8 @@ impl Cycles {
             let Axes { x, y } = Axes::LOOP;
             let curves = [(*one, Role::Profile), (other, MODEL)];
             let curves = curves.map(|(one, role)| Curve::new("", &one.u[..], &one.force[..], role));
-            let axes = [
-                Axis::new(x.quantity(), x.unit()),
-                Axis::new(y.symbol(), y.unit()),
-            ];
-            let [x, y] = axes;
+            let x = Axis::new(x.quantity(), x.unit());
+            let y = Axis::new(y.symbol(), y.unit());
             charts.push(chart(x, y).curves(curves));
         }
         if measured.len() > 1 {

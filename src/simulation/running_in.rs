@@ -302,19 +302,22 @@ impl RunningIn {
         }
     }
 
+    /// Iterates over the values that change.
+    fn courses(&self) -> impl Iterator<Item = &Course> {
+        [&self.friction, &self.wear].into_iter().flatten()
+    }
+
     /// Returns the first cycle after `from` and up to `until` at which friction or wear has a corner, if steps of
     /// length `apart` resolve it.
     pub(super) fn corner(&self, from: f64, until: f64, apart: f64) -> Option<f64> {
-        let courses = [&self.friction, &self.wear].into_iter().flatten();
-        let corners = courses.filter_map(|course| course.corner(from, until, apart));
+        let corners = (self.courses()).filter_map(|course| course.corner(from, until, apart));
         corners.reduce(f64::min)
     }
 
     /// Returns how many cycles and how much work (J) are left until a value has a corner.
     pub(super) fn smooth_for(&self, cycles: f64, energy: f64) -> [f64; 2] {
         let threshold = [f64::INFINITY, self.threshold];
-        let courses = [&self.friction, &self.wear].into_iter().flatten();
-        let corners = courses.map(|course| course.next_row(cycles, energy));
+        let corners = (self.courses()).map(|course| course.next_row(cycles, energy));
         let now = [cycles, energy];
         corners
             .chain([threshold])
@@ -332,9 +335,10 @@ impl RunningIn {
 
     /// Whether nothing changes any more, so that cycles are alike.
     pub(super) fn is_settled(&self, cycles: f64, energy: f64) -> bool {
-        let courses = [&self.friction, &self.wear];
-        let mut courses = courses.into_iter().flatten();
-        energy >= self.threshold && courses.all(|course| course.is_settled(cycles, energy))
+        energy >= self.threshold
+            && self
+                .courses()
+                .all(|course| course.is_settled(cycles, energy))
     }
 }
 

@@ -25,7 +25,10 @@ pub const COUNTS: bool = false;
 
 /// How far a command is, drawn by a separate thread, so that a terminal that stops reading does not stop the command. The
 /// line disappears when this is dropped.
-pub struct Bar(Arc<BarState>, Option<JoinHandle<()>>);
+pub struct Bar {
+    state: Arc<BarState>,
+    drawer: Option<JoinHandle<()>>,
+}
 
 struct BarState {
     length: f64,
@@ -55,34 +58,34 @@ impl Bar {
             let state = state.clone();
             thread::spawn(move || state.draw())
         });
-        Self(state, drawer)
+        Self { state, drawer }
     }
 
     /// Says what is being done.
     pub fn set_message(&self, message: impl Into<String>) {
-        locked(&self.0.reached).0 = message.into();
+        locked(&self.state.reached).0 = message.into();
     }
 
     /// Says how much is done.
     pub fn set_position(&self, position: f64) {
-        locked(&self.0.reached).1 = position;
+        locked(&self.state.reached).1 = position;
     }
 
     /// Says that one more is done.
     pub fn inc(&self) {
-        locked(&self.0.reached).1 += 1.0;
+        locked(&self.state.reached).1 += 1.0;
     }
 
     /// Returns how much is done.
     pub fn position(&self) -> f64 {
-        locked(&self.0.reached).1
+        locked(&self.state.reached).1
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.has_ended.store(true, Ordering::Relaxed);
-        if let Some(drawer) = self.1.take() {
+        self.state.has_ended.store(true, Ordering::Relaxed);
+        if let Some(drawer) = self.drawer.take() {
             without_waiting(true, move || {
                 drawer.thread().unpark();
                 let _ = drawer.join();
@@ -152,9 +155,9 @@ mod tests {
             "cycle [========>{}] 50.04 of 200  10 s gone, 30 s to go",
             " ".repeat(23)
         );
-        assert_eq!(bar.0.line(10.0, 0.0), line);
+        assert_eq!(bar.state.line(10.0, 0.0), line);
         let runs = Bar::new("runs", 0.0, COUNTS, true);
         runs.inc();
-        assert_eq!(runs.0.line(130.0, 0.0), "1 runs  2 min gone");
+        assert_eq!(runs.state.line(130.0, 0.0), "1 runs  2 min gone");
     }
 }

@@ -82,6 +82,8 @@ impl Claim {
             // If the lock cannot be created, no file can be created there.
             Err(_) => WriteError::io(claimed)(cause),
         };
+        // A signal between making the file and remembering it would leave it behind.
+        let mut held = locked(&HELD);
         let file = lock(&path).map_err(failed)?.map_err(|owner| {
             let owner = owner.as_ref().map_or_else(String::new, Owner::describe);
             let [is_busy, place] = if claimed.is_dir() {
@@ -98,7 +100,7 @@ impl Claim {
             identity,
             is_new,
         };
-        locked(&HELD).push(lock.clone());
+        held.push(lock.clone());
         Ok(Self { lock, _file: file })
     }
 

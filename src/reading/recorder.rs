@@ -135,6 +135,11 @@ impl Recorder {
         }
     }
 
+    /// Forgets the `count` oldest rows.
+    pub fn forget_oldest(&mut self, count: usize) {
+        self.rows.drain(..count);
+    }
+
     /// Keeps the rows of these numbers, and forgets the others.
     pub fn keep(&mut self, is_kept: impl Fn(usize) -> bool) {
         let mut row = 0..;

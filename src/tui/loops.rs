@@ -38,20 +38,14 @@ impl Default for Loops {
 }
 
 impl Loops {
-    /// Records the present moment. A jump over cycles knows no steps: its last cycle is stepped finely on the present
-    /// profile.
-    pub fn record(&mut self, simulation: &Simulation) {
+    /// Records the present moment, whose columns are read by `read`. A jump over cycles knows no steps: its last cycle is
+    /// stepped finely on the present profile.
+    pub fn record(&mut self, simulation: &Simulation, read: impl Fn(Column) -> f64) {
         if simulation.has_jumped() {
             self.steps = last_loop::record(simulation);
             return self.end_step(simulation.cycle());
         }
-        let moment = simulation.moment();
-        self.record_step(|column| match column {
-            Column::Cycle => moment.cycle,
-            Column::Shift => moment.shift,
-            Column::TangentialForce => moment.tangential_force,
-            _ => moment.rig_displacement.unwrap_or(f64::NAN),
-        });
+        self.record_step(read);
     }
 
     fn record_step(&mut self, read: impl Fn(Column) -> f64) {
@@ -71,7 +65,7 @@ impl Loops {
         let steps = self.steps.rows();
         let before = steps.iter().take_while(|row| row[0] < begin).count();
         let first = before.max(steps.len().saturating_sub(CAPACITY));
-        self.steps.keep(|step| step >= first);
+        self.steps.forget_oldest(first);
         let whole = (cycle + 1e-9).floor();
         let last = self.kept.last().map_or(0.0, |kept| kept.end);
         let ends = cycle - whole < 1e-9 && whole >= last + self.apart;

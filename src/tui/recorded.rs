@@ -124,9 +124,11 @@ impl Recorded {
 
     /// Records the present moment.
     fn record(&mut self) {
-        self.loops.record(self.session.simulation());
+        let reading = Reading::new(&self.session);
+        let read = |column| reading.number(column);
+        self.loops.record(self.session.simulation(), read);
         let mut past = std::mem::take(&mut self.past);
-        past.record(self.reader(&Reading::new(&self.session)));
+        past.record(self.reader(&reading));
         self.past = past;
     }
 
